@@ -1,5 +1,5 @@
-//! Frame times of three 16 by 16 cases, of sixteen blended full-screen quads, and of a million small
-//! triangles: dispatch, fill rate and setup.
+//! Frame times of three 16 by 16 cases, of four cases of `perf`, of sixteen blended full-screen quads, and of a million
+//! small triangles: dispatch, fill rate and setup.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
@@ -11,6 +11,14 @@ const IDS: [&str; 3] = [
     "depth/compare/compare=less/format=depth24plus/write=true",
     "stencil/operations/depth_fail=invert/fail=replace/pass=increment-wrap",
     "blend/factors/dst=one-minus-src-alpha/operation=add/src=src-alpha",
+];
+
+/// Large cases that are drawn in tiles.
+const LARGE: [&str; 4] = [
+    "perf/triangles-100k/size=1280x720",
+    "perf/multisample-triangles-100k/size=1280x720",
+    "perf/state-changes/size=1280x720",
+    "perf/blended-layers/size=1280x720",
 ];
 
 fn built(text: &str) -> Scene {
@@ -68,11 +76,16 @@ fn raster(c: &mut Criterion) {
         group.bench_function(name, |b| b.iter(|| prepared.submit()));
         group.finish();
     };
-    for id in IDS {
+    let case = |id: &str| {
         let reference = library.cases(Profile::Full).find(|case| case.id() == id);
         let reference = reference.unwrap_or_else(|| panic!("there is no case {id}"));
-        let case = reference.build().expect("a built-in case builds");
-        bench(id.split('=').next().unwrap_or(id), &case.scene, 100);
+        reference.build().expect("a built-in case builds")
+    };
+    for id in IDS {
+        bench(id.split('=').next().unwrap_or(id), &case(id).scene, 100);
+    }
+    for id in LARGE {
+        bench(id, &case(id).scene, 20);
     }
     bench("128x128, 16 blended quads", &overdraw([128, 128]), 50);
     bench("1280x720, 16 blended quads", &overdraw([1280, 720]), 10);

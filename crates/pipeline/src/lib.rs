@@ -12,6 +12,7 @@ mod arithmetic;
 mod blend;
 mod coverage;
 mod depth;
+mod half_float;
 mod logic;
 mod plain;
 mod sampling;

@@ -1,10 +1,10 @@
 //! The plain number system: 32-bit floats in lanes.
 
 use crate::arithmetic::Arithmetic;
+use crate::half_float::{narrowed, widened};
 use crate::logic::logic_operation;
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
 use etalon_scene::LogicOperation;
-use half::f16;
 use std::sync::LazyLock;
 
 /// `N` floats, one per lane. Loops run over all lanes without branching on values, so that the
@@ -162,7 +162,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
             }
             ChannelEncoding::Srgb8 => each(code, |c| SRGB[(c & 0xff) as usize]),
             ChannelEncoding::Uint(_) => each(code, |c| c as f32),
-            ChannelEncoding::Float16 => each(code, |c| f16::from_bits(c as u16).to_f32()),
+            ChannelEncoding::Float16 => each(code, widened),
             ChannelEncoding::Float32 => each(code, f32::from_bits),
             ChannelEncoding::Ufloat(_) => {
                 each(code, |c| encoding.value_of_order(i64::from(c)) as f32)
@@ -200,7 +200,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
                 let most = encoding.max_order() as f32;
                 each(value, |v| v.clamp(0.0, most) as u32)
             }
-            ChannelEncoding::Float16 => each(value, |v| u32::from(f16::from_f32(v).to_bits())),
+            ChannelEncoding::Float16 => each(value, narrowed),
             ChannelEncoding::Float32 => each(value, f32::to_bits),
             ChannelEncoding::Ufloat(_) => each(value, |v| encoding.nearest_code(f64::from(v))),
         }

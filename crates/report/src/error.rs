@@ -1,5 +1,6 @@
 //! The error of every report.
 
+use etalon_history::HistoryError;
 use etalon_record::RecordError;
 use std::io;
 use std::path::PathBuf;
@@ -58,6 +59,27 @@ pub enum ReportError {
         site: PathBuf,
         /// The recorded folder.
         folder: PathBuf,
+    },
+    /// A history could not be read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
+    /// A history has no run of these labels.
+    #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
+    NoRuns {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The folder for the page of a history holds something else.
+    #[error("{} is not empty and holds no page of a history; name another folder", path.display())]
+    NoHistoryPage {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file in the page of a history that is not of it.
+    #[error("{} is not of the page and would be lost; move it", path.display())]
+    NotOfTheHistory {
+        /// The file.
+        path: PathBuf,
     },
     /// The JUnit report has no XML form.
     #[error("cannot write the JUnit report: {0}")]

@@ -3,6 +3,7 @@
 //! own, which it names by digest.
 
 pub(crate) mod adapter;
+pub(crate) mod link;
 pub(crate) mod origin;
 
 use base64::Engine;

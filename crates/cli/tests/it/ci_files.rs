@@ -18,7 +18,7 @@ const MERGE: &str = "ci/kubernetes/merge.yaml";
 const CLAIM: &str = "ci/kubernetes/claim.yaml";
 
 /// The variables of systems that start many processes; the tests may run in one of them.
-const VARIABLES: [&str; 14] = [
+const VARIABLES: [&str; 17] = [
     "CI",
     "CI_NODE_INDEX",
     "CI_NODE_TOTAL",
@@ -33,6 +33,9 @@ const VARIABLES: [&str; 14] = [
     "JOB_COMPLETIONS",
     "GITHUB_STEP_SUMMARY",
     "ETALON_RESTARTS",
+    "ETALON_HISTORY",
+    "ETALON_HISTORY_ADD",
+    "ETALON_BRANCH",
 ];
 
 /// Cases enough that no shard is empty.
@@ -235,7 +238,14 @@ fn actions_are_githubs_own_and_pinned() {
             assert!(step["with"]["name"].is_string(), "{step}");
         }
     }
-    let known = ["cache", "checkout", "download-artifact", "upload-artifact"];
+    let known = [
+        "cache",
+        "cache/restore",
+        "cache/save",
+        "checkout",
+        "download-artifact",
+        "upload-artifact",
+    ];
     let known: Vec<String> = known.iter().map(|n| format!("actions/{n}")).collect();
     assert_eq!(used, known.iter().map(String::as_str).collect());
 }
@@ -407,6 +417,48 @@ fn the_lines_for_gitlab_draw_every_case_once_and_merging_names_what_is_missing()
     }
     succeeds(&place.shell(&merge, &[]));
     place.is_whole(4, "quick");
+}
+
+#[test]
+fn merging_keeps_a_history_and_begins_one_when_it_is_lost() {
+    let place = Place::new();
+    place.few_cases();
+    let db = place.path("history/etalon.db");
+    let shard = [
+        ("CI_NODE_INDEX", "1".to_owned()),
+        ("CI_NODE_TOTAL", "1".to_owned()),
+    ];
+    succeeds(&place.shell("ci/shard runs/shard-1", &shard));
+    let merge = |add: &str| {
+        let variables = [
+            ("ETALON_HISTORY", db.display().to_string()),
+            ("ETALON_HISTORY_ADD", add.to_owned()),
+        ];
+        let output = place.shell("ci/merge-shards runs", &variables);
+        succeeds(&output);
+        printed(&output)
+    };
+    // A proposed change adds nothing.
+    assert!(merge("no").contains("judged without a history"));
+    assert!(!db.exists());
+    assert!(merge("yes").contains("is run 1"));
+    assert!(merge("yes").contains("run 1 already"));
+    // The next night.
+    fs::remove_dir_all(place.path("runs")).unwrap();
+    std::thread::sleep(Duration::from_millis(1100));
+    succeeds(&place.shell("ci/shard runs/shard-1", &shard));
+    let next = merge("yes");
+    assert!(
+        next.contains("compared with run 1") && next.contains("is run 2"),
+        "{next}"
+    );
+    // Lost with the cache.
+    fs::remove_file(&db).unwrap();
+    let lost = merge("yes");
+    assert!(
+        lost.contains("there is no history at") && lost.contains("is run 1"),
+        "{lost}"
+    );
 }
 
 #[test]

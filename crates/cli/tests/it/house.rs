@@ -57,7 +57,11 @@ const TABLE: [(&str, &[&str], &[&str]); 23] = [
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("export", &["history", "record"], &[]),
-    ("report", &["frame", "methods", "record", "stats"], &[]),
+    (
+        "report",
+        &["frame", "history", "methods", "record", "stats"],
+        &[],
+    ),
     (
         "cli",
         &[

@@ -24,6 +24,7 @@ mod house;
 mod launchers;
 mod methods;
 mod mutants;
+mod news;
 mod parts;
 mod pipes;
 mod read_faults;

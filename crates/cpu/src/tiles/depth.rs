@@ -30,9 +30,14 @@ pub(crate) struct Depths {
 }
 
 impl Depths {
-    /// Returns the depths of a triangle.
+    /// Returns the depths of a triangle with a bias.
     #[inline(always)]
-    pub(crate) fn new(draw: &Draw, triangle: &Triangle, encoding: ChannelEncoding) -> Self {
+    pub(crate) fn new(
+        draw: &Draw,
+        triangle: &Triangle,
+        bias: f64,
+        encoding: ChannelEncoding,
+    ) -> Self {
         let z = triangle.corners.map(|v| v.z);
         let points = triangle.corners.map(|v| point(v.at));
         let plane = DepthPlane::new(points, z.map(f64::from));
@@ -43,7 +48,7 @@ impl Depths {
             across: plane.dx,
             down: plane.dy,
             ends: [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])],
-            bias: triangle.bias,
+            bias,
             range: [near.min(far), near.max(far)],
             encoding,
         }

@@ -1,9 +1,11 @@
 //! Edge functions, tile by tile and row by row.
 
-use super::lanes::Lane;
+use super::lanes::{ALL, Lane, NUMBERS, any};
 use super::triangle::{Triangle, clockwise};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
+use fearless_simd::i32x16;
+use fearless_simd::prelude::*;
 
 /// The greatest magnitude of a row's first value. In a tile no edge function that is farther from 0 changes its sign,
 /// and none that is as near as this leaves 32 bits: it grows by at most 2²³ a texel, which is the greatest extent of
@@ -95,6 +97,30 @@ impl Edges {
         }
     }
 
+    /// Returns the rows of a triangle that is not larger than a tile, beginning from a texel that is not farther from it
+    /// than a tile.
+    #[inline(always)]
+    pub(crate) fn near(triangle: &Triangle, [x, y]: [i32; 2], sample: [i32; 2]) -> Rows {
+        let units = UNITS as i32;
+        let point = [x * units + sample[0], y * units + sample[1]];
+        let corners = clockwise(triangle);
+        let mut rows = Rows {
+            at: [0; 3],
+            across: [0; 3],
+            down: [0; 3],
+        };
+        for i in 0..3 {
+            let ([px, py], [qx, qy]) = (corners[i], corners[(i + 1) % 3]);
+            let inside = (qy < py) | ((qy == py) & (qx > px));
+            let (across, down) = (py - qy, qx - px);
+            // Products of numbers of 15 bits, and a shift that rounds down.
+            let at = across * (point[0] - px) + down * (point[1] - py) + i32::from(inside) - 1;
+            rows.at[i] = at >> UNITS.ilog2();
+            (rows.across[i], rows.down[i]) = (across, down);
+        }
+        rows
+    }
+
     /// Returns the signs of the edge functions at one point of the texels of a tile's rows, beginning from a texel.
     #[inline(always)]
     pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
@@ -124,29 +150,36 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Goes to the next row.
+    /// Returns the rows behind so many others.
     #[inline(always)]
-    pub(crate) fn next(&mut self) {
-        for (at, down) in self.at.iter_mut().zip(self.down) {
-            *at += down;
+    pub(crate) fn behind(&self, rows: i32) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.at, self.down);
+        Self {
+            at: [a + d * rows, b + e * rows, c + f * rows],
+            ..*self
         }
     }
 
-    /// Returns the covered texels of the lanes that stand this many times their number behind the first.
+    /// Returns the covered lanes of those that stand so many texels behind the first; `None` if there are none.
     #[inline(always)]
-    pub(crate) fn covered(&self, chunk: i32) -> [Lane; LANES] {
+    pub(crate) fn covered<S: Simd>(&self, simd: S, texels: i32) -> Option<[Lane; LANES]> {
+        // Each value by itself: in an array they would go through memory row by row.
+        let ([a, b, c], [d, e, f]) = (self.at, self.across);
+        let (a, b, c) = (a + d * texels, b + e * texels, c + f * texels);
+        let last = LANES as i32 - 1;
+        let (g, h, i) = (a + d * last, b + e * last, c + f * last);
+        if (a & g) | (b & h) | (c & i) < 0 {
+            return None;
+        }
+        if (a | g) | (b | h) | (c | i) >= 0 {
+            return Some(ALL);
+        }
+        let numbers = i32x16::from_slice(simd, &NUMBERS);
+        let bits = (numbers * d + a) | (numbers * e + b) | (numbers * f + c);
+        let [zero, all] = [0, -1].map(|v| i32x16::splat(simd, v));
         let mut result = [0; LANES];
-        let mut at = self.at;
-        for (at, across) in at.iter_mut().zip(self.across) {
-            *at += across * (chunk * LANES as i32);
-        }
-        for (lane, result) in result.iter_mut().enumerate() {
-            let mut bits = 0;
-            for (at, across) in at.iter().zip(self.across) {
-                bits |= at + across * lane as i32;
-            }
-            *result = !(bits >> 31);
-        }
-        result
+        let covered = bits.simd_ge(zero);
+        covered.select(all, zero).store_slice(&mut result);
+        any(&result).then_some(result)
     }
 }

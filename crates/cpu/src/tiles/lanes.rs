@@ -6,6 +6,9 @@ use crate::lanes::LANES;
 /// All bits set where a lane is covered, none elsewhere.
 pub(crate) type Lane = i32;
 
+/// The lanes' numbers.
+pub(crate) const NUMBERS: [i32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
 /// The mask of all lanes.
 pub(crate) const ALL: [Lane; LANES] = [-1; LANES];
 

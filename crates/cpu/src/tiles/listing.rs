@@ -3,6 +3,7 @@
 use super::paint::{Kernel, Paint};
 use super::plan::{PassPlan, Plan, Shading};
 use etalon_scene::{Draw, Scene};
+use fearless_simd::{Level, dispatch};
 
 /// Returns the kernels of a scene's draws, a line for each; or one line with the reason why it has none.
 pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
@@ -54,12 +55,17 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Shading::Nothing => [0.0; 4],
     };
     let samples = pass.positions.len();
-    match Paint::new(draw, color, pass.channels, pass.logic, samples, false).kernel {
+    let paint = dispatch!(Level::new(), simd => Paint::new(
+        simd, draw, color, pass.channels, pass.logic, samples, false
+    ));
+    match paint.kernel {
         Kernel::Keep => "not written",
         Kernel::Store(_) | Kernel::Replace(_) => "stored",
         Kernel::Masked { .. } => "stored through a mask",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",
+        Kernel::Weighted(_) => "factors of few channels",
+        Kernel::Affine(_) => "a product and a sum in each channel",
         Kernel::Lanes(_) => "plain arithmetic on bytes",
         Kernel::Wide(_) => "plain arithmetic on codes",
     }

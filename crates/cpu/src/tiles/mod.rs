@@ -7,11 +7,13 @@
 //! A picture depends neither on the number of threads nor on the vector instructions: no tile is shared, each draws
 //! its triangles in their order, and no product is fused with a sum.
 
+mod affine;
 mod depth;
 mod depth_stencil;
 mod edges;
 mod image;
 mod lanes;
+mod linear;
 mod listing;
 mod opaque;
 mod paint;
@@ -22,6 +24,7 @@ mod setup;
 mod texture;
 mod tile;
 mod triangle;
+mod weights;
 mod work;
 
 pub(crate) use listing::lines;

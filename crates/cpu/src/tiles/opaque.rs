@@ -4,6 +4,7 @@ use super::TILE;
 use super::depth::Depths;
 use super::edges::{Edges, Rows};
 use super::image::word;
+use super::lanes::NUMBERS;
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, Shading};
 use super::triangle::Triangle;
@@ -12,11 +13,8 @@ use etalon_scene::CompareFunction;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 
-/// The lanes' numbers.
-const NUMBERS: [i32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
 /// The lanes of narrow triangles.
-const NARROW: i32 = 8;
+pub(crate) const NARROW: i32 = 8;
 
 /// What opaque triangles of a draw do to texels.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +67,84 @@ impl Store {
     #[inline(always)]
     pub(crate) fn tests(&self) -> bool {
         self.passes.is_some()
+    }
+
+    /// Draws one sample of small triangles. A function of its own: it is large.
+    #[inline(never)]
+    pub(crate) fn small<'t, S: Simd>(
+        &self,
+        simd: S,
+        triangles: impl Iterator<Item = &'t Triangle>,
+        planes: Planes<'_>,
+        texels: [i32; 4],
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || match (self.tests(), self.colors()) {
+                (true, true) => self.rows::<S, true, true>(simd, triangles, planes, texels),
+                (true, false) => self.rows::<S, true, false>(simd, triangles, planes, texels),
+                (false, true) => self.rows::<S, false, true>(simd, triangles, planes, texels),
+                (false, false) => {}
+            },
+        );
+    }
+
+    /// Draws one sample of small triangles row by row, with depths or colours or both.
+    #[inline(always)]
+    fn rows<'t, S: Simd, const DEPTH: bool, const COLOR: bool>(
+        &self,
+        simd: S,
+        triangles: impl Iterator<Item = &'t Triangle>,
+        planes: Planes<'_>,
+        [left, top, ..]: [i32; 4],
+    ) {
+        let zero = i32x8::splat(simd, 0);
+        let numbers = i32x8::from_slice(simd, &NUMBERS[..8]);
+        let [less, equal, greater] = self.answers::<S, i32x8<S>>(simd);
+        let (color, write) = (self.color.unwrap_or(0), self.write);
+        let color = u32x8::splat(simd, color);
+        for triangle in triangles {
+            let [start, first, _, last] = triangle.around.map(i32::from);
+            let column = start.min(left + TILE as i32 - NARROW);
+            let Rows { at, across, down } = Edges::near(triangle, [column, first], planes.position);
+            let mut a = numbers * across[0] + at[0];
+            let mut b = numbers * across[1] + at[1];
+            let mut c = numbers * across[2] + at[2];
+            let code = u32x8::splat(simd, triangle.code);
+            let mut place = ((first - top) * TILE as i32 + column - left) as usize;
+            for _ in first..=last {
+                let mut covered = (a | b | c).simd_ge(zero);
+                if DEPTH {
+                    let stored = &mut planes.depths[place..place + 8];
+                    let old = u32x8::from_slice(simd, stored);
+                    covered &= greater ^ (code.simd_lt(old) & less) ^ (code.simd_eq(old) & equal);
+                    if write {
+                        covered.select(code, old).store_slice(stored);
+                    }
+                }
+                if COLOR {
+                    let stored = &mut planes.colors[place..place + 8];
+                    let old = u32x8::from_slice(simd, stored);
+                    covered.select(color, old).store_slice(stored);
+                }
+                place += TILE;
+                a += down[0];
+                b += down[1];
+                c += down[2];
+            }
+        }
+    }
+
+    /// Returns masks that give the answer of the depth test from less and equal, which exclude one another: what all
+    /// other codes get, and where the two differ from it.
+    #[inline(always)]
+    fn answers<S: Simd, I: SimdInt<S>>(&self, simd: S) -> [I::Mask; 3] {
+        let [less, equal, greater] = self.passes.unwrap_or_default();
+        [
+            I::Mask::splat(simd, less != greater),
+            I::Mask::splat(simd, equal != greater),
+            I::Mask::splat(simd, greater),
+        ]
     }
 }
 
@@ -169,9 +245,17 @@ impl Source for Floats<'_> {
 }
 
 impl Opaque<'_> {
-    /// Draws the covered texels of a sample.
-    #[inline(always)]
+    /// Draws the covered texels of a sample. A function of its own: it is large.
+    #[inline(never)]
     pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.lanes(simd, planes),
+        );
+    }
+
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, planes: Planes<'_>) {
         let [left, top, right, bottom] = self.texels;
         let around = self.triangle.around.map(i32::from);
         let (start, last) = (around[0].max(left), around[2].min(right - 1));
@@ -267,11 +351,7 @@ impl Opaque<'_> {
             numbers * across[2] + at[2],
         ];
         let store = self.store;
-        let [less, equal, greater] = store.passes.unwrap_or_default();
-        // Less and equal exclude one another, so that one of the three answers remains.
-        let less = I::Mask::splat(simd, less != greater);
-        let equal = I::Mask::splat(simd, equal != greater);
-        let greater = I::Mask::splat(simd, greater);
+        let [less, equal, greater] = store.answers::<S, I>(simd);
         let mut y = first;
         while y <= last {
             let place = ((y - top) * TILE as i32 + area.first - left) as usize;

@@ -1,30 +1,29 @@
 //! Paints: what a source that is constant over a triangle makes of a colour attachment's codes.
 //!
 //! With a constant source an 8-bit result is a function of the destination's codes, mostly channel by channel. Each
-//! function is made by the pipeline's plain arithmetic, over all codes; a linear one is used where it is equal to
-//! the function for every one of them.
+//! function is made by the pipeline's plain arithmetic, over all codes; a [linear](Linear) one is used where it is equal
+//! to the function for every one of them. Other results have few operands that are not constant, so that
+//! [affine](Affine) functions and [weights](Weights) say them without a choice per texel.
 
+use super::affine::{Affine, Join, Term};
 use super::image::{AREA, Texel, Words, are_bytes, word};
 use super::lanes::{ALL, Lane, select, select_texels};
+use super::linear::{CODES, Linear};
+use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, ColorTarget, Draw, LogicOperation,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, Draw, LogicOperation,
 };
-
-/// The number of codes of a channel.
-const CODES: usize = 256;
+use fearless_simd::Simd;
 
 /// The encodings of four channels, and how many of them there are.
 type Channels = ([ChannelEncoding; 4], usize);
 
 /// The commonest channels.
 const UNORM: Channels = ([ChannelEncoding::Unorm(8); 4], 4);
-
-/// The bytes of so many texels as there are lanes.
-const BYTES: usize = 4 * LANES;
 
 /// A function of a texel's codes, and the samples that it is applied to.
 #[derive(Debug)]
@@ -47,10 +46,14 @@ pub(crate) enum Kernel {
     Linear(Box<Linear>),
     /// A function of each channel's own code.
     Table(Box<[[u8; CODES]; 4]>),
+    /// A sum of products of few channels.
+    Weighted(Box<Weights>),
     /// Any function.
     Lanes(Box<Blending>),
     /// Replaces words of texels that have several.
     Replace(Stored),
+    /// A product and a sum in each channel of texels that have several words, or the least or greatest.
+    Affine(Box<Affine>),
     /// Any function of texels that have several words.
     Wide(Box<Blending>),
 }
@@ -63,15 +66,6 @@ pub(crate) struct Stored {
     pub(crate) words: usize,
     /// Bit `i` is set if word `i` is replaced.
     pub(crate) written: u8,
-}
-
-/// Multiplies codes by 16-bit fractions, adds, subtracts, both saturating, and keeps the upper byte; byte by byte
-/// of neighbouring texels.
-#[derive(Debug)]
-pub(crate) struct Linear {
-    factor: [u16; BYTES],
-    plus: [u16; BYTES],
-    minus: [u16; BYTES],
 }
 
 /// The state that colours are blended and stored by, with the source.
@@ -90,8 +84,9 @@ pub(crate) struct Blending {
 
 impl Paint {
     /// Returns the paint of a source; with a function of any kind where no other is to be made.
-    #[inline(always)]
-    pub(crate) fn new(
+    #[inline(never)]
+    pub(crate) fn new<S: Simd>(
+        simd: S,
         draw: &Draw,
         source: [f32; 4],
         channels: &'static [ChannelEncoding],
@@ -119,7 +114,7 @@ impl Paint {
                 channels,
                 second_alpha: state.alpha_to_one,
             }
-            .kernel(quick),
+            .kernel(simd, quick),
         };
         Self {
             kernel,
@@ -129,8 +124,7 @@ impl Paint {
 }
 
 impl Blending {
-    #[inline(always)]
-    fn kernel(self, quick: bool) -> Kernel {
+    fn kernel<S: Simd>(self, simd: S, quick: bool) -> Kernel {
         let written = |c: usize| self.target.write_mask & (1 << c) != 0;
         let count = self.channels.len();
         if !(0..count).any(written) {
@@ -139,10 +133,13 @@ impl Blending {
         let replaces = self.target.blend.is_none() && (self.logic.is_none() || !self.obeys);
         if !are_bytes(self.channels) {
             if !replaces {
-                return Kernel::Wide(Box::new(self));
+                return match self.affine() {
+                    Some(affine) => Kernel::Affine(Box::new(affine)),
+                    None => Kernel::Wide(Box::new(self)),
+                };
             }
             let mut values = [0; 4];
-            for (c, codes) in self.codes(&[[0; LANES]; 4]).into_iter().enumerate() {
+            for (c, codes) in self.codes(simd, &[[0; LANES]; 4]).into_iter().enumerate() {
                 values[c] = codes[0];
             }
             return Kernel::Replace(Stored {
@@ -152,7 +149,7 @@ impl Blending {
             });
         }
         if replaces {
-            let [value, ..] = self.applied(&[[0; 4]; LANES]);
+            let [value, ..] = self.applied(simd, &[[0; 4]; LANES]);
             let keep = std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
             return match keep {
                 [0, 0, 0, 0] => Kernel::Store(value),
@@ -160,7 +157,10 @@ impl Blending {
             };
         }
         if quick || !self.is_separable() {
-            return Kernel::Lanes(Box::new(self));
+            return match self.weights() {
+                Some(weights) => Kernel::Weighted(Box::new(weights)),
+                None => Kernel::Lanes(Box::new(self)),
+            };
         }
         let mut table = Box::new([[0; CODES]; 4]);
         for first in (0..CODES).step_by(LANES) {
@@ -168,13 +168,17 @@ impl Blending {
             for (i, texel) in codes.iter_mut().enumerate() {
                 *texel = [(first + i) as u8; 4];
             }
-            for (i, texel) in self.applied(&codes).into_iter().enumerate() {
+            for (i, texel) in self.applied(simd, &codes).into_iter().enumerate() {
                 for (table, code) in table.iter_mut().zip(texel) {
                     table[first + i] = code;
                 }
             }
         }
-        match self.linear(&table) {
+        let linear = simd.vectorize(
+            #[inline(always)]
+            || self.linear(&table),
+        );
+        match linear {
             Some(linear) => Kernel::Linear(Box::new(linear)),
             None => Kernel::Table(table),
         }
@@ -204,51 +208,152 @@ impl Blending {
                 .map(|v| v[0])
         };
         let (low, high) = (blended(0), blended(255));
-        let mut found = [(0, 0, 0); 4];
-        for (c, found) in found.iter_mut().enumerate() {
-            let slope = match self.channels.get(c) {
-                Some(_) if self.target.write_mask & (1 << c) == 0 => 1.0,
-                Some(_) => high[c] - low[c],
-                None => 0.0,
-            };
-            *found = fitted(&table[c], slope)?;
+        let slopes = std::array::from_fn(|c| match self.channels.get(c) {
+            Some(_) if self.target.write_mask & (1 << c) == 0 => 1.0,
+            Some(_) => high[c] - low[c],
+            None => 0.0,
+        });
+        Linear::fitted(table, slopes)
+    }
+
+    /// Returns the blend as weights, if it is one and each channel has 8 unsigned normalized bits.
+    fn weights(&self) -> Option<Weights> {
+        let blend = self.target.blend.filter(|_| !self.is_logic())?;
+        let unorm = self.channels.iter().all(|e| *e == UNORM.0[0]);
+        let parts = [blend.color, blend.alpha];
+        Weights::new(
+            parts,
+            &self.constants(),
+            self.channels.len(),
+            self.target.write_mask,
+        )
+        .filter(|_| unorm)
+    }
+
+    /// Returns the blend as an affine function, if it is one.
+    fn affine(&self) -> Option<Affine> {
+        let blend = self.target.blend.filter(|_| !self.is_logic())?;
+        let mut terms = [None; 4];
+        for (c, (term, encoding)) in terms.iter_mut().zip(self.channels).enumerate() {
+            if self.target.write_mask & (1 << c) != 0 {
+                let component = if c == 3 { blend.alpha } else { blend.color };
+                *term = Some(self.term(c, *encoding, component)?);
+            }
         }
-        let byte = |part: fn(&(u16, u16, u16)) -> u16| std::array::from_fn(|i| part(&found[i % 4]));
-        Some(Linear {
-            factor: byte(|f| f.0),
-            plus: byte(|f| f.1),
-            minus: byte(|f| f.2),
+        Some(Affine { terms })
+    }
+
+    /// Returns the function of a channel, if it is affine.
+    fn term(&self, c: usize, encoding: ChannelEncoding, component: BlendComponent) -> Option<Term> {
+        use BlendFactor::{
+            Dst, DstAlpha, One, OneMinusDst, OneMinusDstAlpha, SrcAlphaSaturated, Zero,
+        };
+        let BlendComponent {
+            operation,
+            src_factor,
+            dst_factor,
+        } = component;
+        // Of two numbers one of which is 0 the plain arithmetic gives the other, with its sign.
+        let alone = |operation, src_factor, dst_factor, stored: f32| {
+            let component = BlendComponent {
+                operation,
+                src_factor,
+                dst_factor,
+            };
+            let state = BlendState {
+                color: component,
+                alpha: component,
+            };
+            let input = BlendInput {
+                dst: [[stored; LANES]; 4],
+                ..self.input()
+            };
+            Faithful.blend(&state, self.channels().0, &input)[c][0]
+        };
+        let join = match operation {
+            BlendOperation::Min => Join::Least,
+            BlendOperation::Max => Join::Most,
+            _ => Join::Sum,
+        };
+        let varies = |f| {
+            matches!(
+                f,
+                Dst | OneMinusDst | DstAlpha | OneMinusDstAlpha | SrcAlphaSaturated
+            )
+        };
+        let source_factor = if join == Join::Sum { src_factor } else { One };
+        let stored_factor = if join == Join::Sum { dst_factor } else { One };
+        if varies(source_factor) || varies(stored_factor) {
+            return None;
+        }
+        let reads = stored_factor != Zero;
+        let source = alone(BlendOperation::Subtract, source_factor, Zero, 0.0);
+        let factor = match reads {
+            true => alone(BlendOperation::ReverseSubtract, Zero, stored_factor, 1.0),
+            false => 1.0,
+        };
+        let (source, factor) = match operation {
+            BlendOperation::Subtract => (source, -factor),
+            BlendOperation::ReverseSubtract => (-source, factor),
+            _ => (source, factor),
+        };
+        let finite = source.is_finite() && factor.is_finite();
+        finite.then_some(Term {
+            encoding,
+            join,
+            reads,
+            factor,
+            source,
         })
+    }
+
+    /// True if a logic operation takes the place of blending.
+    fn is_logic(&self) -> bool {
+        self.logic.is_some() && self.obeys
+    }
+
+    /// Returns the inputs of a blend, without the destination.
+    #[inline(always)]
+    fn input(&self) -> BlendInput<Real> {
+        let Constants {
+            source,
+            second,
+            constant,
+        } = self.constants();
+        BlendInput {
+            src: source.map(|v| [v; LANES]),
+            src1: second.map(|v| [v; LANES]),
+            dst: [[0.0; LANES]; 4],
+            constant: constant.map(|v| [v; LANES]),
+        }
+    }
+
+    /// Returns the inputs of a blend that do not depend on the destination.
+    #[inline(always)]
+    fn constants(&self) -> Constants {
+        let mut source = self.source;
+        if self.alpha_to_one {
+            source[3] = 1.0;
+        }
+        Constants {
+            source,
+            second: [0.0, 0.0, 0.0, if self.second_alpha { 1.0 } else { 0.0 }],
+            constant: self.constant,
+        }
     }
 
     /// Returns blended colours before they are stored, of the destination's codes channel by channel.
     #[inline(always)]
     fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
-        let mut color = self.source;
-        if self.alpha_to_one {
-            color[3] = 1.0;
-        }
-        let color = color.map(|v| [v; LANES]);
+        let mut input = self.input();
         let Some(state) = &self.target.blend else {
-            return color;
+            return input.src;
         };
-        let missing = Faithful.missing_alpha(state);
-        // Loops, since closures of arrays would not be inlined.
-        let mut dst = [[0.0; LANES]; 4];
-        dst[3] = [missing; LANES];
-        for (c, dst) in dst.iter_mut().enumerate().take(count) {
+        // A loop, since closures of arrays would not be inlined.
+        input.dst[3] = [Faithful.missing_alpha(state); LANES];
+        for (c, dst) in input.dst.iter_mut().enumerate().take(count) {
             *dst = Faithful.color_value(encodings[c], codes[c]);
         }
-        let mut src1 = [[0.0; LANES]; 4];
-        if self.second_alpha {
-            src1[3] = [1.0; LANES];
-        }
-        let input = BlendInput {
-            src: color,
-            src1,
-            dst,
-            constant: self.constant.map(|v| [v; LANES]),
-        };
         Faithful.blend(state, encodings, &input)
     }
 
@@ -260,15 +365,20 @@ impl Blending {
         (all, count)
     }
 
-    /// Returns the codes after the function, channel by channel.
-    #[inline(always)]
-    fn codes(&self, old: &[Codes; 4]) -> [Codes; 4] {
-        // The same for all channels, and known to the compiler.
-        if *self.channels == UNORM.0 {
-            self.codes_of(UNORM, old)
-        } else {
-            self.codes_of(self.channels(), old)
-        }
+    /// Returns the codes after the function, channel by channel. A function of its own: it is large.
+    #[inline(never)]
+    fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                // The same for all channels, and known to the compiler.
+                if *self.channels == UNORM.0 {
+                    self.codes_of(UNORM, old)
+                } else {
+                    self.codes_of(self.channels(), old)
+                }
+            },
+        )
     }
 
     #[inline(always)]
@@ -290,7 +400,7 @@ impl Blending {
 
     /// Returns texels of bytes after the function.
     #[inline(always)]
-    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
+    fn applied<S: Simd>(&self, simd: S, texels: &[Texel; LANES]) -> [Texel; LANES] {
         let mut old = [[0; LANES]; 4];
         for (lane, texel) in texels.iter().enumerate() {
             let texel = u32::from_le_bytes(*texel);
@@ -298,7 +408,7 @@ impl Blending {
                 codes[lane] = texel >> (8 * c) & 0xff;
             }
         }
-        let new = self.codes(&old);
+        let new = self.codes(simd, &old);
         let mut result = *texels;
         for (lane, texel) in result.iter_mut().enumerate() {
             let word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
@@ -309,12 +419,12 @@ impl Blending {
 
     /// Applies the function to lanes of a sample's planes, where a mask holds.
     #[inline(always)]
-    fn wide(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+    fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
         let mut old = [[0; LANES]; 4];
         for (c, codes) in old.iter_mut().enumerate().take(self.channels.len()) {
             *codes = *lanes(planes, c * AREA + at);
         }
-        let new = self.codes(&old);
+        let new = self.codes(simd, &old);
         for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
             select(lanes(planes, c * AREA + at), mask, codes);
         }
@@ -328,62 +438,6 @@ fn lanes(planes: &mut [u32], at: usize) -> &mut [u32; LANES] {
     &mut lanes[0]
 }
 
-/// Returns factor, summand and subtrahend of a linear function that is equal to a table in all codes, if there is
-/// one near a slope.
-#[inline(always)]
-fn fitted(table: &[u8; CODES], slope: f32) -> Option<(u16, u16, u16)> {
-    let near = (f64::from(slope) * 65536.0).round();
-    if !(0.0..=65537.0).contains(&near) {
-        return None;
-    }
-    for off in [0, -1, 1, -2, 2, -4, 4, -8, 8] {
-        let factor = (near as i64 + off).clamp(0, 65535) as u16;
-        let (mut least, mut most) = (-65535, 65535);
-        for (code, due) in table.iter().enumerate() {
-            let (product, due) = (i32::from(product(code as u8, factor)), i32::from(*due));
-            let low = 256 * due - product;
-            least = least.max(if due > 0 { low } else { -65535 });
-            most = most.min(if due < 255 { low + 255 } else { 65535 });
-        }
-        let sum = (least + most).div_euclid(2);
-        let plus = sum.clamp(0, 65535) as u16;
-        let minus = (-sum).clamp(0, 65535) as u16;
-        // Without an early end, in vectors.
-        let mut different = 0;
-        for (code, due) in table.iter().enumerate() {
-            different |= linear(code as u8, factor, plus, minus) ^ due;
-        }
-        if different == 0 {
-            return Some((factor, plus, minus));
-        }
-    }
-    None
-}
-
-/// Returns 256 times a code times a 16-bit fraction.
-#[inline(always)]
-fn product(code: u8, factor: u16) -> u16 {
-    ((u32::from(u16::from(code) << 8) * u32::from(factor)) >> 16) as u16
-}
-
-/// Returns a code after a linear function.
-#[inline(always)]
-fn linear(code: u8, factor: u16, plus: u16, minus: u16) -> u8 {
-    let sum = product(code, factor).saturating_add(plus);
-    (sum.saturating_sub(minus) >> 8) as u8
-}
-
-impl Linear {
-    #[inline(always)]
-    fn applied(&self, bytes: &[u8; BYTES]) -> [u8; BYTES] {
-        let mut result = [0; BYTES];
-        for i in 0..BYTES {
-            result[i] = linear(bytes[i], self.factor[i], self.plus[i], self.minus[i]);
-        }
-        result
-    }
-}
-
 impl Kernel {
     /// Returns true if the function leaves every texel as it is.
     pub(crate) fn keeps(&self) -> bool {
@@ -392,7 +446,13 @@ impl Kernel {
 
     /// Applies the function to the texels that a mask holds, at a place of a sample's planes.
     #[inline(always)]
-    pub(crate) fn masked(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+    pub(crate) fn masked<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+    ) {
         match self {
             Self::Replace(stored) => {
                 for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
@@ -401,23 +461,22 @@ impl Kernel {
                 }
                 return;
             }
-            Self::Wide(blending) => return blending.wide(planes, at, mask),
+            Self::Affine(affine) => return affine.masked(simd, planes, at, mask),
+            Self::Wide(blending) => return blending.wide(simd, planes, at, mask),
             _ => {}
         }
         let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
         match self {
-            Self::Keep | Self::Replace(_) | Self::Wide(_) => {}
+            Self::Keep | Self::Replace(_) | Self::Affine(_) | Self::Wide(_) => {}
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
             Self::Masked { value, keep } => {
                 let new = masked(texels, *value, *keep);
                 select_texels(texels, mask, &new);
             }
             Self::Linear(linear) => {
-                let new = linear.applied(flat(texels));
-                let (new, _) = new.as_chunks::<4>();
-                if let Ok(new) = new.try_into() {
-                    select_texels(texels, mask, new);
-                }
+                let mut new = *texels;
+                linear.apply(&mut new);
+                select_texels(texels, mask, &new);
             }
             Self::Table(table) => {
                 for (texel, covered) in texels.iter_mut().zip(mask) {
@@ -426,16 +485,29 @@ impl Kernel {
                     }
                 }
             }
+            Self::Weighted(weights) => {
+                let mut new = [*texels];
+                weights.apply(simd, &mut new);
+                select_texels(texels, mask, &new[0]);
+            }
             Self::Lanes(blending) => {
-                let new = blending.applied(texels);
+                let new = blending.applied(simd, texels);
                 select_texels(texels, mask, &new);
             }
         }
     }
 
     /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
+    #[inline(never)]
+    pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.whole_of(simd, planes, count),
+        );
+    }
+
     #[inline(always)]
-    pub(crate) fn whole(&self, planes: &mut [u32], count: usize) {
+    fn whole_of<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         match self {
             Self::Store(value) => return planes[..count].fill(word(*value)),
             Self::Replace(stored) => {
@@ -444,9 +516,10 @@ impl Kernel {
                 }
                 return;
             }
+            Self::Affine(affine) => return affine.whole(simd, planes, count),
             Self::Wide(blending) => {
                 for at in (0..count).step_by(LANES) {
-                    blending.wide(planes, at, &ALL);
+                    blending.wide(simd, planes, at, &ALL);
                 }
                 return;
             }
@@ -454,35 +527,28 @@ impl Kernel {
         }
         let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
         match self {
-            Self::Keep | Self::Store(_) | Self::Replace(_) | Self::Wide(_) => {}
+            Self::Keep | Self::Store(_) | Self::Replace(_) | Self::Affine(_) | Self::Wide(_) => {}
             Self::Masked { value, keep } => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
                     *chunk = masked(chunk, *value, *keep);
                 }
             }
-            Self::Linear(linear) => {
-                for chunk in texels.as_flattened_mut().as_chunks_mut::<BYTES>().0 {
-                    *chunk = linear.applied(chunk);
-                }
-            }
+            Self::Linear(linear) => linear.apply(texels),
             Self::Table(table) => {
                 for texel in texels {
                     *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
                 }
             }
+            Self::Weighted(weights) => {
+                weights.apply(simd, texels.as_chunks_mut::<LANES>().0);
+            }
             Self::Lanes(blending) => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = blending.applied(chunk);
+                    *chunk = blending.applied(simd, chunk);
                 }
             }
         }
     }
-}
-
-/// Returns the bytes of texels.
-#[inline(always)]
-fn flat(texels: &[Texel; LANES]) -> &[u8; BYTES] {
-    texels.as_flattened().try_into().unwrap_or(&[0; BYTES])
 }
 
 /// Returns texels with a value in the bits that are not kept.

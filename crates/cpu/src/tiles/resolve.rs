@@ -4,6 +4,7 @@ use super::image::{AREA, Texel, are_bytes};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
+use fearless_simd::Simd;
 
 /// Returns true if the average of equal samples is their code, for all codes.
 fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
@@ -36,8 +37,23 @@ fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> C
 }
 
 /// Resolves the planes of a tile. With `same` the first sample stands for all.
+#[inline(never)]
+pub(crate) fn resolve<S: Simd>(
+    simd: S,
+    channels: &[ChannelEncoding],
+    planes: &[u32],
+    samples: usize,
+    same: bool,
+    resolved: &mut [u32],
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || average_all(channels, planes, samples, same, resolved),
+    );
+}
+
 #[inline(always)]
-pub(crate) fn resolve(
+fn average_all(
     channels: &[ChannelEncoding],
     planes: &[u32],
     samples: usize,

@@ -238,7 +238,7 @@ fn set_up<'p>(
     on_threads(jobs, &|(number, part)| {
         part.clear(tiles);
         let range = (number * each).min(count)..((number + 1) * each).min(count);
-        dispatch!(machine.level, _ => part.set_up(pass, inputs, placed, range));
+        dispatch!(machine.level, simd => part.set_up(simd, pass, inputs, placed, range));
     });
     &parts[..used]
 }

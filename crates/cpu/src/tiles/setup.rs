@@ -3,16 +3,19 @@
 use super::TILE;
 use super::edges::{Edges, Touch};
 use super::image::Image;
+use super::opaque::NARROW;
 use super::paint::Paint;
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::texture::Texture;
-use super::triangle::{Placed, Triangle, point};
+use super::triangle::{Placed, Rare, Shape, Triangle, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::depth_bias;
 use crate::steps::{Faithful, Steps};
+use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Plain, front_facing, is_culled, window_position};
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVertices, Vertex};
+use fearless_simd::Simd;
 use std::ops::Range;
 
 /// The distinct colours of a blending draw for each of which a function of codes is made.
@@ -30,8 +33,8 @@ pub(crate) struct Part {
     pub(crate) paints: Vec<Paint>,
     /// The first paints of draws, with all that they depend on.
     known: Vec<(Ingredients, u32)>,
-    /// The vertices of triangles with textures.
-    pub(crate) vertices: Vec<[u32; 3]>,
+    /// What few triangles have.
+    rare: Vec<Rare>,
     /// The entries of each tile, in the order of drawing.
     pub(crate) bins: Vec<Vec<Entry>>,
 }
@@ -152,15 +155,25 @@ impl Part {
         self.triangles.clear();
         self.paints.clear();
         self.known.clear();
-        self.vertices.clear();
+        self.rare.clear();
         self.bins.iter_mut().for_each(Vec::clear);
         self.bins.resize_with(tiles, Vec::new);
     }
 
+    /// Returns what few triangles have of a triangle.
+    #[inline(always)]
+    pub(crate) fn rare(&self, triangle: &Triangle) -> Rare {
+        self.rare
+            .get(triangle.rare as usize)
+            .copied()
+            .unwrap_or_default()
+    }
+
     /// Sets up and sorts the primitives of a range of the pass's numbers.
     #[inline(always)]
-    pub(crate) fn set_up(
+    pub(crate) fn set_up<S: Simd>(
         &mut self,
+        simd: S,
         pass: &PassPlan,
         inputs: &[Input<'_>],
         placed: &[Placed],
@@ -169,7 +182,7 @@ impl Part {
         for (number, input) in inputs.iter().enumerate() {
             let start = range.start.clamp(input.first, input.first + input.count);
             let end = range.end.clamp(start, input.first + input.count);
-            let mut draw = SetUp::new(pass, input, number, self);
+            let mut draw = SetUp::new(simd, pass, input, number, self);
             for primitive in start..end {
                 let (triangle, provoking) = input.primitive(primitive - input.first);
                 draw.triangle(
@@ -209,7 +222,8 @@ impl Ingredients {
 }
 
 /// The set-up of a draw's triangles.
-struct SetUp<'a> {
+struct SetUp<'a, S> {
+    simd: S,
     pass: &'a PassPlan,
     draw: &'a Draw,
     plan: &'a DrawPlan,
@@ -217,6 +231,8 @@ struct SetUp<'a> {
     part: &'a mut Part,
     /// The first of the draw's paints.
     first: usize,
+    /// The last code of a flat triangle's depths, with depth and bias.
+    code: Option<([u64; 2], u32)>,
     /// The last paint with its colour.
     last: Option<([u32; 4], u32)>,
     /// The least and the greatest offset of samples across and down.
@@ -224,19 +240,27 @@ struct SetUp<'a> {
     across: usize,
 }
 
-impl<'a> SetUp<'a> {
-    fn new(pass: &'a PassPlan, input: &'a Input<'_>, number: usize, part: &'a mut Part) -> Self {
+impl<'a, S: Simd> SetUp<'a, S> {
+    fn new(
+        simd: S,
+        pass: &'a PassPlan,
+        input: &'a Input<'_>,
+        number: usize,
+        part: &'a mut Part,
+    ) -> Self {
         let ends = |axis: usize| {
             let all = || pass.positions.iter().map(|p| p[axis]);
             [all().min().unwrap_or(0), all().max().unwrap_or(0)]
         };
         Self {
+            simd,
             pass,
             draw: input.draw,
             plan: input.plan,
             number,
             first: part.paints.len(),
             part,
+            code: None,
             last: None,
             samples: [ends(0), ends(1)],
             across: pass.size[0].div_ceil(TILE),
@@ -291,35 +315,59 @@ impl<'a> SetUp<'a> {
             || top <= bounds[1] + 1
             || right >= bounds[2] - 2
             || bottom >= bounds[3] - 2;
-        let side = self.part.vertices.len() as u32;
-        if let Shading::Texture { .. } = self.plan.shading {
-            self.part.vertices.push(vertices.map(|i| i as u32));
-        }
+        let textured = matches!(self.plan.shading, Shading::Texture { .. });
+        let rare = match textured || bias != 0.0 {
+            true => {
+                let vertices = vertices.map(|i| i as u32);
+                self.part.rare.push(Rare { bias, vertices });
+                self.part.rare.len() as u32 - 1
+            }
+            false => u32::MAX,
+        };
+        // What covers a tile is wider and higher.
+        let side = TILE as i32 * units;
+        let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
+        let tiles = around.map(|v| v as usize / TILE);
+        let narrow = i32::from(around[2] - around[0]) < NARROW;
+        let near = wide[1] - wide[0] <= side && high[1] - high[0] <= side;
+        let shape = match flat {
+            true if narrow && near && !cut && tiles[..2] == tiles[2..] => Shape::Small,
+            true => Shape::Flat,
+            false => Shape::Sloped,
+        };
         let triangle = Triangle {
             corners,
-            bias,
-            vertices: side,
+            rare,
             code: match (flat, self.pass.depth) {
-                (true, Some(encoding)) => {
-                    let depth = super::depth::held(self.draw, corners[0].z, bias);
-                    Faithful.depth_codes(encoding, [depth; LANES])[0]
-                }
+                (true, Some(encoding)) => self.code(encoding, corners[0].z, bias),
                 _ => 0,
             },
             draw: self.number as u32,
             paint,
             around,
             front,
-            flat,
+            shape,
             counter: area > 0,
             cut,
         };
-        // What covers a tile is wider and higher.
-        let side = TILE as i32 * units;
-        let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
         let index = self.part.triangles.len();
         self.part.triangles.push(triangle);
         self.sort(index, &triangle, covers);
+    }
+
+    /// Returns the code of a flat triangle's depths.
+    #[inline(always)]
+    fn code(&mut self, encoding: ChannelEncoding, depth: f32, bias: f64) -> u32 {
+        let of = [u64::from(depth.to_bits()), bias.to_bits()];
+        if let Some((last, code)) = self.code
+            && last == of
+        {
+            return code;
+        }
+        let depth = super::depth::held(self.draw, depth, bias);
+        let code = Faithful.depth_codes(encoding, [depth; LANES])[0];
+        self.code = Some((of, code));
+        code
     }
 
     /// Returns the bias of a triangle's depths.
@@ -356,7 +404,6 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    #[inline(always)]
     fn new_paint(&mut self, color: [f32; 4]) -> u32 {
         let bits = color.map(f32::to_bits);
         // Draws mostly have one colour, and one of few states.
@@ -371,6 +418,7 @@ impl<'a> SetUp<'a> {
         }
         let quick = self.part.paints.len() - self.first > FUNCTIONS;
         let paint = Paint::new(
+            self.simd,
             self.draw,
             color,
             self.pass.channels,

@@ -11,9 +11,9 @@ use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
 use super::opaque::{Opaque, Planes, Store};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
-use super::setup::{Input, Part, tile_texels};
+use super::setup::{Entry, Input, Part, tile_texels};
 use super::texture::Coordinates;
-use super::triangle::Triangle;
+use super::triangle::{Shape, Triangle};
 use super::work::Work;
 use crate::lanes::{Codes, LANES};
 use etalon_pipeline::shader::cost;
@@ -120,24 +120,33 @@ pub(crate) fn draw<S: Simd>(
     };
     for part in parts {
         let mut last: Option<Store> = None;
-        for entry in &part.bins[index] {
+        let mut entries = part.bins[index].as_slice();
+        while let [entry, rest @ ..] = entries {
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
             let whole = entry.is_whole();
-            match &last {
-                // The planes are ready for it.
-                Some(store) if !whole && store.is_of(triangle) => {
-                    drawing.opaque(simd, store, triangle, input, part);
-                }
-                _ => last = drawing.triangle(simd, triangle, input, part, whole),
+            // The planes are ready for another triangle of the same draw and paint.
+            if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
+                last = drawing.triangle(simd, triangle, input, part, whole);
             }
+            entries = match &last {
+                Some(store) if triangle.shape == Shape::Small => {
+                    drawing.small(simd, store, entries, input, part)
+                }
+                Some(store) => {
+                    drawing.opaque(simd, store, triangle, input, part);
+                    rest
+                }
+                None => rest,
+            };
         }
     }
-    drawing.finish();
+    drawing.finish(simd);
 }
 
 impl Drawing<'_, '_> {
-    /// Draws a triangle. Returns what it did to texels if it is opaque and covers a part of the tile.
+    /// Draws a triangle. One that is opaque and covers a part of the tile is left to [`opaque`](Self::opaque): what it
+    /// does to texels is returned, and the planes are ready for it.
     #[inline(always)]
     fn triangle<S: Simd>(
         &mut self,
@@ -169,28 +178,24 @@ impl Drawing<'_, '_> {
         if self.same && !(whole && paint.samples & all == all) {
             self.expand();
         }
-        if !whole && let Some(store) = Store::new(triangle, plan, paint) {
-            self.opaque(simd, &store, triangle, input, part);
-            return Some(store);
+        let store = Store::new(triangle, plan, paint).filter(|_| !whole);
+        if store.is_some() {
+            return store;
         }
         let work = Work {
             triangle,
             plan,
             face,
             paint,
-            depths: self.depths(triangle, input),
+            depths: self.depths(triangle, input, part),
             texture: input.texture.as_ref().map(|texture| {
                 (
                     texture,
-                    Coordinates::new(
-                        input.draw,
-                        triangle,
-                        &part.vertices[triangle.vertices as usize],
-                    ),
+                    Coordinates::new(input.draw, triangle, &part.rare(triangle).vertices),
                 )
             }),
         };
-        self.samples(&work, whole, answer);
+        self.samples(simd, &work, whole, answer);
         let all = whole && self.same && face.is_none() && work.texture.is_none();
         self.widen(triangle, plan, all && answer == Some(Decided::Pass));
         None
@@ -201,17 +206,18 @@ impl Drawing<'_, '_> {
     fn answer(&self, triangle: &Triangle, plan: &DrawPlan) -> Option<Decided> {
         match plan.depth {
             None => Some(Decided::Pass),
-            Some(depth) if triangle.flat => decided(depth.compare, triangle.code, self.range),
+            Some(depth) if triangle.is_flat() => decided(depth.compare, triangle.code, self.range),
             Some(_) => None,
         }
     }
 
     /// Returns the depths of a triangle, unless it is flat or none are tested.
     #[inline(always)]
-    fn depths(&self, triangle: &Triangle, input: &Input<'_>) -> Option<Depths> {
+    fn depths(&self, triangle: &Triangle, input: &Input<'_>, part: &Part) -> Option<Depths> {
         match (input.plan.depth, self.pass.depth) {
-            (Some(_), Some(encoding)) if !triangle.flat => {
-                Some(Depths::new(input.draw, triangle, encoding))
+            (Some(_), Some(encoding)) if !triangle.is_flat() => {
+                let bias = part.rare(triangle).bias;
+                Some(Depths::new(input.draw, triangle, bias, encoding))
             }
             _ => None,
         }
@@ -224,7 +230,7 @@ impl Drawing<'_, '_> {
             return;
         }
         let code = triangle.code;
-        self.range = match triangle.flat {
+        self.range = match triangle.is_flat() {
             true if all => [code; 2],
             true => [self.range[0].min(code), self.range[1].max(code)],
             false => ANY,
@@ -244,7 +250,7 @@ impl Drawing<'_, '_> {
 
     /// Draws a triangle sample by sample.
     #[inline(always)]
-    fn samples(&mut self, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
+    fn samples<S: Simd>(&mut self, simd: S, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
             1
@@ -259,15 +265,15 @@ impl Drawing<'_, '_> {
                 continue;
             }
             match decided {
-                Some(answer) => self.decided(work, sample, answer),
-                None => self.scan(work, sample, whole),
+                Some(answer) => self.decided(simd, work, sample, answer),
+                None => self.scan(simd, work, sample, whole),
             }
         }
     }
 
     /// Draws all texels of a sample, whose tests have one answer.
     #[inline(always)]
-    fn decided(&mut self, work: &Work<'_>, sample: usize, answer: Decided) {
+    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, answer: Decided) {
         let [left, top, right, bottom] = self.texels;
         let start = sample * AREA;
         let range = start..start + (bottom - top) as usize * TILE;
@@ -298,7 +304,7 @@ impl Drawing<'_, '_> {
         if !work.paint.kernel.keeps() {
             let texels = range.len();
             let colors = self.tile.color.sample(sample);
-            work.paint.kernel.whole(colors, texels);
+            work.paint.kernel.whole(simd, colors, texels);
         }
     }
 
@@ -320,7 +326,7 @@ impl Drawing<'_, '_> {
             store,
             triangle,
             edges: Edges::new(triangle),
-            depths: self.depths(triangle, input),
+            depths: self.depths(triangle, input, part),
             texels: self.texels,
         };
         let samples = part.paints[triangle.paint as usize].samples;
@@ -345,9 +351,55 @@ impl Drawing<'_, '_> {
         self.widen(triangle, plan, false);
     }
 
+    /// Draws the small triangles that entries begin with, as long as they do the same to texels as the first. Returns
+    /// the other entries.
+    #[inline(always)]
+    fn small<'e, S: Simd>(
+        &mut self,
+        simd: S,
+        store: &Store,
+        entries: &'e [Entry],
+        input: &Input<'_>,
+        part: &Part,
+    ) -> &'e [Entry] {
+        let is_alike = |entry: &&Entry| {
+            let triangle = &part.triangles[entry.triangle()];
+            triangle.shape == Shape::Small && store.is_of(triangle) && !entry.is_whole()
+        };
+        let count = entries.iter().take_while(is_alike).count();
+        let (alike, others) = entries.split_at(count);
+        let triangles = alike.iter().map(|e| &part.triangles[e.triangle()]);
+        let [first, ..] = alike else {
+            return others;
+        };
+        let samples = part.paints[part.triangles[first.triangle()].paint as usize].samples;
+        for (sample, position) in self.pass.positions.iter().enumerate() {
+            if samples & (1 << sample) == 0 {
+                continue;
+            }
+            let planes = Planes {
+                position: *position,
+                rect: input.plan.rects[sample],
+                colors: match store.colors() {
+                    true => self.tile.color.sample(sample),
+                    false => &mut [],
+                },
+                depths: match store.tests() {
+                    true => self.tile.depth.sample(sample),
+                    false => &mut [],
+                },
+            };
+            store.small(simd, triangles.clone(), planes, self.texels);
+        }
+        for triangle in triangles {
+            self.widen(triangle, input.plan, false);
+        }
+        others
+    }
+
     /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
     #[inline(always)]
-    fn scan(&mut self, work: &Work<'_>, sample: usize, whole: bool) {
+    fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
         let around = match whole {
@@ -359,13 +411,21 @@ impl Drawing<'_, '_> {
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
         let edges = Edges::new(triangle);
-        let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
+        let rows = edges.rows(first, y_first, self.pass.positions[sample]);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;
         for y in y_first..=y_last {
+            let row = rows.behind(y - y_first);
             for chunk in 0..=(last - first) / lanes {
                 let x = first + chunk * lanes;
-                let mut mask = if whole { ALL } else { rows.covered(chunk) };
+                let covered = if whole {
+                    Some(ALL)
+                } else {
+                    row.covered(simd, x - first)
+                };
+                let Some(mut mask) = covered else {
+                    continue;
+                };
                 if cut {
                     if y < rect[1] || y >= rect[3] {
                         continue;
@@ -375,17 +435,21 @@ impl Drawing<'_, '_> {
                         *covered &= -Lane::from(x >= rect[0] && x < rect[2]);
                     }
                 }
-                if any(&mask) {
-                    self.fragments(work, sample, [x, y], mask);
-                }
+                self.fragments(simd, work, sample, [x, y], mask);
             }
-            rows.next();
         }
     }
 
     /// Tests, blends and stores the fragments of one sample of neighbouring texels.
     #[inline(always)]
-    fn fragments(&mut self, work: &Work<'_>, sample: usize, at: [i32; 2], mut mask: [Lane; LANES]) {
+    fn fragments<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        sample: usize,
+        at: [i32; 2],
+        mut mask: [Lane; LANES],
+    ) {
         let [x, y] = at;
         let [left, top, ..] = self.texels;
         let place = sample * AREA + (y - top) as usize * TILE + (x - left) as usize;
@@ -446,13 +510,15 @@ impl Drawing<'_, '_> {
             select(self.tile.color.lanes(place), &passed, &texels);
         } else if !work.paint.kernel.keeps() {
             let colors = self.tile.color.sample(sample);
-            work.paint.kernel.masked(colors, place % AREA, &passed);
+            work.paint
+                .kernel
+                .masked(simd, colors, place % AREA, &passed);
         }
     }
 
     /// Writes what is only noted so far, and resolves colour.
     #[inline(always)]
-    fn finish(&mut self) {
+    fn finish<S: Simd>(&mut self, simd: S) {
         let Tile {
             color,
             resolved,
@@ -466,6 +532,7 @@ impl Drawing<'_, '_> {
         if !resolved.is_empty() {
             let samples = self.pass.positions.len();
             resolve(
+                simd,
                 self.pass.channels,
                 color.planes,
                 samples,

@@ -10,14 +10,14 @@ pub(crate) struct Placed {
     pub(crate) z: f32,
 }
 
-/// A triangle that may cover samples.
+/// A triangle that may cover samples: a line of the processor's cache.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct Triangle {
     /// In the order of the primitive, which the depth's plane depends on.
     pub(crate) corners: [Placed; 3],
-    pub(crate) bias: f64,
-    /// The place of its vertices in its part, if its colour is a texture's.
-    pub(crate) vertices: u32,
+    /// The place in its part of what few triangles have; the number of all of them if it has nothing.
+    pub(crate) rare: u32,
     /// The code of all its depths, if it is flat.
     pub(crate) code: u32,
     /// The place of its draw among the pass's kernels.
@@ -27,12 +27,41 @@ pub(crate) struct Triangle {
     /// The first and the last column and row of the texels that it may cover.
     pub(crate) around: [i16; 4],
     pub(crate) front: bool,
-    /// True if all of it has one depth.
-    pub(crate) flat: bool,
+    pub(crate) shape: Shape,
     /// True if its corners stand counter-clockwise on the screen.
     pub(crate) counter: bool,
     /// True if scissor or viewport may cut it.
     pub(crate) cut: bool,
+}
+
+const _: () = assert!(size_of::<Triangle>() == 64);
+
+/// What few triangles have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rare {
+    /// The bias of its depths.
+    pub(crate) bias: f64,
+    /// Its vertices, if its colour is a texture's.
+    pub(crate) vertices: [u32; 3],
+}
+
+/// The form of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// Of several depths.
+    Sloped,
+    /// Of one depth.
+    Flat,
+    /// Of one depth, within one tile, in few columns, and cut by nothing.
+    Small,
+}
+
+impl Triangle {
+    /// True if all of it has one depth.
+    #[inline(always)]
+    pub(crate) fn is_flat(&self) -> bool {
+        self.shape != Shape::Sloped
+    }
 }
 
 /// Returns a position as the pipeline has it.

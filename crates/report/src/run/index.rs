@@ -13,13 +13,12 @@ mod data;
 mod detail;
 mod facts;
 mod findings;
-mod link;
-mod mark;
 mod matrix;
 mod undrawn;
 
 use crate::catalogue::scripts;
 use crate::chart;
+use crate::mark::{class, mark};
 use crate::methods::{self, Methods};
 use crate::numbers::count;
 use crate::page::origin::Origin;
@@ -28,7 +27,6 @@ use crate::run::grid::{Grid, Tally};
 use crate::run::undrawn::{Undrawn, undrawn};
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
-use mark::{class, mark};
 use maud::{Markup, html};
 use std::path::Path;
 

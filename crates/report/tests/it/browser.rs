@@ -3,6 +3,7 @@
 
 mod cdp;
 mod driver;
+mod history;
 mod hostile;
 mod index;
 mod large;
@@ -40,6 +41,9 @@ fn pages_work_in_a_browser() {
     });
     check("performance matrix", &|| {
         matrix::two_adapters_are_compared_and_samples_open(&chromium);
+    });
+    check("history", &|| {
+        history::news_lead_to_cases_runs_and_back(&chromium)
     });
     check("large run", &|| {
         large::eighty_thousand_records_open_and_are_searched(&chromium);

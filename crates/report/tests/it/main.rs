@@ -8,6 +8,8 @@ mod browser;
 mod damage;
 mod deqp;
 mod formats;
+mod history;
+mod history_made;
 mod markdown;
 mod matrix;
 mod printed;

@@ -12,6 +12,9 @@ use crate::summary::CONFIDENCE;
 /// The fewest runs that can drift.
 const MIN_DRIFT: usize = 20;
 
+/// Stretches at one of two levels from which on a series goes back and forth: four changes from one to the other.
+const VISITS: usize = 5;
+
 /// What happened in a series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Changes {
@@ -260,7 +263,7 @@ fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
     found
 }
 
-/// Marks the changes both of whose levels the series has more than once.
+/// Marks the changes between two levels to which the series returns.
 fn mark_returns(points: &mut [ChangePoint]) {
     let levels: Vec<f64> = points
         .first()
@@ -277,6 +280,9 @@ fn mark_returns(points: &mut [ChangePoint]) {
         let times = |level: f64| levels.iter().filter(|l| (*l - level).abs() <= near).count();
         // Both levels within reach of each other say nothing.
         let apart = (levels[at + 1] - levels[at]).abs() > 2.0 * near;
-        point.returns = apart && times(levels[at]) > 1 && times(levels[at + 1]) > 1;
+        let visits = [levels[at], levels[at + 1]].map(times);
+        let open = matches!(point.cause, Cause::NoRuler | Cause::Unclear);
+        point.returns =
+            open && apart && visits.iter().all(|n| *n > 1) && visits[0] + visits[1] >= VISITS;
     }
 }

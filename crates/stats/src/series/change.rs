@@ -28,9 +28,16 @@ pub struct ChangePoint {
     pub visible: f64,
     /// What stepped.
     pub cause: Cause,
-    /// True if the series was at both levels before or is so again, so that it goes back and forth: a machine with
-    /// two paces that the ruler does not feel, or a change that came and went several times.
+    /// True if the series goes back and forth between the two levels, four times or more: a machine with two paces that
+    /// the ruler does not feel, or a change that came and went again and again. Never where the ruler tells which.
     pub returns: bool,
+}
+
+impl ChangePoint {
+    /// True if somebody should look: the change is not the machine's, and the series does not go back and forth.
+    pub fn is_alarm(&self) -> bool {
+        self.cause != Cause::Machine && !self.returns
+    }
 }
 
 /// What stepped, by the ruler.

@@ -61,7 +61,8 @@ fn split(sums: &Sums, from: usize, to: usize, level: f64, found: &mut BTreeSet<u
         return;
     };
     let place = from + place;
-    if sums.step(from, place, to).p() > level {
+    // Neighbours resemble each other where a stretch holds further changes; the strict test allows for it.
+    if sums.plain_step(from, place, to).p() > level {
         return;
     }
     found.insert(place);
@@ -92,8 +93,9 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
         all.remove(at);
         places.remove(at);
         // Those too near to each other look past one another, so that more than two may see the gap.
-        for near in at.saturating_sub(MIN_RUNS)..places.len().min(at + MIN_RUNS) {
-            all[near] = judged(&places, near);
+        let near = at.saturating_sub(MIN_RUNS)..places.len().min(at + MIN_RUNS);
+        for (at, candidate) in near.clone().zip(&mut all[near]) {
+            *candidate = judged(&places, at);
         }
     }
     *found = all.into_iter().map(|c| c.place).collect();

@@ -1,7 +1,7 @@
 //! Simulated series of nightly benches with planted steps, and how well change points match them. Also for
 //! `examples/change_points.rs`.
 
-use etalon_stats::{Cause, Point, change_points};
+use etalon_stats::{Point, change_points};
 use oorandom::Rand64;
 
 /// Runs of a series.
@@ -196,9 +196,9 @@ impl Score {
     }
 }
 
-/// The runs at which an alarm is due: changes that are not the machine's.
+/// The runs at which somebody should look.
 pub(crate) fn alarms(points: &[Point]) -> Vec<usize> {
     let changes = change_points(points).expect("simulated times are above zero");
-    let alarms = changes.points.iter().filter(|p| p.cause != Cause::Machine);
-    alarms.map(|p| p.index).collect()
+    let alarms = changes.points.iter().filter(|point| point.is_alarm());
+    alarms.map(|point| point.index).collect()
 }

@@ -346,7 +346,7 @@ fn planted_steps_are_found_and_little_else() {
         (5, 0.1, 0.90, 0.93),
         (6, 0.05, 0.65, 0.80),
         (6, 0.1, 0.95, 0.95),
-        (8, 0.2, 0.92, 0.92),
+        (8, 0.2, 0.92, 0.88),
         (9, 0.05, 0.75, 0.95),
     ] {
         let machine = MACHINES[at];
@@ -379,10 +379,10 @@ fn noise_alone_gives_no_alarm() {
     }
 }
 
-/// Benches of `ci/history/record`: the points, and by how many per cent frames were made longer.
-fn recorded() -> (Vec<Point>, Vec<f64>) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/history/recorded.csv");
-    let text = std::fs::read_to_string(path).unwrap();
+/// Benches of `ci/history/record`: the points, and the runs from which on frames were made longer or shorter.
+fn recorded(name: &str) -> (Vec<Point>, Vec<usize>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/history");
+    let text = std::fs::read_to_string(folder.join(name)).unwrap();
     let line = |line: &str| {
         let values: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
         let [_, percent, rounds @ .., ruler] = values.as_slice() else {
@@ -393,17 +393,19 @@ fn recorded() -> (Vec<Point>, Vec<f64>) {
         let samples = samples.with_ruler(&vec![*ruler; rounds.len()]).unwrap();
         (Point::from(&samples), *percent)
     };
-    text.lines().skip(1).map(line).unzip()
+    let (points, percents): (Vec<Point>, Vec<f64>) = text.lines().skip(1).map(line).unzip();
+    let steps = (1..percents.len()).filter(|i| percents[*i] != percents[i - 1]);
+    (points, steps.collect())
 }
 
 #[test]
 fn recorded_steps_are_found_and_little_else() {
-    let (points, percents) = recorded();
-    assert_eq!(points.len(), 200);
-    let steps: Vec<usize> = (1..200)
-        .filter(|i| percents[*i] != percents[i - 1])
-        .collect();
-    assert_eq!(steps, [40, 80, 110, 150, 175]);
+    // The machine changed its pace at times, once seven runs before a step.
+    let (points, steps) = recorded("recorded.csv");
+    assert_eq!(
+        (points.len(), steps.as_slice()),
+        (200, &[40, 80, 110, 150, 175][..])
+    );
     let changes = change_points(&points).unwrap();
     for point in &changes.points {
         println!("{point:?}");
@@ -428,4 +430,23 @@ fn recorded_steps_are_found_and_little_else() {
         (first.ratio.estimate / due - 1.0).abs() < 0.02,
         "{first:?} {due}"
     );
+}
+
+#[test]
+fn a_machine_that_is_busy_hides_steps_and_says_so() {
+    // Beside other work frames and the ruler took up to twice as long for hours, and steps of 3 to 11 % are planted.
+    for name in ["recorded-busy-1.csv", "recorded-busy-2.csv"] {
+        let (points, steps) = recorded(name);
+        let changes = change_points(&points).unwrap();
+        let mut score = Score::default();
+        score.add(&steps, &alarms(&points), points.len());
+        println!(
+            "{name}: {score:?} {:?} {:?}",
+            changes.visible(7),
+            changes.noise
+        );
+        assert!(score.wrong <= 1, "{name}: {score:?}");
+        // Twice the largest step.
+        assert!(changes.visible(7).unwrap() > 1.22, "{name}");
+    }
 }

@@ -4,6 +4,7 @@ mod add;
 mod export;
 mod open;
 mod place;
+mod report;
 mod series;
 mod show;
 mod sparkline;
@@ -20,6 +21,8 @@ pub(crate) enum HistoryCommand {
     Add(add::Arguments),
     /// Write the history for other programs: tables, samples, series of frame times
     Export(export::Arguments),
+    /// Write the pages of a history: what changed, scores over time, every case, frame times
+    Report(report::Arguments),
     /// Show one case over all runs: since when it is broken, fixed or flaky, and when its frame times changed
     Show(show::Arguments),
     /// List what is open, or say of a case or of a change of its times what it is
@@ -31,6 +34,7 @@ pub(crate) fn run(command: &HistoryCommand) -> Result<u8, Failure> {
     match command {
         HistoryCommand::Add(arguments) => add::run(arguments),
         HistoryCommand::Export(arguments) => export::run(arguments),
+        HistoryCommand::Report(arguments) => report::run(arguments),
         HistoryCommand::Show(arguments) => show::run(arguments),
         HistoryCommand::Triage(arguments) => triage::run(arguments),
     }

@@ -3,9 +3,9 @@
 //!
 //! A hundred red rows are a dozen bugs. Nothing here knows a bug: the groups come from records alone.
 
-use super::link;
-use super::mark::{class, mark};
+use crate::mark::{class, mark};
 use crate::numbers::count;
+use crate::page::link;
 use crate::run::grid::Grid;
 use crate::words::{self, Tone};
 use etalon_record::{Condition, Record, Symptom, Verdict};

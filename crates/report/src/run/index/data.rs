@@ -7,7 +7,7 @@
 use super::consensus::Consensus;
 use super::facts::{self, LABELS};
 use super::findings::{Plan, kind};
-use super::mark::class;
+use crate::mark::class;
 use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone};
 use etalon_record::Verdict;

@@ -1,8 +1,9 @@
 //! All facts of one record.
 
-use super::{facts, link};
+use super::facts;
 use crate::command;
 use crate::numbers::count;
+use crate::page::link;
 use crate::picture::{self, Strip};
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, process_end, repetitions,

@@ -2,9 +2,9 @@
 
 use super::consensus::Consensus;
 use super::detail::{self, Budget, Drawn};
-use super::link;
-use super::mark::{class, mark};
+use crate::mark::{class, mark};
 use crate::numbers::count;
+use crate::page::link;
 use crate::run::grid::{Area, CaseFile, Grid, Tally};
 use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};

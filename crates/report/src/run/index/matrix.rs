@@ -1,6 +1,6 @@
 //! Areas against adapters.
 
-use super::mark::{class, mark};
+use crate::mark::{class, mark};
 use crate::page::adapter::breakable;
 use crate::run::grid::{Grid, Tally};
 use crate::words::Tone;

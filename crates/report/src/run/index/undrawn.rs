@@ -1,6 +1,6 @@
 //! What the run says nothing about: cases that were not drawn, and expectations that are dead.
 
-use super::mark::mark;
+use crate::mark::mark;
 use crate::numbers::count;
 use crate::page::adapter::breakable;
 use crate::run::dead::meaning;

@@ -11,7 +11,7 @@ pub(crate) fn filter(text: &str, adapter: &str) -> String {
 }
 
 /// A text as part of a fragment. What ids are made of stays readable.
-fn encoded(text: &str) -> String {
+pub(crate) fn encoded(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     for byte in text.bytes() {
         if byte.is_ascii_alphanumeric() || b"-._~/=:,".contains(&byte) {

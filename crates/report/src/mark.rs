@@ -5,12 +5,12 @@ use etalon_record::Verdict;
 use maud::{Markup, html};
 
 /// A verdict as symbol and word.
-pub(super) fn mark(verdict: Verdict, tone: Tone) -> Markup {
+pub(crate) fn mark(verdict: Verdict, tone: Tone) -> Markup {
     html! { span.m { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) } }
 }
 
 /// The class that colours a verdict: a fixed letter, never taken from a record.
-pub(super) fn class(verdict: Verdict, tone: Tone) -> &'static str {
+pub(crate) fn class(verdict: Verdict, tone: Tone) -> &'static str {
     match (verdict, tone) {
         (_, Tone::Missed) => "f",
         (Verdict::Fail, Tone::Excused) => "f x",
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn grades_of_evidence_and_what_was_not_drawn_differ_in_colour() {
-        let style = include_str!("../../page/style.css");
+        let style = include_str!("page/style.css");
         let mut seen = BTreeMap::new();
         for verdict in [
             Verdict::Pass,

@@ -1,0 +1,164 @@
+//! `etalon run --history`: what is new, what counts, and a history that is lost.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::etalon::etalon;
+use crate::history::Place;
+use assert_cmd::assert::Assert;
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+use std::fs;
+
+/// An adapter of which some scenes crash.
+const ADAPTER: &str = "cpu:fault=abort";
+
+fn run(place: &Place, out: &str, arguments: &[&str]) -> Assert {
+    let mut command = etalon(&["run", "cull/*", "--adapter", ADAPTER, "--out"]);
+    command.arg(place.path(out)).args(arguments).assert()
+}
+
+/// The same with the history of this place, on branch main.
+fn compared(place: &Place, out: &str, arguments: &[&str]) -> Assert {
+    let db = place.db().display().to_string();
+    let flags = ["--history", &db, "--label", "branch=main"];
+    run(place, out, &[&flags[..], arguments].concat())
+}
+
+fn add(place: &Place, out: &str, branch: &str) {
+    let folder = place.path(out).display().to_string();
+    let label = format!("branch={branch}");
+    place.history(&["add", &folder, "--label", &label]).code(0);
+}
+
+/// Copies a run as one of an earlier day in which all was well, and returns the cases that were not.
+fn well_before(place: &Place, from: &str, to: &str) -> Vec<String> {
+    let text = fs::read_to_string(place.path(from).join("run.jsonl")).unwrap();
+    let mut bad = Vec::new();
+    let lines = text.lines().map(|line| {
+        let mut value: Value = serde_json::from_str(line).unwrap();
+        if value["started"].is_string() {
+            value["started"] = json!("2025-01-01T00:00:00Z");
+        } else if value["verdict"] == "crash" {
+            bad.push(value["case"].as_str().unwrap().to_owned());
+            value["verdict"] = json!("pass");
+        }
+        value.to_string() + "\n"
+    });
+    let text: String = lines.collect();
+    fs::create_dir_all(place.path(to)).unwrap();
+    fs::write(place.path(to).join("run.jsonl"), text).unwrap();
+    let [from, to] = [from, to].map(|folder| place.path(folder).join("cases.txt"));
+    fs::copy(from, to).unwrap();
+    bad
+}
+
+#[test]
+fn news_come_first_and_what_is_settled_does_not_count() {
+    let place = Place::new();
+    run(&place, "first", &[]).code(1);
+    let bad = well_before(&place, "first", "well");
+    let n = bad.len();
+    assert!(n > 1, "{bad:?}");
+
+    // Another branch is not compared with.
+    add(&place, "well", "other");
+    compared(&place, "alone", &[])
+        .code(1)
+        .stdout(contains("no earlier run to compare with"));
+    fs::remove_file(place.db()).unwrap();
+
+    add(&place, "well", "main");
+    compared(&place, "second", &[])
+        .code(1)
+        .stdout(contains(format!("{n} broken since the last run")).and(contains("pass before")))
+        .stderr(contains("etalon history add").and(contains("--label branch=main")));
+    let summary = fs::read_to_string(place.path("second").join("summary.md")).unwrap();
+    let new = summary.find("broken since the last run").unwrap();
+    assert!(new < summary.find("## Adapters").unwrap(), "{summary}");
+
+    // What was broken before is old, and counts until somebody says what it is.
+    add(&place, "second", "main");
+    let output = compared(&place, "third", &["--format", "json"]).code(1);
+    let told: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let count = |kind: &str| told["news"][kind].as_array().unwrap().len();
+    assert_eq!([count("broken"), count("fixed"), count("old")], [0, 0, n]);
+
+    let settle = |case: &str, state: &str| {
+        let said = ["triage", case, "--adapter", ADAPTER, "--state", state];
+        place
+            .history(&[&said[..], &["--reason", "looked at"]].concat())
+            .code(0);
+    };
+    for case in &bad[1..] {
+        settle(case, "ignored");
+    }
+    compared(&place, "fourth", &[]).code(1);
+    settle(&bad[0], "real");
+    compared(&place, "fifth", &[])
+        .code(0)
+        .stdout(contains(format!("{n} settled by triage, not counted")));
+    let summary = fs::read_to_string(place.path("fifth").join("summary.md")).unwrap();
+    assert!(summary.contains("Nothing unexpected"), "{summary}");
+    // What is said to be fixed and is not, counts.
+    settle(&bad[0], "fixed");
+    compared(&place, "sixth", &[]).code(1);
+    // A merge judges in the same way.
+    let merge = |branch: &str| {
+        let mut command = etalon(&["merge", "--force", "--label", branch, "--history"]);
+        command
+            .arg(place.db())
+            .arg("--out")
+            .arg(place.path("merged"));
+        command.arg(place.path("fifth")).assert()
+    };
+    merge("branch=main")
+        .code(1)
+        .stdout(contains("1 unexpected as before"));
+    settle(&bad[0], "real");
+    merge("branch=main").code(0);
+}
+
+#[test]
+fn what_is_mended_is_news() {
+    let place = Place::new();
+    run(&place, "bad", &[]).code(1);
+    let bad = well_before(&place, "bad", "well");
+    // The run that failed comes first, and one in which all is well is merged after it.
+    add(&place, "bad", "main");
+    let mut command = etalon(&["merge", "--label", "branch=main", "--history"]);
+    command
+        .arg(place.db())
+        .arg("--out")
+        .arg(place.path("merged"));
+    command
+        .arg(place.path("well"))
+        .assert()
+        .code(0)
+        .stdout(contains(format!("{} fixed since the last run", bad.len())));
+}
+
+#[test]
+fn a_history_that_is_lost_changes_nothing_and_is_told() {
+    let place = Place::new();
+    compared(&place, "run", &[])
+        .code(1)
+        .stderr(contains("there is no history at").and(contains("judged without a history")));
+    assert!(!place.db().exists());
+}
+
+#[test]
+fn a_file_that_is_no_history_is_refused_before_anything_is_drawn() {
+    let place = Place::new();
+    fs::write(
+        place.db(),
+        "something else, which is long enough to be read",
+    )
+    .unwrap();
+    compared(&place, "run", &[])
+        .code(64)
+        .stderr(contains("is no history of etalon"));
+    assert!(!place.path("run").exists());
+    run(&place, "run", &["--label", "branch=main"])
+        .code(64)
+        .stderr(contains("--history"));
+}

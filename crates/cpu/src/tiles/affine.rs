@@ -1,0 +1,124 @@
+//! Blends in which all but the destination's own channel is constant, in texels of several words.
+//!
+//! A term is what the pipeline's plain arithmetic does, with its constants computed once; planes are gone through
+//! channel by channel, each with the code of its encoding.
+
+use super::image::AREA;
+use super::lanes::{Lane, select};
+use crate::lanes::{Codes, LANES};
+use etalon_frame::ChannelEncoding;
+use etalon_pipeline::{Arithmetic, Plain};
+use fearless_simd::Simd;
+
+/// A function of the codes of each channel.
+#[derive(Debug)]
+pub(crate) struct Affine {
+    pub(crate) terms: [Option<Term>; 4],
+}
+
+/// The function of a channel that is written.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Term {
+    pub(crate) encoding: ChannelEncoding,
+    pub(crate) join: Join,
+    /// False if 0 stands for the destination.
+    pub(crate) reads: bool,
+    /// The destination's factor.
+    pub(crate) factor: f32,
+    /// What the source contributes.
+    pub(crate) source: f32,
+}
+
+/// A way to join the source with the destination.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Join {
+    Sum,
+    Least,
+    Most,
+}
+
+impl Affine {
+    /// Applies the function to lanes of a sample's planes, where a mask holds.
+    #[inline(always)]
+    pub(crate) fn masked<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+    ) {
+        for (channel, term) in self.terms.iter().enumerate() {
+            if let Some(term) = term {
+                let (lanes, _) = planes[channel * AREA + at..][..LANES].as_chunks_mut();
+                let mut new = [lanes[0]];
+                term.apply(simd, &mut new);
+                select(&mut lanes[0], mask, &new[0]);
+            }
+        }
+    }
+
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
+    #[inline(always)]
+    pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
+        for (channel, term) in self.terms.iter().enumerate() {
+            if let Some(term) = term {
+                let (lanes, _) = planes[channel * AREA..][..count].as_chunks_mut();
+                term.apply(simd, lanes);
+            }
+        }
+    }
+}
+
+impl Term {
+    /// Applies the function to codes. A function of its own: it is large.
+    #[inline(never)]
+    fn apply<S: Simd>(&self, simd: S, codes: &mut [Codes]) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.encoded(codes),
+        );
+    }
+
+    #[inline(always)]
+    fn encoded(&self, codes: &mut [Codes]) {
+        use ChannelEncoding::{Float16, Float32, Unorm};
+        // Known to the compiler.
+        match self.encoding {
+            Float16 => self.joined(Float16, codes),
+            Float32 => self.joined(Float32, codes),
+            Unorm(10) => self.joined(Unorm(10), codes),
+            Unorm(16) => self.joined(Unorm(16), codes),
+            other => self.joined(other, codes),
+        }
+    }
+
+    #[inline(always)]
+    fn joined(&self, encoding: ChannelEncoding, codes: &mut [Codes]) {
+        match self.join {
+            Join::Sum => self.each(encoding, Join::Sum, codes),
+            Join::Least => self.each(encoding, Join::Least, codes),
+            Join::Most => self.each(encoding, Join::Most, codes),
+        }
+    }
+
+    #[inline(always)]
+    fn each(&self, encoding: ChannelEncoding, join: Join, codes: &mut [Codes]) {
+        let mut plain = Plain::<LANES>;
+        let read = if self.reads { u32::MAX } else { 0 };
+        let Self { factor, source, .. } = *self;
+        for codes in codes {
+            let value = plain.decode(encoding, *codes);
+            let mut value = plain.blend_operand(encoding, value);
+            for value in &mut value {
+                let stored = f32::from_bits(value.to_bits() & read);
+                *value = match join {
+                    Join::Sum => source + stored * factor,
+                    Join::Least if source < stored => source,
+                    Join::Most if source > stored => source,
+                    Join::Least | Join::Most => stored,
+                };
+            }
+            *codes = plain.encode(encoding, value);
+        }
+    }
+}

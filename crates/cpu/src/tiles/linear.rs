@@ -1,0 +1,174 @@
+//! Linear functions of codes of 8 bits, in integers.
+
+use super::image::Texel;
+
+/// The number of codes of a channel.
+pub(crate) const CODES: usize = 256;
+
+/// The bytes that a function is applied to at once: those of neighbouring texels.
+pub(crate) const BYTES: usize = 16;
+
+/// A linear function of each channel's code: inverts the code or leaves it, multiplies it by a 16-bit fraction, adds,
+/// subtracts, both saturating, and keeps the upper byte; byte by byte of neighbouring texels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Linear {
+    /// All bits set where codes are inverted.
+    invert: [u8; BYTES],
+    /// The upper and the lower byte of the factor.
+    upper: [u16; BYTES],
+    lower: [u16; BYTES],
+    plus: [u16; BYTES],
+    minus: [u16; BYTES],
+}
+
+/// A linear function of one channel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Channel {
+    invert: bool,
+    factor: u16,
+    plus: u16,
+    minus: u16,
+}
+
+impl Linear {
+    /// Returns the function that is equal to tables in all codes, if there is one near their slopes, which are the
+    /// results' growth from the first code to the last.
+    #[inline(always)]
+    pub(crate) fn fitted(tables: &[[u8; CODES]; 4], slopes: [f32; 4]) -> Option<Self> {
+        let mut found = [Channel::default(); 4];
+        for c in 0..4 {
+            let known = (0..c).find(|k| tables[*k] == tables[c] && slopes[*k] == slopes[c]);
+            found[c] = match known {
+                Some(known) => found[known],
+                None => Channel::fitted(&tables[c], slopes[c])?,
+            };
+        }
+        let part = |part: fn(&Channel) -> u16| std::array::from_fn(|i| part(&found[i % 4]));
+        Some(Self {
+            invert: std::array::from_fn(|i| if found[i % 4].invert { 0xff } else { 0 }),
+            upper: part(|c| c.factor >> 8),
+            lower: part(|c| c.factor & 0xff),
+            plus: part(|c| c.plus),
+            minus: part(|c| c.minus),
+        })
+    }
+
+    /// Returns the function of neighbouring texels' bytes.
+    #[inline(always)]
+    pub(crate) fn applied(&self, bytes: &[u8; BYTES]) -> [u8; BYTES] {
+        let mut result = [0; BYTES];
+        for i in 0..BYTES {
+            let code = u16::from(bytes[i] ^ self.invert[i]);
+            // 256 times the code times the fraction, in two parts that 16 bits hold.
+            let product = code * self.upper[i] + ((code * self.lower[i]) >> 8);
+            let sum = product
+                .saturating_add(self.plus[i])
+                .saturating_sub(self.minus[i]);
+            result[i] = (sum >> 8) as u8;
+        }
+        result
+    }
+
+    /// Applies the function to texels, whose bytes are a multiple of [`BYTES`].
+    #[inline(always)]
+    pub(crate) fn apply(&self, texels: &mut [Texel]) {
+        // By value, so that it stays in registers.
+        let function = *self;
+        for bytes in texels.as_flattened_mut().as_chunks_mut::<BYTES>().0 {
+            *bytes = function.applied(bytes);
+        }
+    }
+}
+
+impl Channel {
+    /// Returns the function that is equal to a table in all codes, if there is one near a slope.
+    #[inline(always)]
+    fn fitted(table: &[u8; CODES], slope: f32) -> Option<Self> {
+        if slope >= 0.0 {
+            return Self::rising(table, slope);
+        }
+        let mut inverted = *table;
+        inverted.reverse();
+        let found = Self::rising(&inverted, -slope)?;
+        Some(Self {
+            invert: true,
+            ..found
+        })
+    }
+
+    /// Returns the function that is equal to a table that does not fall, if there is one near a slope.
+    #[inline(always)]
+    fn rising(table: &[u8; CODES], slope: f32) -> Option<Self> {
+        let near = (f64::from(slope) * 65536.0).round();
+        if !(0.0..=65537.0).contains(&near) {
+            return None;
+        }
+        for off in [0, -1, 1, -2, 2, -4, 4, -8, 8] {
+            let factor = (near as i64 + off).clamp(0, 65535) as u16;
+            let (mut least, mut most) = (-65535, 65535);
+            for (code, due) in table.iter().enumerate() {
+                let (product, due) = (i32::from(product(code as u8, factor)), i32::from(*due));
+                let low = 256 * due - product;
+                least = least.max(if due > 0 { low } else { -65535 });
+                most = most.min(if due < 255 { low + 255 } else { 65535 });
+            }
+            let sum = (least + most).div_euclid(2);
+            let found = Self {
+                invert: false,
+                factor,
+                plus: sum.clamp(0, 65535) as u16,
+                minus: (-sum).clamp(0, 65535) as u16,
+            };
+            // Without an early end, in vectors.
+            let mut different = 0;
+            for (code, due) in table.iter().enumerate() {
+                different |= found.at(code as u8) ^ due;
+            }
+            if different == 0 {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// Returns the function of a code that is not inverted.
+    #[inline(always)]
+    fn at(&self, code: u8) -> u8 {
+        let sum = product(code, self.factor).saturating_add(self.plus);
+        (sum.saturating_sub(self.minus) >> 8) as u8
+    }
+}
+
+/// Returns 256 times a code times a 16-bit fraction.
+#[inline(always)]
+fn product(code: u8, factor: u16) -> u16 {
+    ((u32::from(code) * u32::from(factor)) >> 8) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_function_is_that_of_its_tables() {
+        let tables = [
+            std::array::from_fn(|i| (i / 2) as u8),
+            std::array::from_fn(|i| 255 - i as u8),
+            std::array::from_fn(|i| (i + 10).min(255) as u8),
+            std::array::from_fn(|i| (i * 3 / 4).saturating_sub(20) as u8),
+        ];
+        let function = Linear::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).expect("they are linear");
+        for code in 0..=255_u8 {
+            let bytes = function.applied(&[code; BYTES]);
+            for (i, byte) in bytes.into_iter().enumerate() {
+                assert_eq!(byte, tables[i % 4][usize::from(code)], "{code}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_linear_has_no_function() {
+        let square = std::array::from_fn(|i| (i * i / 255) as u8);
+        assert!(Linear::fitted(&[square; 4], [1.0; 4]).is_none());
+    }
+}

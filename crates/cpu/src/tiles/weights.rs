@@ -1,0 +1,225 @@
+//! Blends of channels of 8 unsigned normalized bits whose factors depend on several channels of the destination.
+//!
+//! Every factor is a sum of a constant and of the destination's own channel and its alpha, each times 0, 1 or -1, and
+//! held to a limit. All numbers are from 0 to 1, so that products with 0 and sums with 0 change nothing.
+
+use super::image::Texel;
+use crate::lanes::{Codes, LANES, Real};
+use crate::steps::{Faithful, Steps};
+use etalon_frame::ChannelEncoding;
+use etalon_scene::{BlendComponent, BlendFactor, BlendOperation};
+use fearless_simd::Simd;
+
+/// The encoding of all channels.
+const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
+
+/// A function of a texel's codes.
+#[derive(Debug)]
+pub(crate) struct Weights {
+    /// Channel by channel.
+    channels: [Channel; 4],
+    /// What is added to the stored alpha and what it is multiplied by: 1 and 0 if the format has none.
+    alpha: [f32; 2],
+    /// The bits that are not written.
+    keep: u32,
+}
+
+/// The function of one channel: the source times its factor, and the destination times its factor.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    source: f32,
+    of_source: Weight,
+    of_destination: Weight,
+}
+
+/// A factor.
+#[derive(Clone, Copy, Debug)]
+struct Weight {
+    constant: f32,
+    own: f32,
+    alpha: f32,
+    most: f32,
+    /// 1, or -1 where the product is subtracted.
+    sign: f32,
+}
+
+/// The inputs of a blend that are constant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Constants {
+    pub(crate) source: [f32; 4],
+    pub(crate) second: [f32; 4],
+    pub(crate) constant: [f32; 4],
+}
+
+impl Weights {
+    /// Returns the function of blends by two components, of so many channels, if operations are sums.
+    pub(crate) fn new(
+        [color, alpha]: [BlendComponent; 2],
+        constants: &Constants,
+        channels: usize,
+        write_mask: u8,
+    ) -> Option<Self> {
+        let held = |values: [f32; 4]| values.map(|v| v.clamp(0.0, 1.0));
+        let constants = Constants {
+            source: held(constants.source),
+            second: held(constants.second),
+            constant: held(constants.constant),
+        };
+        let finite = |values: [f32; 4]| values.iter().all(|v| v.is_finite());
+        if !(finite(constants.source) && finite(constants.second) && finite(constants.constant)) {
+            return None;
+        }
+        let mut all = [None; 4];
+        for (c, channel) in all.iter_mut().enumerate() {
+            let component = if c == 3 { &alpha } else { &color };
+            let (source, destination) = match component.operation {
+                BlendOperation::Add => (1.0, 1.0),
+                BlendOperation::Subtract => (1.0, -1.0),
+                BlendOperation::ReverseSubtract => (-1.0, 1.0),
+                BlendOperation::Min | BlendOperation::Max => return None,
+            };
+            let weight = |factor, sign| Weight::new(factor, &constants, c, sign);
+            *channel = Some(Channel {
+                source: constants.source[c],
+                of_source: weight(component.src_factor, source),
+                of_destination: weight(component.dst_factor, destination),
+            });
+        }
+        let [Some(r), Some(g), Some(b), Some(a)] = all else {
+            return None;
+        };
+        let mut keep = 0;
+        for c in 0..4 {
+            if c >= channels || write_mask & (1 << c) == 0 {
+                keep |= 0xff << (8 * c);
+            }
+        }
+        Some(Self {
+            channels: [r, g, b, a],
+            alpha: if channels == 4 {
+                [0.0, 1.0]
+            } else {
+                [1.0, 0.0]
+            },
+            keep,
+        })
+    }
+
+    /// Applies the function to texels. A function of its own: it is large.
+    #[inline(never)]
+    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [[Texel; LANES]]) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for texels in texels {
+                    *texels = self.applied(texels);
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
+        let words = bytemuck::cast::<_, Codes>(*texels).map(u32::from_le);
+        let [r, g, b, a] = &self.channels;
+        let last = stored(&words, 24);
+        let mut alpha = last;
+        for alpha in &mut alpha {
+            *alpha = self.alpha[0] + self.alpha[1] * *alpha;
+        }
+        // Each by itself, so that shifts are known.
+        let mut new = a.codes(&last, &alpha);
+        for code in &mut new {
+            *code <<= 24;
+        }
+        join(&mut new, &b.codes(&stored(&words, 16), &alpha), 16);
+        join(&mut new, &g.codes(&stored(&words, 8), &alpha), 8);
+        join(&mut new, &r.codes(&stored(&words, 0), &alpha), 0);
+        for (new, old) in new.iter_mut().zip(words) {
+            *new = (old & self.keep | *new & !self.keep).to_le();
+        }
+        bytemuck::cast(new)
+    }
+}
+
+/// Returns the values of the bytes that stand at a bit.
+#[inline(always)]
+fn stored(words: &Codes, bit: u32) -> Real {
+    Faithful.color_value(UNORM, words.map(|word| word >> bit & 0xff))
+}
+
+/// Puts bytes into words from a bit on.
+#[inline(always)]
+fn join(words: &mut Codes, codes: &Codes, bit: u32) {
+    for (word, code) in words.iter_mut().zip(codes) {
+        *word |= code << bit;
+    }
+}
+
+impl Channel {
+    /// Returns the codes of one channel from the stored values of it and of alpha.
+    #[inline(always)]
+    fn codes(&self, own: &Real, alpha: &Real) -> Codes {
+        let mut result = *own;
+        for (result, alpha) in result.iter_mut().zip(alpha) {
+            let own = *result;
+            let source = self.source * self.of_source.at(own, *alpha);
+            let destination = own * self.of_destination.at(own, *alpha);
+            *result = self.of_source.sign * source + self.of_destination.sign * destination;
+        }
+        Faithful.color_codes(UNORM, result)
+    }
+}
+
+impl Weight {
+    fn new(factor: BlendFactor, constants: &Constants, channel: usize, sign: f32) -> Self {
+        let Constants {
+            source,
+            second,
+            constant,
+        } = constants;
+        let all = |constant, own, alpha| Self {
+            constant,
+            own,
+            alpha,
+            most: f32::INFINITY,
+            sign,
+        };
+        use BlendFactor as F;
+        match factor {
+            F::Zero => all(0.0, 0.0, 0.0),
+            F::One => all(1.0, 0.0, 0.0),
+            F::Src => all(source[channel], 0.0, 0.0),
+            F::OneMinusSrc => all(1.0 - source[channel], 0.0, 0.0),
+            F::SrcAlpha => all(source[3], 0.0, 0.0),
+            F::OneMinusSrcAlpha => all(1.0 - source[3], 0.0, 0.0),
+            F::Src1 => all(second[channel], 0.0, 0.0),
+            F::OneMinusSrc1 => all(1.0 - second[channel], 0.0, 0.0),
+            F::Src1Alpha => all(second[3], 0.0, 0.0),
+            F::OneMinusSrc1Alpha => all(1.0 - second[3], 0.0, 0.0),
+            F::Constant => all(constant[channel], 0.0, 0.0),
+            F::OneMinusConstant => all(1.0 - constant[channel], 0.0, 0.0),
+            F::ConstantAlpha => all(constant[3], 0.0, 0.0),
+            F::OneMinusConstantAlpha => all(1.0 - constant[3], 0.0, 0.0),
+            F::Dst => all(0.0, 1.0, 0.0),
+            F::OneMinusDst => all(1.0, -1.0, 0.0),
+            F::DstAlpha => all(0.0, 0.0, 1.0),
+            F::OneMinusDstAlpha => all(1.0, 0.0, -1.0),
+            F::SrcAlphaSaturated if channel == 3 => all(1.0, 0.0, 0.0),
+            F::SrcAlphaSaturated => Self {
+                most: source[3],
+                ..all(1.0, 0.0, -1.0)
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, own: f32, alpha: f32) -> f32 {
+        let factor = self.constant + self.own * own + self.alpha * alpha;
+        if factor < self.most {
+            factor
+        } else {
+            self.most
+        }
+    }
+}

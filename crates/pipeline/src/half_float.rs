@@ -1,0 +1,67 @@
+//! Conversions of 16-bit floats without a branch, which the compiler turns into vector instructions.
+
+/// Returns the value of a 16-bit float (IEEE 754 binary16). NaN is quiet.
+#[inline(always)]
+pub(crate) fn widened(code: u32) -> f32 {
+    // The exponents' biases differ by 112. The product of a number below normal ones is exact.
+    const BIAS: f32 = f32::from_bits((112 + 127) << 23);
+    let magnitude = code & 0x7fff;
+    let mut bits = (f32::from_bits(magnitude << 13) * BIAS).to_bits();
+    bits |= if magnitude >= 0x7c00 { 0x7f80_0000 } else { 0 };
+    bits |= if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+    f32::from_bits(bits | (code & 0x8000) << 16)
+}
+
+/// Returns the 16-bit float nearest to a number, of two the even one. NaN is quiet, and keeps the upper bits of its
+/// payload.
+#[inline(always)]
+pub(crate) fn narrowed(value: f32) -> u32 {
+    /// The bits of the least number whose exponent no 16-bit float has.
+    const OVER: u32 = (127 + 16) << 23;
+    /// The bits of the least number that is normal in 16 bits.
+    const NORMAL: u32 = (127 - 14) << 23;
+    /// From here on a step of 32-bit floats is the least step of 16-bit ones.
+    const STEP: f32 = 0.5;
+    const INFINITE: u32 = 0x7f80_0000;
+    let bits = value.to_bits();
+    let magnitude = bits & 0x7fff_ffff;
+    let odd = magnitude >> 13 & 1;
+    let normal = magnitude.wrapping_sub(112 << 23).wrapping_add(0xfff + odd) >> 13;
+    let sum = f32::from_bits(if magnitude < NORMAL { magnitude } else { 0 }) + STEP;
+    let small = sum.to_bits().wrapping_sub(STEP.to_bits());
+    let nan = 0x7e00 | magnitude >> 13 & 0x3ff;
+    let large = if magnitude > INFINITE { nan } else { 0x7c00 };
+    let finite = if magnitude < NORMAL { small } else { normal };
+    let result = if magnitude >= OVER { large } else { finite };
+    result | bits >> 16 & 0x8000
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use half::f16;
+
+    #[test]
+    fn all_16_bit_floats_have_their_value() {
+        for code in 0..=u16::MAX {
+            let due = f16::from_bits(code).to_f32();
+            assert_eq!(widened(code.into()).to_bits(), due.to_bits(), "{code:#x}");
+        }
+    }
+
+    #[test]
+    fn numbers_become_the_nearest_16_bit_float() {
+        // Each exponent and sign, with the mantissas around every rounding, and some between.
+        let mantissas = (0..1 << 10).flat_map(|m| {
+            let middle = m << 13;
+            [0, 1, 2, 0xfff, 0x1000, 0x1001, 0x1fff].map(|low| middle | low)
+        });
+        for mantissa in mantissas.chain((0..1 << 23).step_by(977)) {
+            for upper in 0..512_u32 {
+                let value = f32::from_bits(upper << 23 | mantissa);
+                let due = u32::from(f16::from_f32(value).to_bits());
+                assert_eq!(narrowed(value), due, "{:#x}", value.to_bits());
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The pages of a history: what changed since the last run, scores over time, and the whole course of each case.
+//!
+//! The start page needs no script. Everything else is in files beside it, each a script that hands its data to the one of
+//! the page, since a browser lets no page that was opened from the file system read its neighbours otherwise. A file
+//! is loaded when something in it is to be seen.
+
+mod courses;
+mod data;
+mod families;
+mod folder;
+mod looks;
+mod matrix;
+mod news;
+mod page;
+mod places;
+mod scores;
+mod sparkline;
+mod times;
+mod write;
+
+pub use folder::HISTORY_PAGE_FILE;
+pub use write::{WrittenHistory, write_history};

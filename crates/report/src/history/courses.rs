@@ -1,0 +1,172 @@
+//! The course of every case on one timeline: spans of equal looks, runs without a record, and what happened.
+
+use super::looks::Looks;
+use super::places::Line;
+use etalon_history::{History, HistoryError};
+use etalon_stats::{Class, Happening, happenings};
+use std::collections::HashMap;
+
+/// The course of one case on one timeline. Runs are places in the timeline.
+pub(super) struct Course {
+    /// The first run that has a record.
+    pub(super) first: u32,
+    /// The last one.
+    pub(super) last: u32,
+    /// The first run of each span and its look.
+    pub(super) spans: Vec<(u32, u32)>,
+    /// The runs between that have no record: a number of [`Gaps`].
+    pub(super) gaps: u32,
+    pub(super) events: Vec<Happening<u32>>,
+}
+
+impl Course {
+    /// The look in a run that has a record.
+    pub(super) fn look(&self, run: u32) -> u32 {
+        let next = self.spans.partition_point(|(from, _)| *from <= run);
+        self.spans[next.saturating_sub(1)].1
+    }
+
+    /// The spans with the run behind the last.
+    pub(super) fn ended(&self) -> impl Iterator<Item = (u32, u32, u32)> {
+        let ends = self.spans.iter().skip(1).map(|(from, _)| *from);
+        let ends = ends.chain([self.last + 1]);
+        self.spans
+            .iter()
+            .zip(ends)
+            .map(|((from, look), end)| (*from, end, *look))
+    }
+}
+
+/// Runs without a record, each list once: those of a run that left an area out are the same for many cases.
+#[derive(Default)]
+pub(super) struct Gaps {
+    /// The list before, the first run and the number of runs; list 0 is empty.
+    all: Vec<(u32, u32, u32)>,
+    numbers: HashMap<(u32, u32, u32), u32>,
+}
+
+impl Gaps {
+    fn longer(&mut self, than: u32, from: u32, runs: u32) -> u32 {
+        let all = &mut self.all;
+        let number = self.numbers.entry((than, from, runs)).or_insert_with(|| {
+            all.push((than, from, runs));
+            all.len() as u32
+        });
+        *number
+    }
+
+    /// The gaps of a list, first run and number of runs, in order.
+    pub(super) fn list(&self, mut number: u32) -> Vec<(u32, u32)> {
+        let mut list = Vec::new();
+        while let Some((before, from, runs)) = number
+            .checked_sub(1)
+            .and_then(|at| self.all.get(at as usize))
+        {
+            list.push((*from, *runs));
+            number = *before;
+        }
+        list.reverse();
+        list
+    }
+}
+
+/// All courses of a timeline.
+pub(super) struct Courses {
+    /// By the case's number less one; `None` without a record.
+    pub(super) of: Vec<Option<Course>>,
+    pub(super) gaps: Gaps,
+    /// True by list of gaps if a whole run is in it.
+    pub(super) holed: HashMap<u32, bool>,
+}
+
+impl Courses {
+    /// Reads all records of a timeline. `each` is called with run, case less one, and look.
+    pub(super) fn read(
+        history: &History,
+        line: &Line<'_>,
+        cases: usize,
+        looks: &mut Looks,
+        mut each: impl FnMut(usize, usize, u32, &Looks),
+    ) -> Result<Self, HistoryError> {
+        let mut of: Vec<Option<Course>> = Vec::new();
+        of.resize_with(cases, || None);
+        let mut gaps = Gaps::default();
+        for (at, run) in line.runs.iter().enumerate() {
+            let here = at as u32;
+            for (case, outcome) in history.records(run.part)? {
+                let look = looks.of(history, outcome)?;
+                let case = case.number() as usize - 1;
+                each(at, case, look, looks);
+                match &mut of[case] {
+                    Some(course) => {
+                        let missed = here - course.last - 1;
+                        if missed > 0 {
+                            course.gaps = gaps.longer(course.gaps, course.last + 1, missed);
+                        }
+                        if course.spans.last().is_none_or(|(_, last)| *last != look) {
+                            course.spans.push((here, look));
+                        }
+                        course.last = here;
+                    }
+                    none => {
+                        *none = Some(Course {
+                            first: here,
+                            last: here,
+                            spans: vec![(here, look)],
+                            gaps: 0,
+                            events: Vec::new(),
+                        });
+                    }
+                }
+            }
+        }
+        let mut courses = Self {
+            of,
+            gaps,
+            holed: HashMap::new(),
+        };
+        courses.tell(line, looks);
+        Ok(courses)
+    }
+
+    /// Finds what happened to every case.
+    fn tell(&mut self, line: &Line<'_>, looks: &Looks) {
+        let whole = |run: &u32| line.runs[*run as usize].whole;
+        let runs = line.runs.len() as u32;
+        let first = (0..runs).find(whole).unwrap_or(0);
+        let last = (0..runs).rfind(whole).unwrap_or(0);
+        for course in self.of.iter_mut().flatten() {
+            let gaps = &self.gaps;
+            let list = course.gaps;
+            let holed = *self.holed.entry(list).or_insert_with(|| {
+                let mut all = gaps.list(list).into_iter();
+                all.any(|(from, runs)| (from..from + runs).any(|run| whole(&run)))
+            });
+            let changed = course.spans.len() > 1 || holed;
+            if !changed && course.first <= first && course.last >= last {
+                continue;
+            }
+            course.events = happenings(&course.classes(gaps, line, looks));
+        }
+    }
+}
+
+impl Course {
+    /// What the runs say of a case, without those that say nothing.
+    fn classes(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Class)> {
+        let mut all: Vec<Option<u32>> = vec![None; line.runs.len()];
+        for (from, end, look) in self.ended() {
+            all[from as usize..end as usize].fill(Some(look));
+        }
+        for (from, runs) in gaps.list(self.gaps) {
+            all[from as usize..(from + runs) as usize].fill(None);
+        }
+        let each = all.iter().zip(&line.runs).zip(0..);
+        each.filter_map(|((look, run), at)| match look {
+            Some(look) if looks.is_undecided(*look) => None,
+            Some(look) => Some((at, looks.class(*look))),
+            None => run.whole.then_some((at, Class::Missing)),
+        })
+        .collect()
+    }
+}

@@ -1,0 +1,460 @@
+//! The data of the scripts beside the page.
+//!
+//! Each file calls one function with its name and a value. Texts of the history are strings in lists: never keys,
+//! which could name a prototype.
+
+use super::courses::{Course, Courses};
+use super::looks::Looks;
+use super::news::{self, News};
+use super::places::Places;
+use super::times::{Series, Timed};
+use crate::words::machine;
+use etalon_history::{History, Kind, TriageEntry, format_time};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+/// The bytes at which a file ends and the next begins.
+const FILE: usize = 100_000;
+
+/// The text of a file.
+pub(super) fn file(name: &str, value: &str) -> String {
+    // A name is one of ours and needs no escape.
+    format!("etalonHistory(\"{name}\",{value});\n")
+}
+
+/// Texts in lists of so many bytes that each makes a file; a text is never divided.
+pub(super) struct Packed {
+    /// The number of the first text of each file.
+    pub(super) first: Vec<usize>,
+    /// The texts of each file, joined by commas.
+    pub(super) files: Vec<String>,
+}
+
+impl Packed {
+    pub(super) fn new() -> Self {
+        Self {
+            first: Vec::new(),
+            files: Vec::new(),
+        }
+    }
+
+    pub(super) fn push(&mut self, number: usize, text: &str) {
+        match self.files.last_mut() {
+            Some(file) if file.len() + text.len() < FILE => {
+                file.push(',');
+                file.push_str(text);
+            }
+            _ => {
+                self.first.push(number);
+                self.files.push(text.to_owned());
+            }
+        }
+    }
+
+    /// The number of the file that was pushed to last.
+    pub(super) fn last(&self) -> usize {
+        self.files.len().saturating_sub(1)
+    }
+}
+
+/// Each text once, by place.
+struct Interner<T> {
+    places: BTreeMap<T, usize>,
+    all: Vec<T>,
+}
+
+impl<T: Ord + Clone> Interner<T> {
+    fn new() -> Self {
+        Self {
+            places: BTreeMap::new(),
+            all: Vec::new(),
+        }
+    }
+
+    fn place(&mut self, value: T) -> usize {
+        if let Some(place) = self.places.get(&value) {
+            return *place;
+        }
+        self.places.insert(value.clone(), self.all.len());
+        self.all.push(value);
+        self.all.len() - 1
+    }
+}
+
+/// All runs, timelines, drivers, machines and looks.
+pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Value {
+    let mut drivers: Interner<[String; 3]> = Interner::new();
+    let mut machines: Interner<String> = Interner::new();
+    let timelines: Vec<Value> = places
+        .timelines
+        .iter()
+        .map(|line| {
+            let runs = line.runs.iter().map(|run| {
+                let a = &run.part.adapter;
+                let driver = drivers.place([
+                    a.shown_version().to_owned(),
+                    a.driver.clone(),
+                    a.device.clone(),
+                ]);
+                json!([run.place, u8::from(run.whole), driver, run.part.records])
+            });
+            json!([*line.name, runs.collect::<Vec<Value>>()])
+        })
+        .collect();
+    let runs: Vec<Value> = places
+        .runs
+        .iter()
+        .map(|run| {
+            let on = history.machine(run.machine).map(machine);
+            let on = machines.place(on.unwrap_or_default());
+            let labels: Vec<[String; 2]> = run
+                .labels
+                .iter()
+                .map(|(key, value)| [key.to_string(), value.to_string()])
+                .collect();
+            json!([
+                run.id.number(),
+                run.kind.name(),
+                format_time(run.started),
+                match (run.kind, run.released) {
+                    (Kind::Release, Some(at)) => format_time(at).chars().take(10).collect(),
+                    _ => String::new(),
+                },
+                run.etalon,
+                run.commit.clone().unwrap_or_default(),
+                on,
+                run.profile.clone().unwrap_or_default(),
+                run.missing,
+                labels,
+                run.digest_text().chars().take(12).collect::<String>()
+            ])
+        })
+        .collect();
+    json!({
+        "runs": runs,
+        "timelines": timelines,
+        "drivers": drivers.all,
+        "machines": machines.all,
+        "looks": looks.data(),
+    })
+}
+
+/// The ids of all cases in the given order; each as the length that it shares with the one before, and the rest.
+pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
+    let mut before: Vec<char> = Vec::new();
+    let all = order.iter().map(|case| {
+        let id: Vec<char> = cases[*case].chars().collect();
+        let shared = id.iter().zip(&before).take_while(|(a, b)| a == b).count();
+        let rest: String = id[shared..].iter().collect();
+        // The script counts in UTF-16.
+        let shared: usize = id[..shared].iter().map(|c| c.len_utf16()).sum();
+        before = id;
+        json!([shared, rest])
+    });
+    all.collect()
+}
+
+/// Files of courses. Cases of one file that went the same way share a text, which most do.
+pub(super) struct CaseFiles {
+    /// The place of the first case of each file among all cases.
+    pub(super) first: Vec<usize>,
+    files: Vec<String>,
+    now: CaseFile,
+}
+
+/// A file in the making.
+#[derive(Default)]
+struct CaseFile {
+    numbers: HashMap<String, usize>,
+    courses: Vec<String>,
+    of: Vec<usize>,
+    /// The place of a case within the file, the file of its times or -1, and what people said.
+    more: Vec<Value>,
+    bytes: usize,
+}
+
+impl CaseFiles {
+    pub(super) fn new() -> Self {
+        Self {
+            first: vec![0],
+            files: Vec::new(),
+            now: CaseFile::default(),
+        }
+    }
+
+    /// Adds the case at this place: its course on all timelines, the file of its times, what people said.
+    pub(super) fn push(
+        &mut self,
+        place: usize,
+        case: usize,
+        courses: &[Courses],
+        times: Option<usize>,
+        said: &[&TriageEntry],
+    ) {
+        if self.now.bytes > FILE {
+            self.files.push(std::mem::take(&mut self.now).text());
+            self.first.push(place);
+        }
+        let now = &mut self.now;
+        let on_line = |(line, of): (usize, &Courses)| {
+            let course = of.of[case].as_ref()?;
+            Some(course_data(line, course, of))
+        };
+        let all = courses.iter().enumerate().filter_map(on_line);
+        let text = all.collect::<Value>().to_string();
+        now.bytes += 4;
+        let number = match now.numbers.get(&text) {
+            Some(number) => *number,
+            None => {
+                now.bytes += text.len();
+                now.numbers.insert(text.clone(), now.courses.len());
+                now.courses.push(text);
+                now.courses.len() - 1
+            }
+        };
+        if times.is_some() || !said.is_empty() {
+            let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
+            let more = json!([now.of.len(), times.map_or(-1, |t| t as i64), said]);
+            now.bytes += more.to_string().len();
+            now.more.push(more);
+        }
+        now.of.push(number);
+    }
+
+    /// The texts of all files.
+    pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
+        self.files.push(self.now.text());
+        (self.first, self.files)
+    }
+}
+
+impl CaseFile {
+    fn text(self) -> String {
+        let (courses, of, more) = (self.courses.join(","), json!(self.of), json!(self.more));
+        format!("[[{courses}],{of},{more}]")
+    }
+}
+
+/// Timeline, first and last run, spans, and gaps and events as far as there are any.
+fn course_data(line: usize, course: &Course, of: &Courses) -> Value {
+    let spans: Vec<u32> = course
+        .spans
+        .iter()
+        .flat_map(|(from, look)| [*from, *look])
+        .collect();
+    let gaps = of.gaps.list(course.gaps);
+    let gaps: Vec<u32> = gaps
+        .into_iter()
+        .flat_map(|(from, runs)| [from, runs])
+        .collect();
+    let events: Vec<u32> = course
+        .events
+        .iter()
+        .flat_map(|e| [news::number(e.event) as u32, e.after, e.at])
+        .collect();
+    let mut value = vec![
+        json!(line),
+        json!(course.first),
+        json!(course.last),
+        json!(spans),
+    ];
+    if !gaps.is_empty() || !events.is_empty() {
+        value.push(json!(gaps));
+    }
+    if !events.is_empty() {
+        value.push(json!(events));
+    }
+    Value::from(value)
+}
+
+fn entry_data(entry: &TriageEntry) -> Value {
+    json!([
+        entry.subject.timeline,
+        entry.state.name(),
+        format_time(entry.at),
+        entry.author,
+        entry.reason
+    ])
+}
+
+/// The series of a case.
+pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
+    let all: Vec<Value> = series
+        .iter()
+        .map(|one| {
+            let on = history
+                .machine(one.machine)
+                .map(machine)
+                .unwrap_or_default();
+            let times: Vec<Value> = one.times.iter().map(timed).collect();
+            json!([one.line, on, one.ruler.clone().unwrap_or_default(), times])
+        })
+        .collect();
+    json!([id, all]).to_string()
+}
+
+fn timed(timed: &Timed) -> Value {
+    let micros = |seconds: f64| number(seconds * 1e6);
+    let medians: Vec<Value> = timed.points.iter().map(|p| micros(p.median)).collect();
+    let rulers: Vec<Value> = match timed.points.iter().any(|p| p.ruler.is_some()) {
+        true => timed
+            .points
+            .iter()
+            .map(|p| p.ruler.map_or(json!(0), micros))
+            .collect(),
+        false => Vec::new(),
+    };
+    let ratio = |r: &etalon_stats::Ratio| [number(r.estimate), number(r.low), number(r.high)];
+    let changes: Vec<Value> = timed
+        .told()
+        .map(|(c, state, fresh)| {
+            json!([
+                c.index,
+                c.between[0],
+                c.between[1].min(timed.points.len() - 1),
+                micros(c.before),
+                micros(c.after),
+                ratio(&c.ratio),
+                news::probability(c.p),
+                number(c.visible),
+                c.cause.text(),
+                u8::from(c.returns),
+                c.ruled.as_ref().map(ratio),
+                c.ruler.as_ref().map(ratio),
+                u8::from(fresh),
+                state.map(entry_data),
+            ])
+        })
+        .collect();
+    let drifts: Vec<Value> = timed
+        .changes
+        .drifts
+        .iter()
+        .map(|d| json!([d.from, d.to, ratio(&d.ratio), u8::from(d.machine)]))
+        .collect();
+    let visible = timed.changes.visible(etalon_stats::MIN_RUNS.max(10));
+    json!([
+        timed.time.name(),
+        ranges(&timed.runs),
+        medians,
+        rulers,
+        changes,
+        drifts,
+        number(timed.changes.noise),
+        visible.map(number),
+    ])
+}
+
+/// Ascending numbers as first number and length of each stretch.
+fn ranges(numbers: &[usize]) -> Vec<usize> {
+    let stretches = numbers.chunk_by(|a, b| a + 1 == *b);
+    stretches.flat_map(|all| [all[0], all.len()]).collect()
+}
+
+/// A number in four digits.
+fn number(value: f64) -> Value {
+    if !value.is_finite() || value == 0.0 {
+        return json!(0);
+    }
+    let digits = 3 - value.abs().log10().floor() as i32;
+    let text = format!("{:.*}", usize::try_from(digits.min(12)).unwrap_or(0), value);
+    let short = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    match short.parse::<i64>() {
+        Ok(whole) => json!(whole),
+        Err(_) => short.parse::<f64>().map_or(json!(0), |n| json!(n)),
+    }
+}
+
+/// What happened in each run, by place: timeline, kind, cases by their places in the list of all.
+pub(super) fn events(
+    places: &Places<'_>,
+    courses: &[Courses],
+    ranks: &[usize],
+) -> BTreeMap<usize, String> {
+    let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
+    for (line, of) in courses.iter().enumerate() {
+        for (case, course) in of.of.iter().enumerate() {
+            for event in course.iter().flat_map(|course| &course.events) {
+                let place = places.timelines[line].runs[event.at as usize].place;
+                let kinds = found.entry(place).or_default();
+                let key = (line, news::number(event.event));
+                kinds.entry(key).or_default().push(ranks[case]);
+            }
+        }
+    }
+    let text = |kinds: BTreeMap<(usize, usize), Vec<usize>>| -> Vec<Value> {
+        let each = kinds.into_iter().map(|((line, kind), mut cases)| {
+            cases.sort_unstable();
+            json!([line, kind, cases])
+        });
+        each.collect()
+    };
+    found
+        .into_iter()
+        .map(|(place, kinds)| (place, json!([place, text(kinds)]).to_string()))
+        .collect()
+}
+
+/// The most lines of news that are kept.
+const NEWS: usize = 5_000;
+
+/// All lines of news.
+pub(super) fn news(news: &News) -> Value {
+    let lines = news.items.iter().take(NEWS).map(|item| {
+        json!([
+            item.kind.colour(),
+            item.word,
+            item.subject,
+            u8::from(item.is_family),
+            item.text,
+            item.chip
+        ])
+    });
+    lines.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, due) in [
+            (1234.56, "1235"),
+            (12.3456, "12.35"),
+            (0.012_345_6, "0.01235"),
+            (123_456.0, "123456"),
+            (1.0, "1"),
+            (0.0, "0"),
+            (f64::NAN, "0"),
+            (100.0, "100"),
+            (1e-20, "0"),
+        ] {
+            assert_eq!(number(value).to_string(), due);
+        }
+        assert_eq!(ranges(&[0, 1, 2, 5, 7, 8]), [0, 3, 5, 1, 7, 2]);
+    }
+
+    #[test]
+    fn ids_come_back_from_what_they_share() {
+        let ids: Vec<Rc<str>> = ["a/𝄞x", "a/𝄞y", "b"].map(Rc::from).to_vec();
+        let text = cases(&ids, &[0, 1, 2]).to_string();
+        assert_eq!(text, r#"[[0,"a/𝄞x"],[4,"y"],[0,"b"]]"#);
+    }
+
+    #[test]
+    fn files_hold_whole_texts() {
+        let mut packed = Packed::new();
+        let long = "x".repeat(60_000);
+        for number in 0..3 {
+            packed.push(number, &long);
+        }
+        packed.push(3, "y");
+        assert_eq!(packed.first, [0, 1, 2]);
+        assert!(packed.files[2].ends_with(",y"));
+    }
+}

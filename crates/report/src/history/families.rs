@@ -1,0 +1,82 @@
+//! Families of cases: those of one case file, as far as ids tell; and their areas.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// The families and areas of all cases.
+pub(super) struct Families {
+    /// Sorted.
+    pub(super) names: Vec<String>,
+    /// Sorted.
+    pub(super) areas: Vec<String>,
+    /// The area of each family.
+    pub(super) area_of: Vec<usize>,
+    /// The family of each case, by the case's number less one.
+    pub(super) of: Vec<u32>,
+}
+
+impl Families {
+    pub(super) fn new(cases: &[Rc<str>]) -> Self {
+        let mut names: BTreeMap<&str, u32> = cases.iter().map(|case| (family(case), 0)).collect();
+        let mut areas: BTreeMap<&str, usize> = names.keys().map(|name| (area(name), 0)).collect();
+        for (number, area) in areas.values_mut().enumerate() {
+            *area = number;
+        }
+        for (number, name) in names.values_mut().enumerate() {
+            *name = number as u32;
+        }
+        Self {
+            area_of: names.keys().map(|name| areas[area(name)]).collect(),
+            of: cases.iter().map(|case| names[family(case)]).collect(),
+            names: names.keys().map(|name| (*name).to_owned()).collect(),
+            areas: areas.keys().map(|area| (*area).to_owned()).collect(),
+        }
+    }
+}
+
+/// The first part of an id.
+fn area(id: &str) -> &str {
+    id.split('/').next().unwrap_or(id)
+}
+
+/// The parts of an id before the first axis; of an id without axes, all but the last.
+fn family(id: &str) -> &str {
+    let mut end = 0;
+    for part in id.split('/') {
+        if part.contains('=') {
+            break;
+        }
+        end += part.len() + 1;
+    }
+    match end.saturating_sub(1) {
+        0 => area(id),
+        all if all == id.len() => id.rsplit_once('/').map_or(id, |(family, _)| family),
+        some => &id[..some],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_family_is_what_stands_before_the_axes() {
+        for (id, due) in [
+            ("depth/compare/compare=less/write=true", "depth/compare"),
+            ("perf/matrix/fill/blend=off", "perf/matrix/fill"),
+            ("found/softpipe", "found"),
+            ("a=1/b", "a=1"),
+            ("alone", "alone"),
+            ("", ""),
+            ("/", ""),
+            ("ä/ö=1", "ä"),
+        ] {
+            assert_eq!(family(id), due, "{id}");
+        }
+        let cases: Vec<Rc<str>> = ["b/x/a=1", "a/y/a=1", "b/x/a=2"].map(Rc::from).to_vec();
+        let families = Families::new(&cases);
+        assert_eq!(families.names, ["a/y", "b/x"]);
+        assert_eq!(families.of, [1, 0, 1]);
+        assert_eq!(families.area_of, [0, 1]);
+    }
+}

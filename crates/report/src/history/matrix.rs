@@ -1,0 +1,169 @@
+//! Areas against versions, one table per timeline: the share of good cases.
+
+use super::families::Families;
+use super::places::{Line, Places};
+use super::scores::Scores;
+use crate::numbers::{percent, thousands};
+use crate::page::adapter::breakable;
+use etalon_stats::{Score, Scores as Both};
+use maud::{Markup, html};
+use serde_json::{Value, json};
+
+/// The most columns of a table on the start page.
+const COLUMNS: usize = 8;
+
+/// A timeline and what is counted on it.
+pub(super) struct Counted<'a> {
+    pub(super) line: &'a Line<'a>,
+    pub(super) scores: &'a Scores,
+}
+
+/// The runs that stand for the versions, the last whole one of each; of a driver that never changed, all whole runs.
+pub(super) fn columns(line: &Line<'_>) -> Vec<usize> {
+    let whole: Vec<usize> = (0..line.runs.len())
+        .filter(|at| line.runs[*at].whole)
+        .collect();
+    let version = |at: &usize| line.runs[*at].part.adapter.shown_version();
+    let stretches = whole.chunk_by(|a, b| version(a) == version(b));
+    let last: Vec<usize> = stretches.filter_map(|all| all.last().copied()).collect();
+    match last.len() {
+        1 => whole,
+        _ => last,
+    }
+}
+
+/// The table of a timeline.
+pub(super) fn table(
+    places: &Places<'_>,
+    families: &Families,
+    number: usize,
+    counted: &Counted<'_>,
+) -> Markup {
+    let line = counted.line;
+    let all = columns(line);
+    let shown = &all[all.len().saturating_sub(COLUMNS)..];
+    let common = counted
+        .scores
+        .sum(0..families.names.len(), shown[0])
+        .common
+        .of;
+    let areas: Vec<usize> = (0..families.areas.len())
+        .filter(|area| {
+            let of = of_area(families, *area);
+            let own = |at: &usize| counted.scores.sum(of.iter().copied(), *at).own.of;
+            shown.iter().any(|at| own(at) > 0)
+        })
+        .collect();
+    html! {
+        details open[number < 3] {
+            summary { h3 { (breakable(&line.name)) } " " small { (of_all(all.len(), shown.len())) } }
+            p.cap {
+                "Large: good of the " (thousands(common as u64))
+                " cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. "
+                a href={ "#adapter=" (crate::page::link::encoded(&line.name)) } { "Every run" } "."
+            }
+            div.wide { table.matrix.over {
+                caption.vh { "Good cases by area and version on " (line.name) }
+                thead { tr {
+                    th scope="col" { "Area" }
+                    @for at in shown {
+                        @let run = &line.runs[*at];
+                        th scope="col" {
+                            a href={ "#run=" (places.runs[run.place].id) } {
+                                (run.part.adapter.shown_version()) " " small { (places.day(run.place)) }
+                            }
+                        }
+                    }
+                } }
+                tbody {
+                    @for area in &areas {
+                        tr {
+                            th scope="row" { (families.areas[*area]) }
+                            (row(counted.scores, &of_area(families, *area), shown))
+                        }
+                    }
+                    tr.sum {
+                        th scope="row" { "all" }
+                        @let every: Vec<usize> = (0..families.names.len()).collect();
+                        (row(counted.scores, &every, shown))
+                    }
+                }
+            } }
+        }
+    }
+}
+
+fn of_all(all: usize, shown: usize) -> String {
+    match all == shown {
+        true => format!("{all} columns"),
+        false => format!("the last {shown} of {all} columns"),
+    }
+}
+
+fn of_area(families: &Families, area: usize) -> Vec<usize> {
+    let all = families.area_of.iter().enumerate();
+    all.filter(|(_, of)| **of == area)
+        .map(|(family, _)| family)
+        .collect()
+}
+
+fn row(scores: &Scores, families: &[usize], shown: &[usize]) -> Markup {
+    let all: Vec<Both> = shown
+        .iter()
+        .map(|at| scores.sum(families.iter().copied(), *at))
+        .collect();
+    html! {
+        @for (i, both) in all.iter().enumerate() {
+            (cell(both, i.checked_sub(1).map(|before| all[before].common)))
+        }
+    }
+}
+
+fn cell(both: &Both, before: Option<Score>) -> Markup {
+    let change = before.map_or(0, |b| both.common.good as i64 - b.good as i64);
+    html! {
+        td class=(if both.own.of == 0 { "u" } else { "s" }) style=[shade(both.common)] {
+            @match both.common.share() {
+                Some(share) => b { (percent(share, 2)) },
+                None => b { "–" },
+            }
+            @if change != 0 {
+                " " span.step.down[change < 0] { (if change < 0 { "▼" } else { "▲" }) (change.abs()) }
+            }
+            @if both.own.of > 0 && both.own != both.common {
+                small.c { (both.own.share().map_or_else(String::new, |s| percent(s, 2))) " of " (thousands(both.own.of as u64)) }
+            } @else if both.own.of == 0 {
+                small.c { "no verdict" }
+            }
+        }
+    }
+}
+
+/// From the colour of good cases to that of bad ones, over the tenth in which scores differ.
+fn shade(score: Score) -> Option<String> {
+    let share = score.share()?;
+    let good = ((share - 0.9) * 1000.0).round().clamp(0.0, 100.0);
+    Some(format!("--s:{good}%"))
+}
+
+/// The scores of every whole run for the script, newest first: place of the run in the timeline, then by area good and all of the common
+/// set, good and all of the run's own.
+pub(super) fn data(families: &Families, counted: &Counted<'_>) -> Value {
+    let whole = (0..counted.line.runs.len())
+        .rev()
+        .filter(|at| counted.line.runs[*at].whole);
+    let of: Vec<Vec<usize>> = (0..families.areas.len())
+        .map(|area| of_area(families, area))
+        .collect();
+    let rows = whole.map(|at| {
+        let cells = of.iter().map(|of| {
+            let both = counted.scores.sum(of.iter().copied(), at);
+            match both.own.of {
+                0 => json!(0),
+                _ => json!([both.common.good, both.common.of, both.own.good, both.own.of]),
+            }
+        });
+        json!([at, cells.collect::<Vec<Value>>()])
+    });
+    json!({ "areas": families.areas, "rows": rows.collect::<Vec<Value>>() })
+}

@@ -1,0 +1,337 @@
+//! What changed since the last run: per adapter against its run before, worst first.
+
+use super::courses::Courses;
+use super::families::Families;
+use super::looks::Looks;
+use super::places::{Line, Places};
+use super::times::{Series, States, Timed};
+use crate::numbers::{change, count};
+use etalon_history::{Subject, TriageState};
+use etalon_stats::{Cause, ChangePoint, Event};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// The most lines of news on the start page.
+const LINES: usize = 24;
+/// A change of times stays news for so many runs, unless somebody looked at it.
+const RECENT: usize = 20;
+
+/// The kind of a line, worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Kind {
+    Broken,
+    Flaky,
+    Set,
+    Fixed,
+    Times,
+    /// Somebody said that it does not matter, or that it is known.
+    Known,
+}
+
+impl Kind {
+    pub(super) const ALL: [Self; 6] = [
+        Self::Broken,
+        Self::Flaky,
+        Self::Set,
+        Self::Fixed,
+        Self::Times,
+        Self::Known,
+    ];
+
+    /// The most lines of the kind where there are many of others.
+    fn due(self) -> usize {
+        match self {
+            Self::Broken => 10,
+            Self::Flaky | Self::Set | Self::Fixed => 3,
+            Self::Times => 4,
+            Self::Known => 1,
+        }
+    }
+
+    /// The class that colours a line.
+    pub(super) fn colour(self) -> &'static str {
+        match self {
+            Self::Broken => "f",
+            Self::Flaky => "o",
+            Self::Set => "n",
+            Self::Fixed => "p",
+            Self::Times => "b",
+            Self::Known => "u",
+        }
+    }
+}
+
+/// A line of the news.
+pub(super) struct Item {
+    pub(super) kind: Kind,
+    /// The sign and the word: `✗ broken`.
+    pub(super) word: String,
+    /// The case, or the family of cases.
+    pub(super) subject: String,
+    /// True if the subject is a family.
+    pub(super) is_family: bool,
+    /// What happened, and where.
+    pub(super) text: String,
+    /// What people said, or that it is expected.
+    pub(super) chip: String,
+    /// The order within the kind.
+    rank: (i64, String),
+}
+
+/// A timeline as the news reads it.
+pub(super) struct Told<'a> {
+    pub(super) line: &'a Line<'a>,
+    pub(super) courses: &'a Courses,
+    /// The last run, as a place in the timeline.
+    pub(super) last: usize,
+}
+
+/// The news, and what is counted of them per timeline.
+pub(super) struct News {
+    /// All lines, worst first.
+    pub(super) items: Vec<Item>,
+    /// Broken, flaky, fixed, appeared and gone cases by timeline.
+    pub(super) counts: Vec<[u64; 5]>,
+}
+
+/// The place of an event in [`News::counts`] and in files.
+pub(super) fn number(event: Event) -> usize {
+    match event {
+        Event::Broken => 0,
+        Event::Flaky => 1,
+        Event::Fixed => 2,
+        Event::Appeared => 3,
+        Event::Gone => 4,
+    }
+}
+
+struct Hit {
+    line: usize,
+    text: String,
+    unexpected: bool,
+}
+
+impl News {
+    pub(super) fn find(
+        places: &Places<'_>,
+        told: &[Told<'_>],
+        cases: &[Rc<str>],
+        families: &Families,
+        looks: &Looks,
+        series: &[Series],
+        states: &States,
+    ) -> Self {
+        let mut counts = vec![[0; 5]; told.len()];
+        let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
+        let mut sets: BTreeMap<(usize, u32), BTreeMap<usize, u64>> = BTreeMap::new();
+        for (line, of) in told.iter().enumerate() {
+            for (case, course) in of.courses.of.iter().enumerate() {
+                let Some(course) = course else { continue };
+                for event in course.events.iter().filter(|e| e.at as usize == of.last) {
+                    let kind = number(event.event);
+                    counts[line][kind] += 1;
+                    if kind > 2 {
+                        let of_family = sets.entry((kind, families.of[case])).or_default();
+                        *of_family.entry(line).or_default() += 1;
+                        continue;
+                    }
+                    let (before, now) = (course.look(event.after), course.look(event.at));
+                    hits.entry((kind, case)).or_default().push(Hit {
+                        line,
+                        text: format!("{} → {}", looks.text(before), looks.text(now)),
+                        unexpected: looks.is_unexpected(now),
+                    });
+                }
+            }
+        }
+        let mut items: Vec<Item> = hits
+            .iter()
+            .map(|((kind, case), hits)| of_case(*kind, &cases[*case], hits, told, states))
+            .collect();
+        items.extend(sets.iter().map(|((kind, family), lines)| {
+            of_set(*kind, &families.names[*family as usize], lines, told)
+        }));
+        for one in series {
+            for timed in &one.times {
+                items.extend(of_times(places, one, timed, &cases[one.case], told));
+            }
+        }
+        items.sort_by(|a, b| (a.kind, &a.rank).cmp(&(b.kind, &b.rank)));
+        Self { items, counts }
+    }
+
+    /// The lines for a screen: of each kind its share, and of the worst what room is left.
+    pub(super) fn screen(&self) -> Vec<&Item> {
+        let of = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
+        let mut room = LINES;
+        let mut due: BTreeMap<Kind, usize> = BTreeMap::new();
+        for kind in Kind::ALL {
+            let lines = of(kind).count().min(kind.due()).min(room);
+            due.insert(kind, lines);
+            room -= lines;
+        }
+        for kind in Kind::ALL {
+            let lines = due.entry(kind).or_default();
+            let more = (of(kind).count() - *lines).min(room);
+            *lines += more;
+            room -= more;
+        }
+        due.into_iter()
+            .flat_map(|(kind, lines)| of(kind).take(lines))
+            .collect()
+    }
+}
+
+fn of_case(kind: usize, case: &str, hits: &[Hit], told: &[Told<'_>], states: &States) -> Item {
+    let unexpected = hits.iter().any(|hit| hit.unexpected);
+    let said = |hit: &Hit| {
+        states.get(&Subject {
+            case: case.to_owned(),
+            timeline: told[hit.line].line.name.to_string(),
+            step: None,
+        })
+    };
+    let entries: Vec<_> = hits.iter().map(said).collect();
+    let is_known = kind < 2
+        && entries.iter().all(|entry| {
+            entry.is_some_and(|e| matches!(e.state, TriageState::Ignored | TriageState::Real))
+        });
+    let chip = match entries.iter().flatten().next() {
+        Some(entry) if entry.reason.is_empty() => entry.state.name().to_owned(),
+        Some(entry) => format!("{}: {}", entry.state.name(), entry.reason),
+        None if kind < 2 && !unexpected => "expected".to_owned(),
+        None => String::new(),
+    };
+    // Adapters with the same change share a mention.
+    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
+    for hit in hits {
+        let name: &str = &told[hit.line].line.name;
+        match texts.iter_mut().find(|(text, _)| *text == hit.text) {
+            Some((_, names)) => names.push(name),
+            None => texts.push((&hit.text, vec![name])),
+        }
+    }
+    let texts: Vec<String> = texts
+        .into_iter()
+        .map(|(text, names)| format!("{text} on {}", named(&names)))
+        .collect();
+    let (kind_of, word) = match kind {
+        0 => (Kind::Broken, "✗ broken"),
+        1 => (Kind::Flaky, "⇄ flaky"),
+        _ => (Kind::Fixed, "✓ fixed"),
+    };
+    Item {
+        kind: if is_known { Kind::Known } else { kind_of },
+        word: word.to_owned(),
+        subject: case.to_owned(),
+        is_family: false,
+        text: texts.join("; "),
+        chip,
+        rank: (
+            i64::from(!unexpected) * 1_000_000 - hits.len() as i64,
+            case.to_owned(),
+        ),
+    }
+}
+
+fn of_set(kind: usize, family: &str, lines: &BTreeMap<usize, u64>, told: &[Told<'_>]) -> Item {
+    let most = lines.values().max().copied().unwrap_or(0);
+    let names: Vec<&str> = lines.keys().map(|line| &*told[*line].line.name).collect();
+    let (word, verb) = match kind {
+        3 => ("+ appeared", "new"),
+        _ => ("− gone", "without a verdict"),
+    };
+    Item {
+        kind: Kind::Set,
+        word: word.to_owned(),
+        subject: family.to_owned(),
+        is_family: true,
+        text: format!("{} {verb} on {}", count(most, "case"), named(&names)),
+        chip: String::new(),
+        rank: (-(most as i64), family.to_owned()),
+    }
+}
+
+fn named(names: &[&str]) -> String {
+    match names {
+        [a] => (*a).to_owned(),
+        [a, b] => format!("{a} and {b}"),
+        [a, b, more @ ..] => format!("{a}, {b} and {}", count(more.len() as u64, "other")),
+        [] => String::new(),
+    }
+}
+
+/// The changes of one series that are news.
+fn of_times(
+    places: &Places<'_>,
+    series: &Series,
+    timed: &Timed,
+    case: &str,
+    told: &[Told<'_>],
+) -> Vec<Item> {
+    let line = &told[series.line].line.runs;
+    // The end of a series that nobody measures any more is no news.
+    let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
+    let recent = |point: &ChangePoint| {
+        let place = timed.runs[point.index];
+        line.partition_point(|run| run.place < place) + RECENT >= line.len()
+    };
+    let mut items = Vec::new();
+    for (point, state, fresh) in timed.told() {
+        let is_open = state.is_none_or(|entry| entry.state == TriageState::New);
+        let fresh = fresh && is_measured;
+        if !(fresh || is_open && recent(point)) {
+            continue;
+        }
+        let known = !is_open || point.cause == Cause::Machine || point.returns;
+        let run = |at: usize| {
+            let at = at.min(timed.runs.len() - 1);
+            places.day(timed.runs[at])
+        };
+        let ratio = &point.ratio;
+        let size = ratio.estimate.ln().abs();
+        items.push(Item {
+            kind: if known { Kind::Known } else { Kind::Times },
+            word: match ratio.estimate > 1.0 {
+                true => "▲ slower".to_owned(),
+                false => "▼ faster".to_owned(),
+            },
+            subject: case.to_owned(),
+            is_family: false,
+            text: format!(
+                "{} {} ({} to {}), p {}, between {} and {} on {}; a change of {} would be visible; {}{}",
+                timed.time.name(),
+                change(ratio.estimate),
+                change(ratio.low),
+                change(ratio.high),
+                probability(point.p),
+                run(point.between[0]),
+                run(point.between[1]),
+                told[series.line].line.name,
+                change(point.visible),
+                point.cause.text(),
+                if point.returns { "; it goes back and forth" } else { "" },
+            ),
+            chip: match state {
+                Some(entry) if entry.reason.is_empty() => entry.state.name().to_owned(),
+                Some(entry) => format!("{}: {}", entry.state.name(), entry.reason),
+                None if fresh => "found with this run".to_owned(),
+                None => "new".to_owned(),
+            },
+            rank: (
+                i64::from(ratio.estimate < 1.0) * 1_000_000_000 - (size * 1e6) as i64,
+                case.to_owned(),
+            ),
+        });
+    }
+    items
+}
+
+/// A probability in two digits, or as a bound where it is very small.
+pub(super) fn probability(p: f64) -> String {
+    match p {
+        p if p < 1e-9 => "< 1e-9".to_owned(),
+        p if p < 0.001 => format!("{p:.0e}"),
+        p => format!("{p:.3}"),
+    }
+}

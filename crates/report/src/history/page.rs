@@ -1,0 +1,221 @@
+//! The start page.
+
+use super::families::Families;
+use super::matrix::{self, Counted};
+use super::news::{Item, News, Told};
+use super::places::Places;
+use super::sparkline::{moves, sparkline};
+use crate::numbers::{count, percent, thousands};
+use crate::page::adapter::breakable;
+use crate::page::{self, Page, link};
+use etalon_history::History;
+use etalon_stats::Score;
+use maud::{Markup, PreEscaped, html};
+
+/// In one function, so that the page has no global names but the browser's.
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("script/load.js"),
+    include_str!("script/runs.js"),
+    include_str!("script/case.js"),
+    include_str!("script/chart.js"),
+    include_str!("script/lists.js"),
+    include_str!("script/route.js"),
+    "})();\n",
+);
+
+/// What the start page is made from.
+pub(super) struct Start<'a> {
+    pub(super) history: &'a History,
+    pub(super) places: &'a Places<'a>,
+    pub(super) families: &'a Families,
+    pub(super) counted: &'a [Counted<'a>],
+    pub(super) told: &'a [Told<'a>],
+    pub(super) news: &'a News,
+    pub(super) cases: usize,
+    /// What the script needs to find files, as JSON.
+    pub(super) index: &'a str,
+}
+
+/// The HTML of the start page.
+pub(super) fn page(start: &Start<'_>) -> String {
+    let places = start.places;
+    let (first, last) = (places.day(0), places.day(places.runs.len() - 1));
+    let runs = count(places.runs.len() as u64, "run");
+    let file = start.history.path().file_name();
+    let source = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let main = html! {
+        div id="start" {
+            h1 { "History" }
+            p.lead {
+                (runs) ", " (first) " to " (last) ", of " (thousands(start.cases as u64)) " cases on "
+                (count(places.timelines.len() as u64, "adapter")) "."
+            }
+            form.find id="find" role="search" hidden {
+                label for="q" { "Case" }
+                input id="q" type="search" autocomplete="off" spellcheck="false" placeholder="words of an id";
+                span.soft { kbd { "/" } " searches, " kbd { "j" } " and " kbd { "k" } " go through links, " kbd { "Esc" } " goes back" }
+            }
+            noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. What follows needs none." } }
+            (news(start))
+            (last_runs(start))
+            section id="over-time" {
+                h2 { "Areas over time" }
+                @for (number, counted) in start.counted.iter().enumerate() {
+                    (matrix::table(places, start.families, number, counted))
+                }
+            }
+            (families(start))
+        }
+        article id="view" aria-labelledby="view-title" hidden {
+            p { a id="back" href="#" { "← Start" } }
+            h1 id="view-title" tabindex="-1" {}
+            div id="view-body" {}
+            p id="view-state" role="status" {}
+        }
+        // A string of JSON in which nothing can end the element.
+        script type="application/json" id="index" { (PreEscaped(start.index.replace('<', "\\u003c"))) }
+        (page::script(SCRIPT))
+    };
+    Page {
+        title: "History – etalon",
+        styles: &[include_str!("history.css")],
+        script: Some(SCRIPT),
+        beside: true,
+        main,
+        source: &source,
+    }
+    .html()
+}
+
+fn news(start: &Start<'_>) -> Markup {
+    let screen = start.news.screen();
+    let all = start.news.items.len();
+    html! {
+        section id="news" {
+            h2 { "Since the last run" }
+            @if screen.is_empty() {
+                p.state.good { "Nothing changed." }
+            } @else {
+                ul.news { @for item in &screen { (line(item)) } }
+                @if all > screen.len() {
+                    p { a href="#all-news" { "All " (thousands(all as u64)) " changes" } }
+                }
+            }
+        }
+    }
+}
+
+fn line(item: &Item) -> Markup {
+    let href = match item.is_family {
+        true => format!("#q={}", link::encoded(&item.subject)),
+        false => link::case(&item.subject),
+    };
+    html! {
+        li class=(item.kind.colour()) {
+            b { (item.word) } " " a href=(href) { code { (item.subject) } }
+            @if !item.chip.is_empty() { span.chip { (item.chip) } }
+            " " span.h { (item.text) }
+        }
+    }
+}
+
+/// The last run of every adapter, and what changed in numbers.
+fn last_runs(start: &Start<'_>) -> Markup {
+    let places = start.places;
+    let run = |line: &Told<'_>, at: usize| {
+        let run = &line.line.runs[at];
+        html! {
+            a href={ "#run=" (places.runs[run.place].id) } { (places.day(run.place)) }
+            " " (run.part.adapter.shown_version())
+        }
+    };
+    html! {
+        div.wide { table.last {
+            caption { "Each adapter against its run before" }
+            thead { tr {
+                th scope="col" { "Adapter" } th scope="col" { "Last run" } th scope="col" { "Run before" }
+                @for word in ["Broken", "Flaky", "Fixed", "Appeared", "Gone"] { th.num scope="col" { (word) } }
+                th scope="col" { "Last change" }
+            } }
+            tbody { @for (line, counts) in start.told.iter().zip(&start.news.counts) {
+                tr {
+                    th scope="row" { a href={ "#adapter=" (link::encoded(&line.line.name)) } { (breakable(&line.line.name)) } }
+                    td { (run(line, line.last)) @if !line.line.runs[line.last].whole { " " small { "(a part)" } } }
+                    td { @match line.last.checked_sub(1) { Some(before) => (run(line, before)), None => "none" } }
+                    @for (kind, n) in counts.iter().enumerate() {
+                        td.num.f[kind == 0 && *n > 0].o[kind == 1 && *n > 0].p[kind == 2 && *n > 0] { (n) }
+                    }
+                    td { @match last_change(line) { Some(at) => (run(line, at)), None => "none" } }
+                }
+            } }
+        } }
+    }
+}
+
+/// The last run that shows an event.
+fn last_change(told: &Told<'_>) -> Option<usize> {
+    let courses = told.courses.of.iter().flatten();
+    let events = courses.flat_map(|course| &course.events);
+    events.map(|event| event.at as usize).max()
+}
+
+/// A curve per family and adapter. Families that never moved are folded away.
+fn families(start: &Start<'_>) -> Markup {
+    let scores: Vec<Vec<Vec<Score>>> = (0..start.families.names.len())
+        .map(|family| {
+            let of = |counted: &Counted<'_>| {
+                let whole = (0..counted.line.runs.len()).filter(|at| counted.line.runs[*at].whole);
+                whole.map(|at| counted.scores.common(family, at)).collect()
+            };
+            start.counted.iter().map(of).collect()
+        })
+        .collect();
+    let is_moving = |family: &usize| scores[*family].iter().any(|of| moves(of));
+    let (moving, still): (Vec<usize>, Vec<usize>) = (0..scores.len()).partition(is_moving);
+    html! {
+        section id="families" {
+            h2 { "Families" }
+            p.cap { "Good of the cases that all whole runs of an adapter have, from the first run to the last; the height is from the least to the most." }
+            @if !moving.is_empty() { (curves(start, &scores, &moving, "Families whose score moved")) }
+            @if !still.is_empty() {
+                details {
+                    summary { (still.len()) " without a change" }
+                    (curves(start, &scores, &still, "Families whose score never moved"))
+                }
+            }
+        }
+    }
+}
+
+fn curves(start: &Start<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], caption: &str) -> Markup {
+    html! {
+        div.wide { table.curves {
+            caption.vh { (caption) }
+            thead { tr {
+                th scope="col" { "Family" }
+                @for counted in start.counted { th scope="col" { (breakable(&counted.line.name)) } }
+            } }
+            tbody { @for family in shown {
+                @let name = &start.families.names[*family];
+                tr {
+                    th scope="row" { a href={ "#q=" (link::encoded(name)) } { (name) } }
+                    @for of in &scores[*family] { (curve(of)) }
+                }
+            } }
+        } }
+    }
+}
+
+fn curve(scores: &[Score]) -> Markup {
+    let last = scores.last().copied().unwrap_or_default();
+    html! {
+        @match last.share() {
+            Some(share) => td {
+                @if moves(scores) { (sparkline(scores)) " " }
+                small { (percent(share, 1)) " of " (thousands(last.of as u64)) }
+            },
+            None => td.u { small { "no common case" } },
+        }
+    }
+}

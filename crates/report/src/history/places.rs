@@ -1,0 +1,123 @@
+//! The runs of a history in order, and those of each timeline.
+
+use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo, format_time};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Runs before and after one within which the longest tells what the whole suite was.
+const AROUND: usize = 40;
+
+/// The runs of a history, and its timelines.
+pub(super) struct Places<'a> {
+    /// By time, without those that were resumed later.
+    pub(super) runs: Vec<&'a RunInfo>,
+    /// By name.
+    pub(super) timelines: Vec<Line<'a>>,
+    of: HashMap<RunId, usize>,
+}
+
+/// A timeline: an adapter over its runs.
+pub(super) struct Line<'a> {
+    pub(super) name: Rc<str>,
+    /// Oldest first; at least one.
+    pub(super) runs: Vec<LineRun<'a>>,
+}
+
+/// An adapter in one run.
+pub(super) struct LineRun<'a> {
+    /// The place of the run.
+    pub(super) place: usize,
+    pub(super) part: &'a AdapterRun,
+    /// True if the run is of the whole suite and came to its end, so that a case without a record is missing.
+    pub(super) whole: bool,
+}
+
+impl<'a> Places<'a> {
+    /// The runs that have all of these labels.
+    pub(super) fn new(history: &'a History, only: &Labels) -> Self {
+        let runs: Vec<&RunInfo> = history
+            .runs()
+            .iter()
+            .filter(|run| run.resumed.is_none())
+            .filter(|run| {
+                only.iter()
+                    .all(|(key, value)| run.labels.get(key) == Some(value))
+            })
+            .collect();
+        let of: HashMap<RunId, usize> = runs.iter().map(|run| run.id).zip(0..).collect();
+        let names = history.timelines();
+        let number: HashMap<Rc<str>, usize> = names.iter().cloned().zip(0..).collect();
+        let mut timelines: Vec<Line<'a>> = names
+            .into_iter()
+            .map(|name| Line {
+                name,
+                runs: Vec::new(),
+            })
+            .collect();
+        for part in history.adapter_runs() {
+            let line = number
+                .get(&part.timeline)
+                .and_then(|n| timelines.get_mut(*n));
+            if let (Some(place), Some(line)) = (of.get(&part.run), line) {
+                line.runs.push(LineRun {
+                    place: *place,
+                    part,
+                    whole: false,
+                });
+            }
+        }
+        timelines.retain(|line| !line.runs.is_empty());
+        for line in &mut timelines {
+            line.mark_whole(&runs);
+        }
+        Self {
+            runs,
+            timelines,
+            of,
+        }
+    }
+
+    /// The place of a run; `None` of one that was resumed later.
+    pub(super) fn of(&self, run: RunId) -> Option<usize> {
+        self.of.get(&run).copied()
+    }
+
+    /// The day of a run: `2026-11-24`.
+    pub(super) fn day(&self, place: usize) -> String {
+        day(self.runs[place])
+    }
+}
+
+/// The day on which a run began, or its driver was released.
+pub(super) fn day(run: &RunInfo) -> String {
+    format_time(run.time()).chars().take(10).collect()
+}
+
+impl Line<'_> {
+    /// A run is whole if it came to its end and has nine tenths of the records of the longest around it. The history does
+    /// not know which cases a run was to draw.
+    fn mark_whole(&mut self, runs: &[&RunInfo]) {
+        let records: Vec<u64> = self
+            .runs
+            .iter()
+            .map(|run| u64::from(run.part.records))
+            .collect();
+        for (at, run) in self.runs.iter_mut().enumerate() {
+            let near = at.saturating_sub(AROUND)..(at + AROUND + 1).min(records.len());
+            let most = records[near].iter().max().copied().unwrap_or(0);
+            run.whole = runs[run.place].missing == 0 && records[at] * 10 >= most * 9;
+        }
+        if self.runs.iter().all(|run| !run.whole) {
+            for run in &mut self.runs {
+                run.whole = true;
+            }
+        }
+    }
+
+    /// The last run that says what the driver draws: a bench does where there is nothing else.
+    pub(super) fn last(&self, runs: &[&RunInfo]) -> usize {
+        let is_run = |run: &LineRun<'_>| runs[run.place].kind != Kind::Bench;
+        let last = self.runs.iter().rposition(is_run);
+        last.unwrap_or(self.runs.len() - 1)
+    }
+}

@@ -1,0 +1,185 @@
+//! Series of frame times with their change points, and what people said of these.
+
+use super::places::Places;
+use etalon_history::{
+    FrameTimes, History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry,
+};
+use etalon_record::Time;
+use etalon_stats::{ChangePoint, Changes, Point, change_points, median_interval};
+use std::collections::BTreeMap;
+
+/// The times of which series are shown.
+const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
+/// A change so many runs ago or less may have been found with the last run.
+const RECENT: usize = 40;
+
+/// The times of one case on one adapter and one machine, all beside the same ruler.
+pub(super) struct Series {
+    /// The case's number less one.
+    pub(super) case: usize,
+    /// The place of the timeline.
+    pub(super) line: usize,
+    pub(super) machine: MachineId,
+    /// The description of the ruler; `None` where no ruler was timed.
+    pub(super) ruler: Option<String>,
+    pub(super) times: Vec<Timed>,
+}
+
+/// One time of a series.
+pub(super) struct Timed {
+    pub(super) time: Time,
+    /// The places of the runs.
+    pub(super) runs: Vec<usize>,
+    pub(super) points: Vec<Point>,
+    pub(super) changes: Changes,
+    /// What people said, by change.
+    pub(super) states: Vec<Option<TriageEntry>>,
+    /// True by change if the last run showed it.
+    pub(super) fresh: Vec<bool>,
+}
+
+/// What people said last of each subject.
+pub(super) type States = BTreeMap<Subject, TriageEntry>;
+
+/// Reads all series, sorted by case.
+pub(super) fn read(
+    history: &History,
+    places: &Places<'_>,
+    states: &States,
+) -> Result<Vec<Series>, HistoryError> {
+    let mut all = Vec::new();
+    for key in history.series_keys()? {
+        let line = places.timelines.iter().position(|l| l.name == key.timeline);
+        let Some(line) = line else { continue };
+        // Times beside different rulers do not compare.
+        let mut parts: BTreeMap<Option<&str>, Vec<TimePoint>> = BTreeMap::new();
+        for point in history.series(&key)? {
+            let run = history.run(point.run);
+            let ruler = run.and_then(|run| run.ruler.as_deref());
+            parts.entry(ruler).or_default().push(point);
+        }
+        let of_case = Said::of(history, &key, states)?;
+        for (ruler, points) in parts {
+            let times = TIMES.into_iter();
+            let times: Vec<Timed> = times
+                .filter_map(|time| Timed::new(time, &points, places, &of_case))
+                .collect();
+            if !times.is_empty() {
+                all.push(Series {
+                    case: key.case.number() as usize - 1,
+                    line,
+                    machine: key.machine,
+                    ruler: ruler.map(str::to_owned),
+                    times,
+                });
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// What people said of the steps of one series: the time, the place of the run, the entry.
+struct Said<'a> {
+    entries: Vec<(Time, etalon_history::RunId, &'a TriageEntry)>,
+}
+
+impl<'a> Said<'a> {
+    fn of(history: &History, key: &SeriesKey, states: &'a States) -> Result<Self, HistoryError> {
+        if states.is_empty() {
+            return Ok(Self {
+                entries: Vec::new(),
+            });
+        }
+        let case = history.case_name(key.case)?;
+        let of = |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
+        let entries = states.iter().filter(|(subject, _)| of(subject));
+        let entries = entries.filter_map(|(subject, entry)| {
+            let step = subject.step.filter(|step| step.machine == key.machine)?;
+            Some((step.time, step.run, entry))
+        });
+        Ok(Self {
+            entries: entries.collect(),
+        })
+    }
+}
+
+impl Timed {
+    fn new(time: Time, points: &[TimePoint], places: &Places<'_>, said: &Said<'_>) -> Option<Self> {
+        let usable = points.iter().filter_map(|point| {
+            let place = places.of(point.run)?;
+            Some((place, measured(time, &point.times)?))
+        });
+        let (runs, points): (Vec<usize>, Vec<Point>) = usable.unzip();
+        // All points were checked, so there is no error.
+        let changes = change_points(&points).ok().filter(|_| !points.is_empty())?;
+        let states = changes.points.iter().map(|change| {
+            let [after, by] = change.between.map(|at| runs.get(at).copied());
+            let is_here = |place: usize| {
+                runs.get(change.index) == Some(&place)
+                    || after.is_some_and(|after| place > after) && by.is_some_and(|by| place <= by)
+            };
+            let entries = said
+                .entries
+                .iter()
+                .filter(|(of, run, _)| *of == time && places.of(*run).is_some_and(is_here));
+            entries
+                .map(|(.., entry)| (*entry).clone())
+                .max_by_key(|e| e.at)
+        });
+        let states = states.collect();
+        let fresh = fresh(&points, &changes);
+        Some(Self {
+            time,
+            runs,
+            points,
+            changes,
+            states,
+            fresh,
+        })
+    }
+
+    /// The changes with what people said of each, and whether the last run showed them.
+    pub(super) fn told(&self) -> impl Iterator<Item = (&ChangePoint, Option<&TriageEntry>, bool)> {
+        let told = self.changes.points.iter().zip(&self.states);
+        told.zip(&self.fresh)
+            .map(|((change, state), fresh)| (change, state.as_ref(), *fresh))
+    }
+}
+
+/// True by change if it was not found without the last run.
+fn fresh(points: &[Point], changes: &Changes) -> Vec<bool> {
+    let recent = |change: &&ChangePoint| change.index + RECENT >= points.len();
+    let before = match changes.points.last().filter(recent) {
+        Some(_) => change_points(&points[..points.len() - 1]).ok(),
+        None => None,
+    };
+    let each = changes.points.iter().map(|change| {
+        let same = |other: &ChangePoint| {
+            let [from, to] = change.between;
+            (from..=to).contains(&other.index)
+                || (other.between[0]..=other.between[1]).contains(&change.index)
+        };
+        let known = before.as_ref().map(|all| all.points.iter().any(same));
+        recent(&change) && known == Some(false)
+    });
+    each.collect()
+}
+
+/// The point of one time; `None` where it was not measured, or is none.
+fn measured(time: Time, times: &FrameTimes) -> Option<Point> {
+    let is_time = |t: &f64| t.is_finite() && *t > 0.0;
+    let mut rounds: Vec<f64> = times.of(time).iter().map(|t| f64::from(*t)).collect();
+    rounds.sort_unstable_by(f64::total_cmp);
+    let median = times.median(time).filter(is_time)?;
+    let interval = match (time, times.interval) {
+        (Time::Wall, Some(of)) => Some(of.map(f64::from)),
+        _ => median_interval(&rounds),
+    };
+    let holds =
+        |[low, high]: &[f64; 2]| is_time(low) && is_time(high) && *low <= median && median <= *high;
+    Some(Point {
+        median,
+        interval: interval.filter(holds),
+        ruler: times.ruler_median().filter(is_time),
+    })
+}
