@@ -19,6 +19,8 @@ const SHARED: &str = "
     required binary run (UTF8);
     required int64 time;
     required binary kind (UTF8);
+    required binary etalon (UTF8);
+    required binary profile (UTF8);
     required binary commit (UTF8);
     required binary machine (UTF8);
     required binary labels (UTF8);
@@ -26,12 +28,17 @@ const SHARED: &str = "
     required binary driver (UTF8);
     required binary version (UTF8);";
 
+/// The texts among the shared columns.
+const SHARED_TEXTS: usize = 10;
+
 const RECORDS: &str = "
     required binary area (UTF8);
     required binary case (UTF8);
     required binary verdict (UTF8);
     required boolean expected;
     required boolean unexpected;
+    required binary expectation (UTF8);
+    required boolean inferred;
     optional double asserted_share;
     optional double rmse;
     optional double max_error;
@@ -86,13 +93,15 @@ fn schema(name: &str, columns: &str) -> String {
 }
 
 /// The shared columns, each of one value.
-fn shared(history: &History, run: &RunInfo, adapter: &AdapterRun) -> [ByteArray; 8] {
+fn shared(history: &History, run: &RunInfo, adapter: &AdapterRun) -> [ByteArray; SHARED_TEXTS] {
     let machine = history.machine(run.machine).map(machine_text);
     // Labels are a map of strings, which serializes.
     let labels = serde_json::to_string(&run.labels).unwrap_or_default();
     [
         run.digest_text(),
         run.kind.name().to_owned(),
+        run.etalon.clone(),
+        run.profile.clone().unwrap_or_default(),
         run.commit.clone().unwrap_or_default(),
         machine.unwrap_or_default(),
         labels,
@@ -116,7 +125,8 @@ fn records(
     let rows = history.records(adapter)?;
     let n = rows.len();
     let (mut areas, mut cases, mut verdicts) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut expected, mut unexpected) = (Vec::new(), Vec::new());
+    let (mut expected, mut unexpected, mut inferred) = (Vec::new(), Vec::new(), Vec::new());
+    let mut expectations = Vec::new();
     let mut numbers: [Vec<Option<f64>>; 5] = Default::default();
     for (case, outcome) in rows {
         let case = history.case_name(case)?;
@@ -127,6 +137,10 @@ fn records(
         verdicts.push(ByteArray::from(outcome.verdict.to_string().as_str()));
         expected.push(outcome.expected.is_some());
         unexpected.push(outcome.unexpected());
+        expectations.push(ByteArray::from(
+            outcome.expected.as_deref().unwrap_or_default(),
+        ));
+        inferred.push(outcome.inferred);
         let method = outcome.measures.method.as_ref();
         let values = [
             outcome.asserted_share(),
@@ -142,12 +156,14 @@ fn records(
     let mut columns = repeated(&shared(history, run, adapter), run.time(), n);
     columns.extend([areas, cases, verdicts].map(Column::Text));
     columns.extend([expected, unexpected].map(Column::Flag));
+    columns.push(Column::Text(expectations));
+    columns.push(Column::Flag(inferred));
     columns.extend(numbers.map(Column::Number));
     Ok((columns, n as u64))
 }
 
 /// The shared columns of `n` rows of one run.
-fn repeated(values: &[ByteArray; 8], time: i64, n: usize) -> Vec<Column> {
+fn repeated(values: &[ByteArray; SHARED_TEXTS], time: i64, n: usize) -> Vec<Column> {
     let mut columns: Vec<Column> = values
         .iter()
         .map(|value| Column::Text(vec![value.clone(); n]))
@@ -159,7 +175,7 @@ fn repeated(values: &[ByteArray; 8], time: i64, n: usize) -> Vec<Column> {
 /// Rows of frame times that wait for their row group.
 #[derive(Default)]
 struct Times {
-    texts: [Vec<ByteArray>; 8],
+    texts: [Vec<ByteArray>; SHARED_TEXTS],
     time: Vec<i64>,
     cases: Vec<ByteArray>,
     frames: Vec<i64>,
