@@ -80,6 +80,7 @@ fn manual_pages_are_printed_and_written() {
         "etalon-expectations-import",
         "etalon-expectations-export",
         "etalon-history-add",
+        "etalon-history-export",
         "etalon-history-report",
         "etalon-history-show",
         "etalon-history-triage",

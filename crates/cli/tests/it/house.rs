@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 22] = [
+const TABLE: [(&str, &[&str], &[&str]); 23] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -56,6 +56,7 @@ const TABLE: [(&str, &[&str], &[&str]); 22] = [
     ("bundle", &["backend", "frame"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
+    ("export", &["history", "record"], &[]),
     (
         "report",
         &["frame", "history", "methods", "record", "stats"],
@@ -69,6 +70,7 @@ const TABLE: [(&str, &[&str], &[&str]); 22] = [
             "case",
             "cpu",
             "explore",
+            "export",
             "frame",
             "gl",
             "history",

@@ -1,6 +1,7 @@
 //! `etalon history`: runs over time.
 
 mod add;
+mod export;
 mod open;
 mod place;
 mod report;
@@ -18,6 +19,8 @@ use clap::Subcommand;
 pub(crate) enum HistoryCommand {
     /// Add runs, benches and the releases of `etalon bisect`; what is there already is not added again
     Add(add::Arguments),
+    /// Write the history for other programs: tables, samples, series of frame times
+    Export(export::Arguments),
     /// Write the pages of a history: what changed, scores over time, every case, frame times
     Report(report::Arguments),
     /// Show one case over all runs: since when it is broken, fixed or flaky, and when its frame times changed
@@ -30,6 +33,7 @@ pub(crate) enum HistoryCommand {
 pub(crate) fn run(command: &HistoryCommand) -> Result<u8, Failure> {
     match command {
         HistoryCommand::Add(arguments) => add::run(arguments),
+        HistoryCommand::Export(arguments) => export::run(arguments),
         HistoryCommand::Report(arguments) => report::run(arguments),
         HistoryCommand::Show(arguments) => show::run(arguments),
         HistoryCommand::Triage(arguments) => triage::run(arguments),

@@ -1,0 +1,76 @@
+//! `etalon history export`: a history as files for other programs.
+
+use crate::failure::Failure;
+use crate::history_file::{self, DatabaseArguments};
+use crate::output::say;
+use clap::{Args, ValueEnum};
+use etalon_export::{ExportError, Format, Selection};
+use etalon_history::{History, parse_time};
+use std::path::PathBuf;
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FormatName {
+    /// Tables partitioned by date and adapter, for DuckDB, ClickHouse and others
+    Parquet,
+    /// Counts of verdicts and medians of frame times, for Prometheus
+    Openmetrics,
+    /// A CSV file per series of frame times, and Apache Otava's configuration
+    Otava,
+    /// The latest times in Bencher's metric format
+    Bencher,
+    /// The latest times for github-action-benchmark
+    GithubActionBenchmark,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Format of the files
+    #[arg(long, value_enum)]
+    format: FormatName,
+    #[command(flatten)]
+    database: DatabaseArguments,
+    /// Leave out runs before this day or time, such as 2026-01-31
+    #[arg(long, value_name = "DATE")]
+    since: Option<String>,
+    /// Take this many of the latest runs
+    #[arg(long, value_name = "N")]
+    runs: Option<usize>,
+    /// Folder for the files, new or empty
+    #[arg(value_name = "DIR")]
+    dir: PathBuf,
+}
+
+/// Exports a history.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let since = match &arguments.since {
+        None => None,
+        Some(text) => Some(parse_time(text).ok_or_else(|| {
+            Failure::usage(format!("--since {text:?} is no date; write 2026-01-31"))
+        })?),
+    };
+    let format = match arguments.format {
+        FormatName::Parquet => Format::Parquet,
+        FormatName::Openmetrics => Format::OpenMetrics,
+        FormatName::Otava => Format::Otava,
+        FormatName::Bencher => Format::Bencher,
+        FormatName::GithubActionBenchmark => Format::ActionBenchmark,
+    };
+    let selection = Selection {
+        since,
+        last: arguments.runs,
+    };
+    let history = History::open_read(&arguments.database.path()).map_err(history_file::failure)?;
+    let written =
+        etalon_export::export(&history, format, &selection, &arguments.dir).map_err(failure)?;
+    let (rows, files, dir) = (written.rows, written.files, arguments.dir.display());
+    say!("etalon: {rows} rows in {files} files in {dir}");
+    Ok(0)
+}
+
+fn failure(error: ExportError) -> Failure {
+    match error {
+        ExportError::History(error) => history_file::failure(error),
+        ExportError::NotEmpty { .. } => Failure::usage(error),
+        ExportError::Io { .. } | ExportError::Table { .. } => Failure::incomplete(error),
+    }
+}

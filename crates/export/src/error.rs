@@ -1,0 +1,55 @@
+//! Errors of exports.
+
+use etalon_history::HistoryError;
+use parquet::errors::ParquetError;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a history could not be exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The history cannot be read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
+    /// The folder holds something.
+    #[error("{} is not empty; name another folder, or remove it first", path.display())]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The system refused to write.
+    #[error("cannot write {}: {source}; free space or name another folder", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A table could not be written.
+    #[error("cannot write {}: {source}; free space or name another folder", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// The writer's error.
+        source: ParquetError,
+    },
+}
+
+impl ExportError {
+    pub(crate) fn io(path: &Path) -> impl Fn(io::Error) -> Self + use<> {
+        let path = path.to_owned();
+        move |source| Self::Io {
+            path: path.clone(),
+            source,
+        }
+    }
+
+    pub(crate) fn table(path: &Path) -> impl Fn(ParquetError) -> Self + use<> {
+        let path = path.to_owned();
+        move |source| Self::Table {
+            path: path.clone(),
+            source,
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The folder of an export, and names in it.
+
+use crate::error::ExportError;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// The bytes of a name up to which it is written in full. File systems take 255 in one part of a path.
+const LONGEST: usize = 180;
+
+/// Creates the folder of an export, or takes an empty one.
+pub(crate) fn empty(path: &Path) -> Result<(), ExportError> {
+    fs::create_dir_all(path).map_err(ExportError::io(path))?;
+    let mut entries = fs::read_dir(path).map_err(ExportError::io(path))?;
+    match entries.next() {
+        None => Ok(()),
+        Some(_) => Err(ExportError::NotEmpty {
+            path: path.to_owned(),
+        }),
+    }
+}
+
+/// A name as one part of a path: letters, digits, `.`, `_` and `-` as they are, every other byte as `%` and two digits,
+/// which readers of Hive partitions undo. A very long name is cut, and told from others by `place`.
+pub(crate) fn part(name: &str, place: usize) -> String {
+    let mut part = String::new();
+    for byte in name.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'_' | b'-' => {
+                part.push(char::from(byte));
+            }
+            other => {
+                // Writing to a string does not fail.
+                let _ = write!(part, "%{other:02X}");
+            }
+        }
+        if part.len() > LONGEST {
+            let _ = write!(part, "~{place}");
+            break;
+        }
+    }
+    part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_hold_no_separators() {
+        assert_eq!(part("vulkan:lavapipe", 0), "vulkan%3Alavapipe");
+        assert_eq!(part("../a\0b\nc%", 0), "..%2Fa%00b%0Ac%25");
+        let long = "é".repeat(500);
+        assert!(part(&long, 7).len() < 200);
+        assert_ne!(part(&long, 7), part(&long, 8));
+    }
+
+    #[test]
+    fn only_an_empty_folder_is_taken() {
+        let dir = tempfile::tempdir().unwrap();
+        let new = dir.path().join("a/b");
+        empty(&new).unwrap();
+        empty(&new).unwrap();
+        fs::write(new.join("x"), "").unwrap();
+        assert!(matches!(empty(&new), Err(ExportError::NotEmpty { .. })));
+        assert!(matches!(empty(&new.join("x")), Err(ExportError::Io { .. })));
+    }
+}

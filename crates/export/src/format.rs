@@ -1,0 +1,52 @@
+//! The formats of exports.
+
+use crate::error::ExportError;
+use crate::selection::Selection;
+use crate::{folder, latest, openmetrics, otava, tables};
+use etalon_history::History;
+use std::path::Path;
+
+/// A format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Tables in Parquet, partitioned by date and adapter.
+    Parquet,
+    /// Samples for Prometheus.
+    OpenMetrics,
+    /// One CSV file per series of frame times, and the configuration for Apache Otava.
+    Otava,
+    /// The latest times of each series in Bencher's format.
+    Bencher,
+    /// The latest times of each series for github-action-benchmark.
+    ActionBenchmark,
+}
+
+/// What an export wrote.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Files.
+    pub files: u64,
+    /// Rows or samples in them.
+    pub rows: u64,
+}
+
+/// Writes the selected runs of a history into a folder, which is created. It must be empty.
+///
+/// # Errors
+/// When the history cannot be read, or the folder holds something or cannot be written to.
+pub fn export(
+    history: &History,
+    format: Format,
+    selection: &Selection,
+    dir: &Path,
+) -> Result<Written, ExportError> {
+    folder::empty(dir)?;
+    let runs = selection.runs(history);
+    match format {
+        Format::Parquet => tables::write(history, &runs, dir),
+        Format::OpenMetrics => openmetrics::write(history, &runs, dir),
+        Format::Otava => otava::write(history, &runs, dir),
+        Format::Bencher => latest::bencher(history, &runs, dir),
+        Format::ActionBenchmark => latest::action(history, &runs, dir),
+    }
+}

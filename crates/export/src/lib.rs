@@ -1,0 +1,23 @@
+//! A history as files for other programs.
+//!
+//! [`export`] writes a history into a folder: Parquet for engines that query tables, OpenMetrics for Prometheus, CSV for
+//! Apache Otava, or the frame times of the last benches for Bencher and github-action-benchmark.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod error;
+mod folder;
+mod format;
+mod latest;
+mod openmetrics;
+mod otava;
+mod selection;
+mod table;
+mod tables;
+
+pub use error::ExportError;
+pub use format::{Format, Written, export};
+pub use selection::Selection;

@@ -1,0 +1,110 @@
+//! Series of frame times as CSV, and the configuration by which Apache Otava imports them.
+
+use crate::error::ExportError;
+use crate::folder::part;
+use crate::format::Written;
+use crate::tables::machine_text;
+use etalon_history::{History, RunId, format_time};
+use etalon_record::Time;
+use serde_json::json;
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// The columns of times.
+const TIMES: [(&str, Time); 4] = [
+    ("wall", Time::Wall),
+    ("cpu", Time::Cpu),
+    ("gpu", Time::Gpu),
+    ("read_back", Time::ReadBack),
+];
+
+pub(crate) fn write(
+    history: &History,
+    runs: &HashSet<RunId>,
+    dir: &Path,
+) -> Result<Written, ExportError> {
+    let mut written = Written::default();
+    let mut tests = serde_json::Map::new();
+    for (place, key) in history.series_keys()?.iter().enumerate() {
+        let case = history.case_name(key.case)?;
+        let mut csv = String::from("time,commit,version,wall,cpu,gpu,read_back,ruler\n");
+        let mut rows = 0;
+        for point in history.series(key)? {
+            let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) else {
+                continue;
+            };
+            let adapters = history.adapters(run.id);
+            let adapter = adapters.iter().find(|a| a.timeline == key.timeline);
+            let commit = run.commit.as_deref().unwrap_or_default();
+            let version = adapter.map_or("", |a| a.adapter.shown_version());
+            let _ = write!(
+                csv,
+                "{},{},{}",
+                format_time(run.time()),
+                field(commit),
+                field(version)
+            );
+            let times = TIMES.map(|(_, time)| point.times.median(time));
+            for value in times.into_iter().chain([point.times.ruler_median()]) {
+                csv.push(',');
+                if let Some(value) = value {
+                    let _ = write!(csv, "{value}");
+                }
+            }
+            csv.push('\n');
+            rows += 1;
+        }
+        if rows == 0 {
+            continue;
+        }
+        let name = format!("{}-{place}.csv", part(&case, place));
+        let path = dir.join(&name);
+        fs::write(&path, csv).map_err(ExportError::io(&path))?;
+        written.files += 1;
+        written.rows += rows;
+        let machine = history.machine(key.machine).map(machine_text);
+        let title = format!("{case} {} {}", key.timeline, machine.unwrap_or_default());
+        let metrics: serde_json::Map<_, _> = TIMES
+            .iter()
+            .map(|(column, _)| {
+                let metric = json!({"column": column, "direction": -1});
+                ((*column).to_owned(), metric)
+            })
+            .collect();
+        let test = json!({
+            "type": "csv",
+            "file": name,
+            "time_column": "time",
+            "attributes": ["commit", "version"],
+            "metrics": metrics,
+        });
+        tests.insert(title, test);
+    }
+    // JSON is YAML.
+    let path = dir.join("otava.yaml");
+    let text = format!("{:#}\n", json!({"tests": tests}));
+    fs::write(&path, text).map_err(ExportError::io(&path))?;
+    written.files += 1;
+    Ok(written)
+}
+
+/// A field of CSV, quoted where it must be.
+fn field(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_quoted() {
+        assert_eq!(field("a"), "a");
+        assert_eq!(field("a,\"b\"\n"), "\"a,\"\"b\"\"\n\"");
+    }
+}

@@ -1,0 +1,28 @@
+//! Which runs are exported.
+
+use etalon_history::{History, RunId};
+use std::collections::HashSet;
+
+/// Which runs are exported. Runs that were resumed later are always left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Selection {
+    /// Leave out runs before this time, in seconds since 1970.
+    pub since: Option<i64>,
+    /// Take this many of the latest runs.
+    pub last: Option<usize>,
+}
+
+impl Selection {
+    /// The selected runs.
+    pub(crate) fn runs(&self, history: &History) -> HashSet<RunId> {
+        let late = |time: i64| self.since.is_none_or(|since| time >= since);
+        history
+            .runs()
+            .iter()
+            .rev()
+            .filter(|run| run.resumed.is_none() && late(run.time()))
+            .take(self.last.unwrap_or(usize::MAX))
+            .map(|run| run.id)
+            .collect()
+    }
+}
