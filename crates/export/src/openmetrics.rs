@@ -45,6 +45,8 @@ pub(crate) fn write(
         "# TYPE {RECORDS} gauge\n# HELP {RECORDS} Records of a run."
     )
     .map_err(&wrong)?;
+    // The samples of a series stand together.
+    let mut series: BTreeMap<String, Vec<(i64, u32)>> = BTreeMap::new();
     for (run, adapter) in counted() {
         if latest.get(&(&*adapter.timeline, run.machine, run.time())) != Some(&run.id) {
             continue;
@@ -62,7 +64,12 @@ pub(crate) fn write(
             ]
             .map(|(name, value)| label(name, value))
             .join(",");
-            let (records, time) = (tally.records, run.time());
+            let sample = (run.time(), tally.records);
+            series.entry(labels).or_default().push(sample);
+        }
+    }
+    for (labels, samples) in &series {
+        for (time, records) in samples {
             writeln!(out, "{RECORDS}{{{labels}}} {records} {time}").map_err(&wrong)?;
             rows += 1;
         }
@@ -81,21 +88,20 @@ pub(crate) fn write(
                 by_time.insert(run.time(), point.times);
             }
         }
-        for (at, times) in &by_time {
-            for time in TIMES {
-                let Some(median) = times.median(time) else {
-                    continue;
-                };
-                let labels = [
-                    ("adapter", &*key.timeline),
-                    ("machine", &machine(history, key.machine)),
-                    ("case", &case),
-                    ("time", time.name()),
-                ]
-                .map(|(name, value)| label(name, value))
-                .join(",");
-                writeln!(out, "{FRAME}{{{labels}}} {median} {at}").map_err(&wrong)?;
-                rows += 1;
+        for time in TIMES {
+            let labels = [
+                ("adapter", &*key.timeline),
+                ("machine", &machine(history, key.machine)),
+                ("case", &case),
+                ("time", time.name()),
+            ]
+            .map(|(name, value)| label(name, value))
+            .join(",");
+            for (at, times) in &by_time {
+                if let Some(median) = times.median(time).filter(|m| m.is_finite()) {
+                    writeln!(out, "{FRAME}{{{labels}}} {median} {at}").map_err(&wrong)?;
+                    rows += 1;
+                }
             }
         }
     }
