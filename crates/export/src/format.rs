@@ -2,6 +2,7 @@
 
 use crate::error::ExportError;
 use crate::selection::Selection;
+use crate::written::Written;
 use crate::{folder, latest, openmetrics, otava, tables};
 use etalon_history::History;
 use std::path::Path;
@@ -19,15 +20,6 @@ pub enum Format {
     Bencher,
     /// The latest times of each series for github-action-benchmark.
     ActionBenchmark,
-}
-
-/// What an export wrote.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Written {
-    /// Files.
-    pub files: u64,
-    /// Rows or samples in them.
-    pub rows: u64,
 }
 
 /// Writes the selected runs of a history into a folder, which is created. It must be empty.

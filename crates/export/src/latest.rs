@@ -1,8 +1,8 @@
 //! The latest times of each series, for services that keep a history of their own.
 
 use crate::error::ExportError;
-use crate::format::Written;
 use crate::tables::machine_text;
+use crate::written::Written;
 use etalon_history::{FrameTimes, History, RunId};
 use etalon_record::Time;
 use serde_json::{Map, Value, json};

@@ -17,7 +17,9 @@ mod otava;
 mod selection;
 mod table;
 mod tables;
+mod written;
 
 pub use error::ExportError;
-pub use format::{Format, Written, export};
+pub use format::{Format, export};
 pub use selection::Selection;
+pub use written::Written;

@@ -1,8 +1,8 @@
 //! `history.om`: samples in the text format of OpenMetrics.
 
 use crate::error::ExportError;
-use crate::format::Written;
 use crate::tables::machine_text;
+use crate::written::Written;
 use etalon_history::{History, Kind, MachineId, RunId};
 use etalon_record::Time;
 use std::collections::{BTreeMap, HashSet};

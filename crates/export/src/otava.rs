@@ -2,8 +2,8 @@
 
 use crate::error::ExportError;
 use crate::folder::part;
-use crate::format::Written;
 use crate::tables::machine_text;
+use crate::written::Written;
 use etalon_history::{History, RunId, format_time};
 use etalon_record::Time;
 use serde_json::json;

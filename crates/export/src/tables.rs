@@ -5,8 +5,8 @@
 
 use crate::error::ExportError;
 use crate::folder::part;
-use crate::format::Written;
 use crate::table::{Column, Table};
+use crate::written::Written;
 use etalon_history::{AdapterRun, History, RunId, RunInfo, format_time};
 use etalon_record::{Machine, Time};
 use parquet::data_type::ByteArray;

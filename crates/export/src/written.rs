@@ -1,0 +1,10 @@
+//! What an export wrote.
+
+/// What an export wrote.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Files.
+    pub files: u64,
+    /// Rows or samples in them.
+    pub rows: u64,
+}
