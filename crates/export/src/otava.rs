@@ -35,8 +35,7 @@ pub(crate) fn write(
             let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) else {
                 continue;
             };
-            let adapters = history.adapters(run.id);
-            let adapter = adapters.iter().find(|a| a.timeline == key.timeline);
+            let adapter = history.adapter(run.id, &key.timeline);
             let commit = run.commit.as_deref().unwrap_or_default();
             let version = adapter.map_or("", |a| a.adapter.shown_version());
             let _ = write!(

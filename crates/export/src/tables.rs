@@ -7,7 +7,7 @@ use crate::error::ExportError;
 use crate::folder::part;
 use crate::table::{Column, Table};
 use crate::written::Written;
-use etalon_history::{AdapterRun, History, RunId, RunInfo, format_time};
+use etalon_history::{AdapterRun, History, RunId, RunInfo};
 use etalon_record::{Machine, Time};
 use parquet::data_type::ByteArray;
 use std::collections::{BTreeMap, HashSet};
@@ -69,7 +69,7 @@ pub(crate) fn write(
     };
     let mut written = Written::default();
     for run in history.runs().iter().filter(|run| runs.contains(&run.id)) {
-        let date: String = format_time(run.time()).chars().take(10).collect();
+        let date = run.day();
         for adapter in history.adapters(run.id).iter().filter(|a| a.records > 0) {
             let path = dir
                 .join("records")
@@ -215,8 +215,7 @@ fn frame_times(
                 .iter()
                 .filter(|p| runs.contains(&p.run))
             {
-                let adapters = history.adapters(point.run);
-                let adapter = adapters.iter().find(|a| a.timeline == key.timeline);
+                let adapter = history.adapter(point.run, &key.timeline);
                 let (Some(run), Some(adapter)) = (history.run(point.run), adapter) else {
                     continue;
                 };

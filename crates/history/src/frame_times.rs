@@ -4,7 +4,7 @@
 //! floats: seven digits are more than any clock has.
 
 use etalon_record::{BenchRecord, Time, Times};
-use etalon_stats::quantile;
+use etalon_stats::{Point, median_interval, quantile};
 
 /// Frame times of one case on one adapter in one run, in seconds. Of a bench, each list has the median of each round;
 /// of a method case in a run, one median. A list is empty where that time was not measured in every round.
@@ -55,6 +55,26 @@ impl FrameTimes {
     /// The median over rounds of the ruler's time.
     pub fn ruler_median(&self) -> Option<f64> {
         median(self.ruler.iter().copied().map(f64::from))
+    }
+
+    /// Returns what a run says of a series of one time; `None` where the time was not measured, or is none.
+    pub fn point(&self, time: Time) -> Option<Point> {
+        let is_time = |t: &f64| t.is_finite() && *t > 0.0;
+        let mut rounds: Vec<f64> = self.of(time).iter().map(|t| f64::from(*t)).collect();
+        rounds.sort_unstable_by(f64::total_cmp);
+        let median = quantile(&rounds, 0.5).filter(is_time)?;
+        let interval = match (time, self.interval) {
+            (Time::Wall, Some(of)) => Some(of.map(f64::from)),
+            _ => median_interval(&rounds),
+        };
+        let holds = |[low, high]: &[f64; 2]| {
+            is_time(low) && is_time(high) && *low <= median && median <= *high
+        };
+        Some(Point {
+            median,
+            interval: interval.filter(holds),
+            ruler: self.ruler_median().filter(is_time),
+        })
     }
 
     /// The times of a bench; `None` without a round.
@@ -123,6 +143,27 @@ mod tests {
             ("perfect/a", false),
         ] {
             assert_eq!(FrameTimes::are_kept(case), due, "{case}");
+        }
+    }
+
+    #[test]
+    fn a_point_has_an_interval_where_rounds_give_one() {
+        let rounds = |wall: Vec<f32>| FrameTimes {
+            wall,
+            ..FrameTimes::default()
+        };
+        let few = rounds(vec![3.0, 1.0, 2.0]).point(Time::Wall).unwrap();
+        assert_eq!((few.median, few.interval), (2.0, None));
+        let many = rounds((1..=30).map(|t| t as f32).collect());
+        let [low, high] = many.point(Time::Wall).unwrap().interval.unwrap();
+        assert!(low < 15.5 && 15.5 < high, "{low} {high}");
+        let method = FrameTimes {
+            interval: Some([1.5, 2.5]),
+            ..rounds(vec![2.0])
+        };
+        assert_eq!(method.point(Time::Wall).unwrap().interval, Some([1.5, 2.5]));
+        for no_time in [vec![], vec![0.0], vec![f32::NAN]] {
+            assert_eq!(rounds(no_time).point(Time::Wall), None);
         }
     }
 

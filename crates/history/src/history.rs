@@ -129,6 +129,12 @@ impl History {
         span.map_or(&[], |[from, to]| &self.adapter_runs[*from..*to])
     }
 
+    /// The adapter of a timeline in a run.
+    pub fn adapter(&self, run: RunId, timeline: &str) -> Option<&AdapterRun> {
+        let mut all = self.adapters(run).iter();
+        all.find(|part| *part.timeline == *timeline)
+    }
+
     /// The adapters of all runs, in the order of [`History::runs`].
     pub fn adapter_runs(&self) -> &[AdapterRun] {
         &self.adapter_runs

@@ -4,6 +4,7 @@ use crate::adapter::Adapter;
 use crate::ids::{MachineId, RunId};
 use crate::kind::Kind;
 use crate::labels::Labels;
+use crate::time::format_time;
 use etalon_record::Machine;
 use std::rc::Rc;
 
@@ -42,6 +43,18 @@ impl RunInfo {
     /// The time at which it stands in the history, in seconds since 1970: the release of the driver, else when it began.
     pub fn time(&self) -> i64 {
         self.released.unwrap_or(self.started)
+    }
+
+    /// The day on which it began, or its driver was released: `2026-01-31`.
+    pub fn day(&self) -> String {
+        format_time(self.time()).chars().take(10).collect()
+    }
+
+    /// True if it has all of these labels.
+    pub fn has_labels(&self, labels: &Labels) -> bool {
+        labels
+            .iter()
+            .all(|(key, value)| self.labels.get(key) == Some(value))
     }
 
     /// The digest as text.

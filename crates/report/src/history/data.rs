@@ -118,7 +118,7 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
                 run.kind.name(),
                 format_time(run.started),
                 match (run.kind, run.released) {
-                    (Kind::Release, Some(at)) => format_time(at).chars().take(10).collect(),
+                    (Kind::Release, Some(_)) => run.day(),
                     _ => String::new(),
                 },
                 run.etalon,

@@ -1,6 +1,6 @@
 //! The runs of a history in order, and those of each timeline.
 
-use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo, format_time};
+use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -38,11 +38,7 @@ impl<'a> Places<'a> {
         let runs: Vec<&RunInfo> = history
             .runs()
             .iter()
-            .filter(|run| run.resumed.is_none())
-            .filter(|run| {
-                only.iter()
-                    .all(|(key, value)| run.labels.get(key) == Some(value))
-            })
+            .filter(|run| run.resumed.is_none() && run.has_labels(only))
             .collect();
         let of: HashMap<RunId, usize> = runs.iter().map(|run| run.id).zip(0..).collect();
         let names = history.timelines();
@@ -84,13 +80,8 @@ impl<'a> Places<'a> {
 
     /// The day of a run: `2026-11-24`.
     pub(super) fn day(&self, place: usize) -> String {
-        day(self.runs[place])
+        self.runs[place].day()
     }
-}
-
-/// The day on which a run began, or its driver was released.
-pub(super) fn day(run: &RunInfo) -> String {
-    format_time(run.time()).chars().take(10).collect()
 }
 
 impl Line<'_> {

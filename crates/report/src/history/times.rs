@@ -2,10 +2,10 @@
 
 use super::places::Places;
 use etalon_history::{
-    FrameTimes, History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry,
+    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry,
 };
 use etalon_record::Time;
-use etalon_stats::{ChangePoint, Changes, Point, change_points, median_interval};
+use etalon_stats::{ChangePoint, Changes, Point, change_points};
 use std::collections::BTreeMap;
 
 /// The times of which series are shown.
@@ -107,7 +107,7 @@ impl Timed {
     fn new(time: Time, points: &[TimePoint], places: &Places<'_>, said: &Said<'_>) -> Option<Self> {
         let usable = points.iter().filter_map(|point| {
             let place = places.of(point.run)?;
-            Some((place, measured(time, &point.times)?))
+            Some((place, point.times.point(time)?))
         });
         let (runs, points): (Vec<usize>, Vec<Point>) = usable.unzip();
         // All points were checked, so there is no error.
@@ -163,23 +163,4 @@ fn fresh(points: &[Point], changes: &Changes) -> Vec<bool> {
         recent(&change) && known == Some(false)
     });
     each.collect()
-}
-
-/// The point of one time; `None` where it was not measured, or is none.
-fn measured(time: Time, times: &FrameTimes) -> Option<Point> {
-    let is_time = |t: &f64| t.is_finite() && *t > 0.0;
-    let mut rounds: Vec<f64> = times.of(time).iter().map(|t| f64::from(*t)).collect();
-    rounds.sort_unstable_by(f64::total_cmp);
-    let median = times.median(time).filter(is_time)?;
-    let interval = match (time, times.interval) {
-        (Time::Wall, Some(of)) => Some(of.map(f64::from)),
-        _ => median_interval(&rounds),
-    };
-    let holds =
-        |[low, high]: &[f64; 2]| is_time(low) && is_time(high) && *low <= median && median <= *high;
-    Some(Point {
-        median,
-        interval: interval.filter(holds),
-        ruler: times.ruler_median().filter(is_time),
-    })
 }

@@ -1,34 +1,24 @@
 //! Where something stands in a history: its run, its driver and its commit, in words.
 
-use etalon_history::{AdapterRun, History, RunId, RunInfo, format_time};
+use etalon_history::{History, RunId, RunInfo, format_time};
 use etalon_report::plain;
 use serde_json::{Value, json};
 
 /// The most characters of a version or a label.
 const LONGEST: usize = 80;
 
-/// The adapter of a timeline in a run.
-pub(super) fn part<'h>(history: &'h History, run: RunId, timeline: &str) -> Option<&'h AdapterRun> {
-    let mut parts = history.adapters(run).iter();
-    parts.find(|part| *part.timeline == *timeline)
-}
-
-/// The day of a run.
-pub(super) fn day(run: &RunInfo) -> String {
-    format_time(run.time()).chars().take(10).collect()
-}
-
 /// A run in words: its number and day.
 pub(super) fn run_text(history: &History, run: RunId) -> String {
     match history.run(run) {
-        Some(info) => format!("run {run} ({})", day(info)),
+        Some(info) => format!("run {run} ({})", info.day()),
         None => format!("run {run}"),
     }
 }
 
 /// The driver's version and the suite's commit in a run.
 pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String; 2] {
-    let driver = part(history, run, timeline)
+    let driver = history
+        .adapter(run, timeline)
         .map(|part| plain(part.adapter.shown_version(), LONGEST))
         .filter(|version| !version.is_empty());
     let commit = history.run(run).map(|info| match &info.commit {
@@ -51,7 +41,7 @@ pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId;
 /// A run for programs.
 pub(super) fn run_json(history: &History, run: RunId, timeline: &str) -> Value {
     let info = history.run(run);
-    let part = part(history, run, timeline);
+    let part = history.adapter(run, timeline);
     json!({
         "run": run.number(),
         "digest": info.map(RunInfo::digest_text),

@@ -5,8 +5,8 @@ use super::sparkline;
 use super::verdicts::is_meant;
 use clap::ValueEnum;
 use etalon_history::{
-    History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TimePoint,
-    TriageEntry, TriageState,
+    History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TriageEntry,
+    TriageState,
 };
 use etalon_record::Time;
 use etalon_report::plain;
@@ -100,7 +100,7 @@ pub(super) fn of_key(
 ) -> Result<Vec<Series>, HistoryError> {
     let mut by_ruler: BTreeMap<Option<&str>, Vec<(RunId, Point)>> = BTreeMap::new();
     for timed in history.series(key)? {
-        let (Some(info), Some(point)) = (history.run(timed.run), point(&timed, time)) else {
+        let (Some(info), Some(point)) = (history.run(timed.run), timed.times.point(time)) else {
             continue;
         };
         if is_meant(history, timed.run, labels) {
@@ -126,23 +126,6 @@ pub(super) fn of_key(
         });
     }
     Ok(found)
-}
-
-/// What a run says of a series; `None` where this time was not measured or is no time.
-fn point(timed: &TimePoint, time: Time) -> Option<Point> {
-    let is_time = |time: &f64| time.is_finite() && *time > 0.0;
-    let median = timed.times.median(time).filter(is_time)?;
-    let holds = |[low, high]: &[f64; 2]| is_time(low) && *low <= median && median <= *high;
-    Some(Point {
-        median,
-        interval: timed
-            .times
-            .interval
-            .filter(|_| time == Time::Wall)
-            .map(|ends| ends.map(f64::from))
-            .filter(holds),
-        ruler: timed.times.ruler_median().filter(is_time),
-    })
 }
 
 /// The change of a ratio in per cent, with its sign.

@@ -94,11 +94,7 @@ fn list(
     for run in history.runs() {
         let of_run = history.adapters(run.id).iter();
         let parts: Vec<_> = of_run.filter(|p| timelines.contains(&p.timeline)).collect();
-        if parts.is_empty()
-            || !labels
-                .iter()
-                .all(|(key, value)| run.labels.get(key) == Some(value))
-        {
+        if parts.is_empty() || !run.has_labels(labels) {
             continue;
         }
         if format == Format::Json {

@@ -28,12 +28,8 @@ pub(super) struct Verdicts {
 
 /// True if a run has all of these labels and was not resumed later.
 pub(super) fn is_meant(history: &History, run: RunId, labels: &Labels) -> bool {
-    let has = |(key, value): (&String, &String)| {
-        let info = history.run(run);
-        info.is_some_and(|info| info.labels.get(key) == Some(value))
-    };
-    let stands = history.run(run).is_some_and(|info| info.resumed.is_none());
-    stands && labels.iter().all(has)
+    let info = history.run(run);
+    info.is_some_and(|info| info.resumed.is_none() && info.has_labels(labels))
 }
 
 /// One case on all adapters, or on some, over the runs with these labels.
