@@ -97,28 +97,24 @@ impl Edges {
         }
     }
 
-    /// Returns the rows of a triangle that is not larger than a tile, beginning from a texel that is not farther from it
-    /// than a tile.
+    /// Returns the [rows](Self::rows) of a triangle that is not larger than a tile, beginning from a texel that is not
+    /// farther from it than a tile.
     #[inline(always)]
-    pub(crate) fn near(triangle: &Triangle, [x, y]: [i32; 2], sample: [i32; 2]) -> Rows {
+    pub(crate) fn near(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
-        let corners = clockwise(triangle);
-        let mut rows = Rows {
-            at: [0; 3],
-            across: [0; 3],
-            down: [0; 3],
-        };
-        for i in 0..3 {
-            let ([px, py], [qx, qy]) = (corners[i], corners[(i + 1) % 3]);
-            let inside = (qy < py) | ((qy == py) & (qx > px));
-            let (across, down) = (py - qy, qx - px);
+        let mut at = [0; 3];
+        for (i, at) in at.iter_mut().enumerate() {
+            let [px, py] = self.from[i];
             // Products of numbers of 15 bits, and a shift that rounds down.
-            let at = across * (point[0] - px) + down * (point[1] - py) + i32::from(inside) - 1;
-            rows.at[i] = at >> UNITS.ilog2();
-            (rows.across[i], rows.down[i]) = (across, down);
+            let value = self.across[i] * (point[0] - px) + self.down[i] * (point[1] - py);
+            *at = (value + self.bias[i] as i32) >> UNITS.ilog2();
         }
-        rows
+        Rows {
+            at,
+            across: self.across,
+            down: self.down,
+        }
     }
 
     /// Returns the signs of the edge functions at one point of the texels of a tile's rows, beginning from a texel.

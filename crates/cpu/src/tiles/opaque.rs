@@ -100,13 +100,13 @@ impl Store {
     ) {
         let zero = i32x8::splat(simd, 0);
         let numbers = i32x8::from_slice(simd, &NUMBERS[..8]);
-        let [less, equal, greater] = self.answers::<S, i32x8<S>>(simd);
-        let (color, write) = (self.color.unwrap_or(0), self.write);
-        let color = u32x8::splat(simd, color);
+        let answers = self.answers::<S, u32x8<S>>(simd);
+        let color = u32x8::splat(simd, self.color.unwrap_or(0));
         for triangle in triangles {
             let [start, first, _, last] = triangle.around.map(i32::from);
             let column = start.min(left + TILE as i32 - NARROW);
-            let Rows { at, across, down } = Edges::near(triangle, [column, first], planes.position);
+            let Rows { at, across, down } =
+                Edges::new(triangle).near(column, first, planes.position);
             let mut a = numbers * across[0] + at[0];
             let mut b = numbers * across[1] + at[1];
             let mut c = numbers * across[2] + at[2];
@@ -116,16 +116,10 @@ impl Store {
                 let mut covered = (a | b | c).simd_ge(zero);
                 if DEPTH {
                     let stored = &mut planes.depths[place..place + 8];
-                    let old = u32x8::from_slice(simd, stored);
-                    covered &= greater ^ (code.simd_lt(old) & less) ^ (code.simd_eq(old) & equal);
-                    if write {
-                        covered.select(code, old).store_slice(stored);
-                    }
+                    covered = self.passed(simd, answers, covered, code, stored);
                 }
                 if COLOR {
-                    let stored = &mut planes.colors[place..place + 8];
-                    let old = u32x8::from_slice(simd, stored);
-                    covered.select(color, old).store_slice(stored);
+                    replace(simd, covered, color, &mut planes.colors[place..place + 8]);
                 }
                 place += TILE;
                 a += down[0];
@@ -146,6 +140,43 @@ impl Store {
             I::Mask::splat(simd, greater),
         ]
     }
+
+    /// Returns the covered lanes that pass the depth test, after their codes are written if they are to be.
+    #[inline(always)]
+    fn passed<S, U>(
+        &self,
+        simd: S,
+        [less, equal, greater]: [U::Mask; 3],
+        covered: U::Mask,
+        codes: U,
+        stored: &mut [u32],
+    ) -> U::Mask
+    where
+        S: Simd,
+        U: SimdInt<S, Element = u32>,
+        U::Mask: Select<U>,
+    {
+        let old = U::from_slice(simd, stored);
+        let below = codes.simd_lt(old) & less;
+        let same = codes.simd_eq(old) & equal;
+        let passed = covered & (greater ^ below ^ same);
+        if self.write {
+            passed.select(codes, old).store_slice(stored);
+        }
+        passed
+    }
+}
+
+/// Replaces the words of a mask's lanes.
+#[inline(always)]
+fn replace<S, U>(simd: S, mask: U::Mask, new: U, stored: &mut [u32])
+where
+    S: Simd,
+    U: SimdInt<S, Element = u32>,
+    U::Mask: Select<U>,
+{
+    let old = U::from_slice(simd, stored);
+    mask.select(new, old).store_slice(stored);
 }
 
 /// An opaque triangle in a tile.
@@ -342,9 +373,10 @@ impl Opaque<'_> {
         let (lanes, zero) = (U::LEN as i32, I::splat(simd, 0));
         let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
         let [first, last] = area.rows;
+        let edges = Edges::new(self.triangle);
         let Rows { at, across, down } = match self.triangle.is_near() {
-            true => Edges::near(self.triangle, [area.first, first], position),
-            false => Edges::new(self.triangle).rows(area.first, first, position),
+            true => edges.near(area.first, first, position),
+            false => edges.rows(area.first, first, position),
         };
         // Operations in closures would not be inlined.
         let mut values = [
@@ -353,7 +385,7 @@ impl Opaque<'_> {
             numbers * across[2] + at[2],
         ];
         let store = self.store;
-        let [less, equal, greater] = store.answers::<S, I>(simd);
+        let answers = store.answers::<S, U>(simd);
         let mut y = first;
         while y <= last {
             let place = ((y - top) * TILE as i32 + area.first - left) as usize;
@@ -372,19 +404,11 @@ impl Opaque<'_> {
                 if DEPTH {
                     let codes: U = source.codes(simd, chunk, [x, y]);
                     let stored = &mut depths[at..at + U::LEN];
-                    let old = U::from_slice(simd, stored);
-                    let below = codes.simd_lt(old) & less;
-                    let same = codes.simd_eq(old) & equal;
-                    covered &= greater ^ below ^ same;
-                    if store.write {
-                        covered.select(codes, old).store_slice(stored);
-                    }
+                    covered = store.passed(simd, answers, covered, codes, stored);
                 }
                 if let Some(color) = store.color {
-                    let stored = &mut colors[at..at + U::LEN];
-                    let old = U::from_slice(simd, stored);
                     let new = U::splat(simd, color);
-                    covered.select(new, old).store_slice(stored);
+                    replace(simd, covered, new, &mut colors[at..at + U::LEN]);
                 }
                 chunk += 1;
                 for (value, across) in here.iter_mut().zip(across) {

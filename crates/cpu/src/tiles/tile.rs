@@ -329,25 +329,31 @@ impl Drawing<'_, '_> {
             texels: self.texels,
         };
         let samples = part.paints[triangle.paint as usize].samples;
-        for (sample, position) in self.pass.positions.iter().enumerate() {
+        for sample in 0..self.pass.positions.len() {
             if samples & (1 << sample) == 0 {
                 continue;
             }
-            let planes = Planes {
-                position: *position,
-                rect: plan.rects[sample],
-                colors: match store.colors() {
-                    true => self.tile.color.sample(sample),
-                    false => &mut [],
-                },
-                depths: match store.tests() {
-                    true => self.tile.depth.sample(sample),
-                    false => &mut [],
-                },
-            };
+            let planes = self.planes(store, plan, sample);
             opaque.draw(simd, planes);
         }
         self.widen(triangle, plan, false);
+    }
+
+    /// Returns the planes of a sample that opaque triangles of a draw change.
+    #[inline(always)]
+    fn planes(&mut self, store: &Store, plan: &DrawPlan, sample: usize) -> Planes<'_> {
+        Planes {
+            position: self.pass.positions[sample],
+            rect: plan.rects[sample],
+            colors: match store.colors() {
+                true => self.tile.color.sample(sample),
+                false => &mut [],
+            },
+            depths: match store.tests() {
+                true => self.tile.depth.sample(sample),
+                false => &mut [],
+            },
+        }
     }
 
     /// Draws the small triangles that entries begin with, as long as they do the same to texels as the first. Returns
@@ -372,23 +378,13 @@ impl Drawing<'_, '_> {
             return others;
         };
         let samples = part.paints[part.triangles[first.triangle()].paint as usize].samples;
-        for (sample, position) in self.pass.positions.iter().enumerate() {
+        let texels = self.texels;
+        for sample in 0..self.pass.positions.len() {
             if samples & (1 << sample) == 0 {
                 continue;
             }
-            let planes = Planes {
-                position: *position,
-                rect: input.plan.rects[sample],
-                colors: match store.colors() {
-                    true => self.tile.color.sample(sample),
-                    false => &mut [],
-                },
-                depths: match store.tests() {
-                    true => self.tile.depth.sample(sample),
-                    false => &mut [],
-                },
-            };
-            store.small(simd, triangles.clone(), planes, self.texels);
+            let planes = self.planes(store, input.plan, sample);
+            store.small(simd, triangles.clone(), planes, texels);
         }
         for triangle in triangles {
             self.widen(triangle, input.plan, false);
