@@ -6,12 +6,12 @@ use crate::output::say;
 use clap::Args;
 use etalon_history::{
     AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, Subject, TriageEntry,
-    TriageState, format_time,
+    TriageState, TriageStates, format_time,
 };
 use etalon_record::{Record, Run, Standing, Verdict};
 use etalon_report::{News, NewsEntry, Since, quoted};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -27,9 +27,6 @@ pub(crate) struct NewsArguments {
     #[command(flatten)]
     pub(crate) labels: LabelArguments,
 }
-
-/// What people said last of each subject.
-type States = BTreeMap<Subject, TriageEntry>;
 
 impl NewsArguments {
     /// Refuses labels and a file that cannot be used, before anything is drawn.
@@ -202,14 +199,14 @@ fn told(info: &RunInfo, part: &AdapterRun) -> String {
     )
 }
 
-/// What people said of a bad verdict, if it is for this reason not counted.
+/// Returns the entry for which a bad verdict does not count, if there is one.
 ///
 /// What is ignored stays so until somebody says otherwise. What is real stays so until a later run draws the case right:
 /// when it breaks again, that is another change. Both speak of wrong pictures, and of another bad verdict only where the
 /// history has that one of this case, too: a Fail that is now a Crash is news.
 fn settled<'s>(
     history: &History,
-    states: &'s States,
+    states: &'s TriageStates,
     record: &Record,
 ) -> Result<Option<&'s TriageEntry>, HistoryError> {
     let subject = Subject {

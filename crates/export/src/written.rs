@@ -1,6 +1,6 @@
-//! What an export wrote.
+//! The size of an export.
 
-/// What an export wrote.
+/// The size of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Files.

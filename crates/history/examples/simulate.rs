@@ -38,7 +38,7 @@ const FLAKY: f64 = 0.001;
 /// Of how many cases one is timed.
 const TIMED: usize = 140;
 
-/// What the command line says.
+/// The values of the command line.
 struct Settings {
     cases: usize,
     adapters: usize,
@@ -209,7 +209,7 @@ impl Matrix {
         outcome
     }
 
-    /// What happens between two nights.
+    /// Makes the changes between two nights.
     fn night(&mut self, night: usize, settings: &Settings) {
         if night % SUITE == SUITE - 1 {
             // The suite keeps its size: as many cases go as come.

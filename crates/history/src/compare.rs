@@ -9,7 +9,7 @@ use etalon_record::Standing;
 use std::fmt;
 use std::rc::Rc;
 
-/// What changed from one run to another.
+/// The changes from one run to another.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// The first run.
@@ -24,7 +24,7 @@ pub struct Comparison {
     pub appeared: Vec<Rc<str>>,
 }
 
-/// What changed on one adapter from one run to another.
+/// The changes on one adapter from one run to another.
 #[derive(Clone, Debug)]
 pub struct AdapterComparison {
     /// The timeline.
@@ -66,9 +66,9 @@ pub struct Change {
 /// The kind of a change, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChangeKind {
-    /// What was right is wrong, or comes out differently from time to time.
+    /// A case that was right is wrong, or comes out differently from time to time.
     Broken,
-    /// What was wrong is right.
+    /// A case that was wrong is right.
     Fixed,
     /// The verdict is another one, without being broken or fixed.
     Verdict,

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// How long a process waits for others.
+/// The longest time that a process waits for others.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 
 /// KiB of pages that are held in memory.

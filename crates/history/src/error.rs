@@ -62,7 +62,7 @@ pub enum HistoryError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The reason.
         message: String,
     },
     /// The database refused.
@@ -100,7 +100,7 @@ pub enum HistoryError {
     Header {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The reason.
         message: String,
     },
     /// A file of release dates does not parse.
@@ -108,7 +108,7 @@ pub enum HistoryError {
     Dates {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The reason.
         message: String,
     },
     /// A label cannot be.

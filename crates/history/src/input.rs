@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// The most bytes of a header that are looked at to tell what a file is.
 const MAX_HEADER: u64 = 16 << 20;
-/// What gzip files begin with.
+/// The first bytes of gzip files.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// Reads what is to be added: a folder with `run.jsonl`, `bench.jsonl` or `versions.jsonl`, each of them also with
@@ -50,7 +50,7 @@ fn in_folder(folder: &Path) -> Result<PathBuf, HistoryError> {
         })
 }
 
-/// What a file holds.
+/// The content of a file.
 enum What {
     Run,
     Bench,

@@ -1,8 +1,8 @@
-//! What a run of the history was.
+//! Kinds of runs.
 
 use std::fmt;
 
-/// What a run of the history was.
+/// The kind of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// `etalon run`.

@@ -61,5 +61,5 @@ pub use schema::SCHEMA;
 pub use series::{SeriesKey, TimePoint};
 pub use tally::Tally;
 pub use time::{format_time, parse_time};
-pub use triage::{Step, Subject, TriageEntry, TriageState};
+pub use triage::{Step, Subject, TriageEntry, TriageState, TriageStates};
 pub use writer::{Added, Writer};

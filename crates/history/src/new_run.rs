@@ -15,7 +15,7 @@ pub struct NewRun {
     pub digest: [u8; 32],
     /// A digest of its header. Of runs with the same one, the last added stands for all: it is the same run, resumed.
     pub header: [u8; 32],
-    /// What it was.
+    /// Its kind.
     pub kind: Kind,
     /// The suite's version.
     pub etalon: String,

@@ -7,7 +7,7 @@ use etalon_frame::{Aspect, Distance, TexelCounts};
 use etalon_record::{Measured, Record, Standing, Verdict};
 use serde::{Deserialize, Serialize};
 
-/// What the history keeps of a record.
+/// The part of a record that the history keeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The raw verdict.
@@ -29,7 +29,7 @@ pub struct Outcome {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
-    /// What was asserted, per aspect.
+    /// The assertions, per aspect.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub asserted: Vec<Asserted>,
     /// Samples by result; all zero when no frame came back.
@@ -44,7 +44,7 @@ fn is_none(counts: &TexelCounts) -> bool {
     *counts == TexelCounts::default()
 }
 
-/// What legal sets asserted about one aspect. A channel is one of one sample.
+/// The assertions of legal sets about one aspect. A channel is one of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asserted {
@@ -106,7 +106,7 @@ impl Outcome {
         self.improves.is_some() && !self.unexpected()
     }
 
-    /// What the outcome says of the driver. A selftest that fails as it must is good, and one that does not is bad.
+    /// Returns the standing of the driver. A selftest that fails as it must is good, and one that does not is bad.
     pub fn standing(&self) -> Standing {
         match self.verdict {
             violation if self.due_fail && violation.is_violation() => Standing::Good,

@@ -15,7 +15,7 @@ pub struct RunInfo {
     pub id: RunId,
     /// The digest of its content, by which a run is the same in every file.
     pub digest: [u8; 32],
-    /// What it was.
+    /// Its kind.
     pub kind: Kind,
     /// The suite's version.
     pub etalon: String,

@@ -16,7 +16,7 @@ pub(crate) const MIGRATIONS: [&str; 1] = [include_str!("migrations/1.sql")];
 /// The schema that is written.
 pub const SCHEMA: u32 = MIGRATIONS.len() as u32;
 
-/// What a file is.
+/// The state in which a file was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Found {
     /// It has no table.

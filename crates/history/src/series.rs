@@ -9,7 +9,7 @@ use rusqlite::Row;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// What a series is of. Machines differ in speed, so each has its own.
+/// The subject of a series. Machines differ in speed, so each has its own.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SeriesKey {
     /// The case.
@@ -30,7 +30,7 @@ pub struct TimePoint {
 }
 
 impl History {
-    /// What there are series of, sorted.
+    /// Returns the subjects of all series, sorted.
     ///
     /// # Errors
     /// When the file cannot be read.

@@ -1,7 +1,8 @@
-//! What people say of a change: a log to which entries are added, and of which the last one about a subject counts.
+//! Triage: a log to which entries are added, and of which the last one about a subject counts.
 
 use crate::ids::{MachineId, RunId};
 use etalon_record::Time;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The state that people give a change.
@@ -43,7 +44,10 @@ impl fmt::Display for TriageState {
     }
 }
 
-/// What an entry speaks of: the verdict of a case, or a step of its frame times.
+/// The last entry about each subject.
+pub type TriageStates = BTreeMap<Subject, TriageEntry>;
+
+/// The subject of an entry: the verdict of a case, or a step of its frame times.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Subject {
     /// The case's id.
@@ -70,9 +74,9 @@ pub struct Step {
 pub struct TriageEntry {
     /// When it was made, in seconds since 1970.
     pub at: i64,
-    /// Who made it, or empty.
+    /// The name of its author, or empty.
     pub author: String,
-    /// What it speaks of.
+    /// Its subject.
     pub subject: Subject,
     /// The state.
     pub state: TriageState,

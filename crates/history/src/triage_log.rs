@@ -3,9 +3,8 @@
 use crate::error::HistoryError;
 use crate::history::History;
 use crate::ids::{MachineId, RunId};
-use crate::triage::{Step, Subject, TriageEntry, TriageState};
+use crate::triage::{Step, Subject, TriageEntry, TriageState, TriageStates};
 use etalon_record::Time;
-use std::collections::BTreeMap;
 
 impl History {
     /// All entries in the order in which they were made.
@@ -62,7 +61,7 @@ impl History {
     ///
     /// # Errors
     /// As [`History::triage_log`].
-    pub fn triage_states(&self) -> Result<BTreeMap<Subject, TriageEntry>, HistoryError> {
+    pub fn triage_states(&self) -> Result<TriageStates, HistoryError> {
         let log = self.triage_log()?.into_iter();
         Ok(log.map(|entry| (entry.subject.clone(), entry)).collect())
     }

@@ -27,7 +27,7 @@ pub struct Writer {
     connection: Connection,
 }
 
-/// What became of a run that was to be added.
+/// The number of a run, and whether it was added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Added {
     /// It was added.

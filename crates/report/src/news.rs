@@ -1,4 +1,4 @@
-//! What a run tells that the run before it did not.
+//! The news of a run.
 
 use crate::terminal::TableOptions;
 use crate::words::plain;
@@ -12,13 +12,13 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// What is unexpected and was not, the gravest first.
+    /// Records that are unexpected and were not, the gravest first.
     pub broken: Vec<NewsEntry>,
-    /// What was unexpected and is not.
+    /// Records that were unexpected and are not.
     pub fixed: Vec<NewsEntry>,
-    /// What is unexpected as before.
+    /// Records that are unexpected as before.
     pub old: Vec<NewsEntry>,
-    /// What is unexpected, and people said that it is real or does not matter. It does not count.
+    /// Records that are unexpected, and people said that it is real or does not matter. It does not count.
     pub triaged: Vec<NewsEntry>,
 }
 
@@ -40,7 +40,7 @@ pub struct NewsEntry {
     pub adapter: String,
     /// The verdict of this run.
     pub verdict: String,
-    /// What it was before, or why it does not count.
+    /// The verdict before, or the reason for which it does not count.
     pub note: String,
 }
 

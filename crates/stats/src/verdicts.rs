@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a verdict means for a history.
+/// The class of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
     /// Nothing is wrong.
@@ -15,7 +15,7 @@ pub enum Class {
     Missing,
 }
 
-/// What happened to a case.
+/// An event of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Event {
     /// Bad, and was good or flaky.
@@ -126,7 +126,7 @@ fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
     classes
 }
 
-/// How many cases of a set are good.
+/// The number of good cases of a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Score {
     /// Good cases.

@@ -25,7 +25,7 @@ pub(crate) struct Term {
     pub(crate) reads: bool,
     /// The destination's factor.
     pub(crate) factor: f32,
-    /// What the source contributes.
+    /// The product of the source and its factor.
     pub(crate) source: f32,
 }
 

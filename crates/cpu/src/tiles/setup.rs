@@ -33,7 +33,7 @@ pub(crate) struct Part {
     pub(crate) paints: Vec<Paint>,
     /// The first paints of draws, with all that they depend on.
     known: Vec<(Ingredients, u32)>,
-    /// What few triangles have.
+    /// The properties that few triangles have.
     rare: Vec<Rare>,
     /// The entries of each tile, in the order of drawing.
     pub(crate) bins: Vec<Vec<Entry>>,
@@ -160,7 +160,7 @@ impl Part {
         self.bins.resize_with(tiles, Vec::new);
     }
 
-    /// Returns what few triangles have of a triangle.
+    /// Returns the properties of a triangle that few have.
     #[inline(always)]
     pub(crate) fn rare(&self, triangle: &Triangle) -> Rare {
         self.rare

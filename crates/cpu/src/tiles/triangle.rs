@@ -36,7 +36,7 @@ pub(crate) struct Triangle {
 
 const _: () = assert!(size_of::<Triangle>() == 64);
 
-/// What few triangles have.
+/// The properties that few triangles have.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Rare {
     /// The bias of its depths.

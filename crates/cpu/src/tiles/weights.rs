@@ -18,7 +18,7 @@ const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
 pub(crate) struct Weights {
     /// Channel by channel.
     channels: [Channel; 4],
-    /// What is added to the stored alpha and what it is multiplied by: 1 and 0 if the format has none.
+    /// A summand and a factor of the stored alpha: 1 and 0 if the format has none.
     alpha: [f32; 2],
     /// The bits that are not written.
     keep: u32,

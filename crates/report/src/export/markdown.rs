@@ -126,7 +126,7 @@ fn head(text: &mut Text, run: &Run, news: Option<&News>) {
     text.line(&format!("{}\n", code(&h.command.join(" "), 2000)));
 }
 
-/// What is new since the run before, then what is as it was.
+/// Writes the news, then all that is as it was.
 fn told(text: &mut Text, news: &News) {
     for (title, entries) in news.sections() {
         if entries.is_empty() {

@@ -152,7 +152,7 @@ impl Courses {
 }
 
 impl Course {
-    /// What the runs say of a case, without those that say nothing.
+    /// Returns the classes of a case by run, without those that say nothing.
     fn classes(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Class)> {
         let mut all: Vec<Option<u32>> = vec![None; line.runs.len()];
         for (from, end, look) in self.ended() {

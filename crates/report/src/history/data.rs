@@ -369,7 +369,7 @@ fn number(value: f64) -> Value {
     }
 }
 
-/// What happened in each run, by place: timeline, kind, cases by their places in the list of all.
+/// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
 pub(super) fn events(
     places: &Places<'_>,
     courses: &[Courses],

@@ -1,4 +1,5 @@
-//! What a page tells apart of outcomes: the verdict, and whether it was expected. Numbers do not begin a new span.
+//! Looks: the part of an outcome that a page shows, the verdict, and whether it was expected. Numbers do not begin a new
+//! span.
 
 use crate::mark::class;
 use crate::words::{self, Tone};
@@ -60,7 +61,7 @@ impl Looks {
         Ok(number)
     }
 
-    /// What a look means for a history.
+    /// Returns the class of a look.
     pub(super) fn class(&self, look: u32) -> Class {
         self.classes[look as usize]
     }

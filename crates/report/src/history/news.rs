@@ -1,12 +1,12 @@
-//! What changed since the last run: per adapter against its run before, worst first.
+//! The changes since the last run: per adapter against its run before, worst first.
 
 use super::courses::Courses;
 use super::families::Families;
 use super::looks::Looks;
 use super::places::{Line, Places};
-use super::times::{Series, States, Timed};
+use super::times::{Series, Timed};
 use crate::numbers::{change, count};
-use etalon_history::{Subject, TriageState};
+use etalon_history::{Subject, TriageState, TriageStates};
 use etalon_stats::{Cause, ChangePoint, Event};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -70,9 +70,9 @@ pub(super) struct Item {
     pub(super) subject: String,
     /// True if the subject is a family.
     pub(super) is_family: bool,
-    /// What happened, and where.
+    /// The event, and its adapters.
     pub(super) text: String,
-    /// What people said, or that it is expected.
+    /// The state of triage with its reason, or that it is expected.
     pub(super) chip: String,
     /// The order within the kind.
     rank: (i64, String),
@@ -119,7 +119,7 @@ impl News {
         families: &Families,
         looks: &Looks,
         series: &[Series],
-        states: &States,
+        states: &TriageStates,
     ) -> Self {
         let mut counts = vec![[0; 5]; told.len()];
         let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
@@ -182,7 +182,13 @@ impl News {
     }
 }
 
-fn of_case(kind: usize, case: &str, hits: &[Hit], told: &[Told<'_>], states: &States) -> Item {
+fn of_case(
+    kind: usize,
+    case: &str,
+    hits: &[Hit],
+    told: &[Told<'_>],
+    states: &TriageStates,
+) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
     let said = |hit: &Hit| {
         states.get(&Subject {

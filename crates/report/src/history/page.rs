@@ -24,7 +24,7 @@ const SCRIPT: &str = concat!(
     "})();\n",
 );
 
-/// What the start page is made from.
+/// The content of the start page.
 pub(super) struct Start<'a> {
     pub(super) history: &'a History,
     pub(super) places: &'a Places<'a>,
@@ -33,7 +33,7 @@ pub(super) struct Start<'a> {
     pub(super) told: &'a [Told<'a>],
     pub(super) news: &'a News,
     pub(super) cases: usize,
-    /// What the script needs to find files, as JSON.
+    /// The numbers by which the script finds files, as JSON.
     pub(super) index: &'a str,
 }
 

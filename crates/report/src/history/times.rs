@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use etalon_history::{
-    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry,
+    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry, TriageStates,
 };
 use etalon_record::Time;
 use etalon_stats::{ChangePoint, Changes, Point, change_points};
@@ -32,20 +32,17 @@ pub(super) struct Timed {
     pub(super) runs: Vec<usize>,
     pub(super) points: Vec<Point>,
     pub(super) changes: Changes,
-    /// What people said, by change.
+    /// The last entry of triage, by change.
     pub(super) states: Vec<Option<TriageEntry>>,
     /// True by change if the last run showed it.
     pub(super) fresh: Vec<bool>,
 }
 
-/// What people said last of each subject.
-pub(super) type States = BTreeMap<Subject, TriageEntry>;
-
 /// Reads all series, sorted by case.
 pub(super) fn read(
     history: &History,
     places: &Places<'_>,
-    states: &States,
+    states: &TriageStates,
 ) -> Result<Vec<Series>, HistoryError> {
     let mut all = Vec::new();
     for key in history.series_keys()? {
@@ -78,13 +75,17 @@ pub(super) fn read(
     Ok(all)
 }
 
-/// What people said of the steps of one series: the time, the place of the run, the entry.
+/// The entries about the steps of one series: the time, the place of the run, the entry.
 struct Said<'a> {
     entries: Vec<(Time, etalon_history::RunId, &'a TriageEntry)>,
 }
 
 impl<'a> Said<'a> {
-    fn of(history: &History, key: &SeriesKey, states: &'a States) -> Result<Self, HistoryError> {
+    fn of(
+        history: &History,
+        key: &SeriesKey,
+        states: &'a TriageStates,
+    ) -> Result<Self, HistoryError> {
         if states.is_empty() {
             return Ok(Self {
                 entries: Vec::new(),

@@ -29,7 +29,7 @@ fn files(folder: &Path) -> BTreeMap<String, String> {
     all
 }
 
-/// What a file hands to the script.
+/// Returns the value that a file hands to the script.
 fn value(files: &BTreeMap<String, String>, name: &str) -> Value {
     let text = &files[&format!("data/{name}.js")];
     let inner = text

@@ -15,7 +15,7 @@ const MIN_DRIFT: usize = 20;
 /// Stretches at one of two levels from which on a series goes back and forth: four changes from one to the other.
 const VISITS: usize = 5;
 
-/// What happened in a series.
+/// The changes of a series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Changes {
     /// The change points, in order.

@@ -1,4 +1,4 @@
-//! What is found in a series.
+//! Change points and drifts.
 
 use crate::compare::{BEYOND_RULER, Ratio};
 use crate::series::stretch::Test;
@@ -26,7 +26,7 @@ pub struct ChangePoint {
     /// The smallest step, as a ratio above 1, that is found with probability [`crate::POWER`] between as many runs
     /// as lie before and after this one, in the noise that they have.
     pub visible: f64,
-    /// What stepped.
+    /// The cause.
     pub cause: Cause,
     /// True if the series goes back and forth between the two levels, four times or more: a machine with two paces that
     /// the ruler does not feel, or a change that came and went again and again. Never where the ruler tells which.
@@ -40,10 +40,10 @@ impl ChangePoint {
     }
 }
 
-/// What stepped, by the ruler.
+/// The cause of a change, as far as the ruler tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// What was timed, and not the ruler: the driver, or the suite.
+    /// The timed frames stepped, and not the ruler: the driver, or the suite.
     Driver,
     /// The machine: the ruler steps the same way, and by more than half as much.
     Machine,

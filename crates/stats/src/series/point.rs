@@ -1,4 +1,4 @@
-//! What one run says of a series.
+//! Points of a series, one for each run.
 
 use crate::samples::{Samples, quantile};
 use crate::summary::summarize;

@@ -205,7 +205,7 @@ impl Sums {
         }
     }
 
-    /// What is left of the squares of a stretch when its mean is taken off.
+    /// Returns the sum of the squares of a stretch around its mean.
     pub(super) fn squares(&self, from: usize, to: usize) -> f64 {
         self.moments(from, to).squares
     }

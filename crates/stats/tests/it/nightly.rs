@@ -27,7 +27,7 @@ pub(crate) struct Machine {
     pub(crate) drift: f64,
     /// The share of runs that take up to several times as long.
     pub(crate) outliers: f64,
-    /// How much slower the second pace is, the ruler's too.
+    /// The share by which the second pace is slower, the ruler's too.
     pub(crate) pace: f64,
     /// The probability to keep the pace for another run.
     pub(crate) stay: f64,

@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-/// What became of one run.
+/// A run, and whether it was added.
 struct Told<'a> {
     path: &'a Path,
     run: &'a NewRun,

@@ -1,11 +1,12 @@
-//! What waits for somebody to look at it: bad verdicts that nothing explains, and steps of frame times.
+//! Everything that nobody has looked at: bad verdicts that nothing explains, and steps of frame times.
 
 use super::place::run_text;
-use super::series::{States, of_key, state_name, state_text};
+use super::series::{of_key, state_name, state_text};
 use super::show::subject;
 use super::verdicts::{is_meant, verdicts};
 use etalon_history::{
     AdapterRun, CaseId, History, HistoryError, Labels, OutcomeId, TriageEntry, TriageState,
+    TriageStates,
 };
 use etalon_record::Time;
 use etalon_report::plain;
@@ -58,7 +59,7 @@ pub(super) fn open_verdicts(
     history: &History,
     timelines: &[Rc<str>],
     labels: &Labels,
-    states: &States,
+    states: &TriageStates,
     settled: bool,
 ) -> Result<Vec<Open>, HistoryError> {
     let mut found = Vec::new();
@@ -113,7 +114,7 @@ pub(super) fn open_steps(
     history: &History,
     timelines: &[Rc<str>],
     labels: &Labels,
-    states: &States,
+    states: &TriageStates,
     time: Time,
     settled: bool,
 ) -> Result<Vec<Open>, HistoryError> {

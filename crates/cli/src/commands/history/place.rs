@@ -28,7 +28,7 @@ pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String
     [driver, commit].map(|text| text.unwrap_or_else(|| "unknown".to_owned()))
 }
 
-/// What differs between two runs: driver and suite.
+/// Returns the drivers and the suites of two runs in words.
 pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId; 2]) -> String {
     let [before, now] = [after, at].map(|run| versions(history, run, timeline));
     let of = |what: &str, i: usize| match before[i] == now[i] {

@@ -6,16 +6,13 @@ use super::verdicts::is_meant;
 use clap::ValueEnum;
 use etalon_history::{
     History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TriageEntry,
-    TriageState,
+    TriageState, TriageStates,
 };
 use etalon_record::Time;
 use etalon_report::plain;
 use etalon_stats::{Cause, ChangePoint, Changes, Drift, Point, Ratio, change_points};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-
-/// What people said last of each subject.
-pub(super) type States = BTreeMap<Subject, TriageEntry>;
 
 /// The runs behind a change for which its smallest visible size is told.
 const AFTER: usize = 10;
@@ -56,7 +53,7 @@ pub(super) struct Series {
     runs: Vec<RunId>,
     /// Their times.
     points: Vec<Point>,
-    /// What changed.
+    /// The change points.
     changes: Changes,
 }
 
@@ -181,11 +178,11 @@ impl Series {
         self.key.machine
     }
 
-    /// What people said last of a change. More runs may move a change within its ends, so that an entry about another run
-    /// between them is about it.
+    /// Returns the last entry about a change. More runs may move a change within its ends, so that an entry about another
+    /// run between them is about it.
     pub(super) fn state<'s>(
         &self,
-        states: &'s States,
+        states: &'s TriageStates,
         change: &ChangePoint,
     ) -> Option<&'s TriageEntry> {
         let entry = |run: RunId| {
@@ -210,7 +207,7 @@ impl Series {
     pub(super) fn change_line(
         &self,
         history: &History,
-        states: &States,
+        states: &TriageStates,
         change: &ChangePoint,
     ) -> String {
         let [after, at] = change.between.map(|at| self.runs[at]);
@@ -236,7 +233,7 @@ impl Series {
     }
 
     /// The series in words: lines of a terminal.
-    pub(super) fn lines(&self, history: &History, states: &States) -> Vec<String> {
+    pub(super) fn lines(&self, history: &History, states: &TriageStates) -> Vec<String> {
         let machine = history.machine(self.key.machine);
         let machine = machine.map_or(String::new(), |m| {
             format!(" ({}, {} cores)", plain(&m.cpu, 80), m.cores)
@@ -282,7 +279,7 @@ impl Series {
         lines
     }
 
-    /// What a change from now on would have to be.
+    /// Returns the size that a change from now on needs, in words.
     fn outlook(&self) -> String {
         match self.changes.visible(AFTER) {
             Some(visible) => format!(
@@ -295,7 +292,7 @@ impl Series {
     }
 
     /// The series for programs.
-    pub(super) fn json(&self, history: &History, states: &States) -> Value {
+    pub(super) fn json(&self, history: &History, states: &TriageStates) -> Value {
         let points = self.runs.iter().zip(&self.points).map(|(run, point)| {
             json!({ "run": run.number(), "seconds": point.median, "ruler": point.ruler })
         });

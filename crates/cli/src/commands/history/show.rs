@@ -1,7 +1,7 @@
 //! `etalon history show`.
 
 use super::place::run_text;
-use super::series::{Series, SeriesTime, States, series_of, state_name, state_text};
+use super::series::{Series, SeriesTime, series_of, state_name, state_text};
 use super::sparkline;
 use super::verdicts::{Verdicts, verdicts};
 use crate::failure::Failure;
@@ -10,7 +10,9 @@ use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
 use crate::near::did_you_mean;
 use crate::output::{print, print_json};
 use clap::Args;
-use etalon_history::{History, HistoryError, Labels, RunId, Subject, TriageEntry, format_time};
+use etalon_history::{
+    History, HistoryError, Labels, RunId, Subject, TriageEntry, TriageStates, format_time,
+};
 use etalon_record::Standing;
 use etalon_report::plain;
 use serde_json::json;
@@ -186,7 +188,12 @@ pub(super) fn subject(case: &str, timeline: &str) -> Subject {
     }
 }
 
-fn text(history: &History, case: &str, states: &States, all: &[(Verdicts, Vec<Series>)]) -> String {
+fn text(
+    history: &History,
+    case: &str,
+    states: &TriageStates,
+    all: &[(Verdicts, Vec<Series>)],
+) -> String {
     let mut lines = vec![plain(case, 400)];
     for (of_adapter, series) in all {
         lines.push(String::new());

@@ -121,7 +121,7 @@ fn author(arguments: &Arguments) -> String {
     arguments.author.clone().unwrap_or_else(user)
 }
 
-/// What the command line speaks of. Everything is looked up before anything is written.
+/// Returns the subjects that the command line names. Everything is looked up before anything is written.
 fn subjects(
     arguments: &Arguments,
     history: &History,

@@ -22,7 +22,7 @@ pub(super) struct Verdicts {
     pub(super) timeline: Rc<str>,
     /// The records, oldest first; at least one.
     pub(super) records: Vec<Drawn>,
-    /// What happened, oldest first.
+    /// The events, oldest first.
     pub(super) happenings: Vec<Happening<RunId>>,
 }
 
@@ -90,7 +90,7 @@ impl Verdicts {
         Some(drawn.outcome.verdict.name())
     }
 
-    /// What happened in words, a line each.
+    /// Returns the events in words, a line each.
     pub(super) fn lines(&self, history: &History) -> Vec<String> {
         let line = |happening: &Happening<RunId>| {
             let Happening { event, after, at } = happening;
