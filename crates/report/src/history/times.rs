@@ -115,17 +115,20 @@ impl Timed {
         let changes = change_points(&points).ok().filter(|_| !points.is_empty())?;
         let states = changes.points.iter().map(|change| {
             let [after, by] = change.between.map(|at| runs.get(at).copied());
-            let is_here = |place: usize| {
-                runs.get(change.index) == Some(&place)
-                    || after.is_some_and(|after| place > after) && by.is_some_and(|by| place <= by)
+            let first = runs.get(change.index).copied();
+            // An entry about the first run behind the change, else about the last run within its ends.
+            let rank = |place: usize| {
+                let is_first = first == Some(place);
+                let within =
+                    after.is_some_and(|after| place > after) && by.is_some_and(|by| place <= by);
+                (is_first || within).then_some((is_first, place))
             };
-            let entries = said
-                .entries
-                .iter()
-                .filter(|(of, run, _)| *of == time && places.of(*run).is_some_and(is_here));
-            entries
-                .map(|(.., entry)| (*entry).clone())
-                .max_by_key(|e| e.at)
+            let entries = said.entries.iter().filter(|(of, ..)| *of == time);
+            let ranked =
+                entries.filter_map(|(_, run, entry)| Some((rank(places.of(*run)?)?, *entry)));
+            ranked
+                .max_by_key(|(rank, _)| *rank)
+                .map(|(_, entry)| entry.clone())
         });
         let states = states.collect();
         let fresh = fresh(&points, &changes);
