@@ -19,6 +19,7 @@ mod catalogue;
 mod check;
 mod command_line;
 mod commands;
+mod counted;
 mod expectations;
 mod failure;
 mod failure_groups;

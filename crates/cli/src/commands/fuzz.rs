@@ -5,6 +5,7 @@
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::library;
+use crate::counted::counted;
 use crate::expectations::{self, today};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
 use crate::failure_groups::{Folders, Group, Groups};
@@ -414,16 +415,12 @@ fn scenes(groups: &[&Group]) -> u64 {
 
 /// Returns the line on the groups of a finding.
 fn headed(word: &str, known: &Match, groups: &[&Group]) -> String {
-    let plural = |count: u64, noun: &str| match count {
-        1 => format!("1 {noun}"),
-        count => format!("{count} {noun}s"),
-    };
     format!(
         "\n  {word}: {}: {}: {} in {}\n",
         known.finding,
         known.title,
-        plural(scenes(groups), "scene"),
-        plural(groups.len() as u64, "group"),
+        counted(scenes(groups), "scene"),
+        counted(groups.len() as u64, "group"),
     )
 }
 

@@ -272,6 +272,9 @@ fn old_runs_that_are_added_late_stand_where_they_belong() {
     place
         .history(&["show", CASE])
         .stdout(contains("✓✗").and(contains("broken at run 1")));
+    place
+        .history(&["show", OTHER])
+        .stdout(contains("cpu  2 runs, run"));
 }
 
 #[test]
@@ -334,7 +337,7 @@ fn a_run_that_lacks_records_is_refused_and_then_taken() {
     let line = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
     assert_eq!(line.lines().count(), 1, "{line}");
     assert!(
-        line.contains("1 records are missing") && line.contains("--resume"),
+        line.contains("lacks 1 record;") && line.contains("--resume"),
         "{line}"
     );
     assert!(line.contains(&whole), "{line}");
@@ -349,7 +352,9 @@ fn a_run_that_lacks_records_is_refused_and_then_taken() {
     place
         .history(&["show"])
         .stdout(contains("resumed as run 2"));
-    place.history(&["show", CASE]).stdout(contains("  ✓\n"));
+    place
+        .history(&["show", CASE])
+        .stdout(contains("cpu  1 run, run 2").and(contains("  ✓\n")));
 }
 
 #[test]
@@ -593,7 +598,7 @@ fn steps_of_times_are_found_told_and_settled() {
     );
     place
         .history(&["triage"])
-        .stdout(contains("1 open changes of frame times"));
+        .stdout(contains("1 open change of frame times"));
     let settle = |arguments: &[&str]| {
         let subject = ["triage", "perf/made", "--adapter", "cpu"];
         place.history(&[&subject[..], arguments].concat())
@@ -623,7 +628,7 @@ fn steps_of_times_are_found_told_and_settled() {
     settle(&["--step", "21", "--state", "new"]).code(0);
     place
         .history(&["triage"])
-        .stdout(contains("1 open changes"));
+        .stdout(contains("1 open change of"));
     let file = Connection::open(place.db()).unwrap();
     let entries: u32 = file
         .query_row("SELECT count(*) FROM triage", [], |row| row.get(0))
@@ -638,7 +643,7 @@ fn what_is_bad_is_open_until_somebody_says_what_it_is() {
         .history(&["add", &place.run(1, "1", &GOOD), &place.run(2, "1", &BAD)])
         .code(0);
     place.history(&["triage"]).code(0).stdout(
-        contains("1 open bad verdicts").and(contains(format!("{CASE} on cpu: fail since run 2"))),
+        contains("1 open bad verdict\n").and(contains(format!("{CASE} on cpu: fail since run 2"))),
     );
     let settle = ["triage", CASE, "--adapter", "cpu", "--state"];
     let with = |more: &[&str]| place.history(&[&settle[..], more].concat());

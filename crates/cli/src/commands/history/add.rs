@@ -1,5 +1,6 @@
 //! `etalon history add`.
 
+use crate::counted::counted;
 use crate::failure::{Failure, INCOMPLETE, USAGE};
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, LabelArguments, failure};
@@ -141,17 +142,17 @@ fn ready(
 
 fn lacks(path: &Path, run: &NewRun) -> String {
     let (what, command) = match run.kind {
-        Kind::Bench => ("rounds", "bench"),
-        _ => ("records", "run"),
+        Kind::Bench => ("round", "bench"),
+        _ => ("record", "run"),
     };
     let folder = match path.is_dir() {
         true => path,
         false => path.parent().unwrap_or(path),
     };
     format!(
-        "{}: {} {what} are missing; draw them with `etalon {command} … --resume --out {}`, or add it as it is with --incomplete",
+        "{} lacks {}; draw what is missing with `etalon {command} … --resume --out {}`, or add it as it is with --incomplete",
         path.display(),
-        run.missing,
+        counted(run.missing, what),
         quoted(&folder.display().to_string())
     )
 }
@@ -196,9 +197,9 @@ impl Told<'_> {
             n => format!(", {n} missing"),
         };
         format!(
-            "{path} is run {id}: {} with {} records{missing} of {}{more}\n",
+            "{path} is run {id}: {} with {}{missing} of {}{more}\n",
             run.kind,
-            self.records(),
+            counted(self.records() as u64, "record"),
             names.join(", ")
         )
     }

@@ -3,6 +3,7 @@
 use super::place::{range_text, run_json, run_text};
 use super::sparkline;
 use super::verdicts::is_meant;
+use crate::counted::counted;
 use clap::ValueEnum;
 use etalon_history::{
     History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TriageEntry,
@@ -236,16 +237,17 @@ impl Series {
     pub(super) fn lines(&self, history: &History, states: &TriageStates) -> Vec<String> {
         let machine = history.machine(self.key.machine);
         let machine = machine.map_or(String::new(), |m| {
-            format!(" ({}, {} cores)", plain(&m.cpu, 80), m.cores)
+            let cores = counted(u64::from(m.cores), "core");
+            format!(" ({}, {cores})", plain(&m.cpu, 80))
         });
         let times: Vec<f64> = self.points.iter().map(|p| p.median).collect();
         let last = times.last().copied().map_or(String::new(), milliseconds);
         let mut lines = vec![
             format!(
-                "{} time on machine {}{machine}, {} runs, last {last}",
+                "{} time on machine {}{machine}, {}, last {last}",
                 self.time.name(),
                 self.key.machine,
-                times.len()
+                counted(times.len() as u64, "run")
             ),
             format!("  times  {}", sparkline::of_times(&times)),
         ];

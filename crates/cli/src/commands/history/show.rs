@@ -4,6 +4,7 @@ use super::place::run_text;
 use super::series::{Series, SeriesTime, series_of, state_name, state_text};
 use super::sparkline;
 use super::verdicts::{Verdicts, verdicts};
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
@@ -217,9 +218,9 @@ fn verdict_lines(
     let ends = [records.first(), records.last()]
         .map(|drawn| drawn.map_or(String::new(), |drawn| run_text(history, drawn.run)));
     let mut lines = vec![format!(
-        "{}  {} runs, {} to {}",
+        "{}  {}, {} to {}",
         plain(&of_adapter.timeline, 100),
-        records.len(),
+        counted(records.len() as u64, "run"),
         ends[0],
         ends[1]
     )];

@@ -4,6 +4,7 @@ use super::open::{Open, open_steps, open_verdicts};
 use super::series::{SeriesTime, series_of, state_text};
 use super::show::{known_case, known_timelines, subject};
 use super::verdicts::verdicts;
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
@@ -244,8 +245,12 @@ fn list(arguments: &Arguments, history: &History, labels: &Labels) -> Result<u8,
     }
     let what = if settled { "" } else { "open " };
     let mut text = String::new();
-    for (title, all) in [("bad verdicts", &bad), ("changes of frame times", &steps)] {
-        text.push_str(&format!("{} {what}{title}\n", all.len()));
+    for (noun, rest, all) in [
+        ("bad verdict", "", &bad),
+        ("change", " of frame times", &steps),
+    ] {
+        let title = counted(all.len() as u64, &format!("{what}{noun}"));
+        text.push_str(&format!("{title}{rest}\n"));
         for open in all.iter().take(PRINTED) {
             text.push_str(&format!("  {}\n", open.line));
         }
