@@ -12,6 +12,12 @@ pub enum ExportError {
     /// The history cannot be read.
     #[error(transparent)]
     History(#[from] HistoryError),
+    /// No run of the history is selected.
+    #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
+    NoRuns {
+        /// The history.
+        path: PathBuf,
+    },
     /// The folder holds something.
     #[error("{} is not empty; name another folder, or remove it first", path.display())]
     NotEmpty {
@@ -25,6 +31,14 @@ pub enum ExportError {
         path: PathBuf,
         /// The system's error.
         source: io::Error,
+    },
+    /// A file has no JSON form.
+    #[error("cannot write {} as JSON: {source}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// The writer's error.
+        source: serde_json::Error,
     },
     /// A table could not be written.
     #[error("cannot write {}: {source}; free space or name another folder", path.display())]

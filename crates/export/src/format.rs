@@ -25,20 +25,25 @@ pub enum Format {
 /// Writes the selected runs of a history into a folder, which is created. It must be empty.
 ///
 /// # Errors
-/// When the history cannot be read, or the folder holds something or cannot be written to.
+/// When the history cannot be read or no run is selected, or the folder holds something or cannot be written to.
 pub fn export(
     history: &History,
     format: Format,
     selection: &Selection,
     dir: &Path,
 ) -> Result<Written, ExportError> {
-    folder::empty(dir)?;
     let runs = selection.runs(history);
+    if runs.is_empty() {
+        return Err(ExportError::NoRuns {
+            path: history.path().to_owned(),
+        });
+    }
+    folder::empty(dir)?;
     match format {
         Format::Parquet => tables::write(history, &runs, dir),
         Format::OpenMetrics => openmetrics::write(history, &runs, dir),
         Format::Otava => otava::write(history, &runs, dir),
-        Format::Bencher => latest::bencher(history, &runs, dir),
-        Format::ActionBenchmark => latest::action(history, &runs, dir),
+        Format::Bencher => latest::write_bencher(history, &runs, dir),
+        Format::ActionBenchmark => latest::write_action(history, &runs, dir),
     }
 }

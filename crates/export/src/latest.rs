@@ -3,75 +3,99 @@
 use crate::error::ExportError;
 use crate::tables::machine_text;
 use crate::written::Written;
-use etalon_history::{FrameTimes, History, RunId};
+use etalon_dashboards::{ACTION_FILE, BENCHER_FILE, Benchmark, Figure, action, bencher};
+use etalon_history::{AdapterRun, History, RunId, RunInfo, SeriesKey, TimePoint};
 use etalon_record::Time;
-use serde_json::{Map, Value, json};
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::Path;
 
-/// `bencher.json`: medians in nanoseconds in Bencher's metric format.
-pub(crate) fn bencher(
+/// `bencher.json`: every time in Bencher's metric format.
+pub(crate) fn write_bencher(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
 ) -> Result<Written, ExportError> {
-    let mut all = Map::new();
-    each(history, runs, |name, times| {
-        let mut measures = Map::new();
-        for time in [Time::Wall, Time::Cpu, Time::Gpu, Time::ReadBack] {
-            if let Some(median) = times.median(time) {
-                let measure = match time {
-                    Time::Wall => "latency".to_owned(),
-                    other => format!("{}-time", other.name()),
-                };
-                measures.insert(measure, json!({"value": nanoseconds(median)}));
-            }
-        }
-        all.insert(name, measures.into());
-    })?;
-    write(dir, "bencher.json", all.len(), &all.into())
+    let all = benchmarks(history, runs)?;
+    write(dir, BENCHER_FILE, all.len(), bencher(&all))
 }
 
-/// `benchmark-action.json`: wall medians in nanoseconds for github-action-benchmark's `customSmallerIsBetter`.
-pub(crate) fn action(
+/// `benchmark-action.json`: wall times for github-action-benchmark's `customSmallerIsBetter`.
+pub(crate) fn write_action(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
 ) -> Result<Written, ExportError> {
+    let mut all = benchmarks(history, runs)?;
+    all.retain(|benchmark| benchmark.times.contains_key(&Time::Wall));
+    write(dir, ACTION_FILE, all.len(), action(&all))
+}
+
+/// The times of each series in the latest of these runs that has it.
+fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>, ExportError> {
     let mut all = Vec::new();
-    each(history, runs, |name, times| {
-        if let Some(median) = times.median(Time::Wall) {
-            all.push(json!({"name": name, "unit": "ns", "value": nanoseconds(median)}));
-        }
-    })?;
-    write(dir, "benchmark-action.json", all.len(), &all.into())
-}
-
-fn each(
-    history: &History,
-    runs: &HashSet<RunId>,
-    mut each: impl FnMut(String, &FrameTimes),
-) -> Result<(), ExportError> {
     for key in history.series_keys()? {
         let points = history.series(&key)?;
         let Some(point) = points.iter().rfind(|p| runs.contains(&p.run)) else {
             continue;
         };
-        let machine = history.machine(key.machine).map(machine_text);
-        let (case, machine) = (history.case_name(key.case)?, machine.unwrap_or_default());
-        each(format!("{case} {} {machine}", key.timeline), &point.times);
+        let times = Time::ALL.into_iter().filter_map(|time| {
+            let told = point.times.point(time)?;
+            let figure = Figure {
+                median: told.median,
+                interval: told.interval,
+            };
+            Some((time, figure))
+        });
+        let times: BTreeMap<Time, Figure> = times.collect();
+        if times.is_empty() {
+            continue;
+        }
+        let run = history.run(point.run);
+        let adapter = history.adapter(point.run, &key.timeline);
+        let extra = run.zip(adapter);
+        all.push(Benchmark {
+            name: name(history, &key)?,
+            times,
+            extra: extra.map_or(String::new(), |(run, adapter)| {
+                extra_text(run, adapter, point)
+            }),
+        });
     }
-    Ok(())
+    Ok(all)
 }
 
-fn nanoseconds(seconds: f64) -> f64 {
-    (seconds * 1e12).round() / 1e3
+/// Machines differ in speed, so each has its own benchmark.
+fn name(history: &History, key: &SeriesKey) -> Result<String, ExportError> {
+    let machine = history.machine(key.machine).map(machine_text);
+    let (case, machine) = (history.case_name(key.case)?, machine.unwrap_or_default());
+    Ok(format!("{case} {} {machine}", key.timeline))
 }
 
-fn write(dir: &Path, name: &str, rows: usize, value: &Value) -> Result<Written, ExportError> {
+fn extra_text(run: &RunInfo, adapter: &AdapterRun, point: &TimePoint) -> String {
+    let commit = run.commit.as_deref().unwrap_or("unknown");
+    let version = adapter.adapter.shown_version();
+    format!(
+        "run {} of {}\ndriver {version}, suite {commit}\n{} rounds, {} frames",
+        run.id,
+        run.day(),
+        point.times.wall.len(),
+        point.times.frames
+    )
+}
+
+fn write(
+    dir: &Path,
+    name: &str,
+    rows: usize,
+    bytes: serde_json::Result<Vec<u8>>,
+) -> Result<Written, ExportError> {
     let path = dir.join(name);
-    fs::write(&path, format!("{value:#}\n")).map_err(ExportError::io(&path))?;
+    let bytes = bytes.map_err(|source| ExportError::Json {
+        path: path.clone(),
+        source,
+    })?;
+    fs::write(&path, bytes).map_err(ExportError::io(&path))?;
     Ok(Written {
         files: 1,
         rows: rows as u64,

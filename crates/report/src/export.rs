@@ -1,7 +1,6 @@
 //! Files for other programs.
 
 pub(crate) mod ctrf;
-pub(crate) mod dashboards;
 pub(crate) mod deqp;
 pub(crate) mod junit;
 pub(crate) mod markdown;

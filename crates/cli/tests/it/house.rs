@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 23] = [
+const TABLE: [(&str, &[&str], &[&str]); 24] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -56,10 +56,18 @@ const TABLE: [(&str, &[&str], &[&str]); 23] = [
     ("bundle", &["backend", "frame"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
-    ("export", &["history", "record"], &[]),
+    ("dashboards", &["record"], &[]),
+    ("export", &["dashboards", "history", "record"], &[]),
     (
         "report",
-        &["frame", "history", "methods", "record", "stats"],
+        &[
+            "dashboards",
+            "frame",
+            "history",
+            "methods",
+            "record",
+            "stats",
+        ],
         &[],
     ),
     (

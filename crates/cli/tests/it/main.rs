@@ -20,6 +20,7 @@ mod findings;
 mod fuzz;
 mod help;
 mod history;
+mod history_export;
 mod house;
 mod launchers;
 mod methods;

@@ -1,19 +1,18 @@
 //! Writing the reports of a bench.
 
+use super::benchmarks::benchmarks;
 use super::figures::Figures;
 use super::page;
 use crate::error::ReportError;
-use crate::export::dashboards;
 use crate::files::replace;
 use crate::matrix::{self, Matrix};
+use etalon_dashboards::{ACTION_FILE, BENCHER_FILE};
 use etalon_record::Bench;
 use std::path::{Path, PathBuf};
 
 /// The files that [`write_bench`] writes.
-pub const BENCH_FILES: [&str; 5] = [HTML, BENCHER, ACTION, MATRIX, MATRIX_CSV];
+pub const BENCH_FILES: [&str; 5] = [HTML, BENCHER_FILE, ACTION_FILE, MATRIX, MATRIX_CSV];
 const HTML: &str = "index.html";
-const BENCHER: &str = "bencher.json";
-const ACTION: &str = "benchmark-action.json";
 const MATRIX: &str = "matrix.html";
 const MATRIX_CSV: &str = "matrix.csv";
 
@@ -41,12 +40,13 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let figures = Figures::new(&bench);
     let html = page::page(&bench, &figures);
     let matrix = Matrix::new(&bench);
-    let bencher = dashboards::bencher(&figures)?;
-    let action = dashboards::action(&figures)?;
+    let benchmarks = benchmarks(&figures);
+    let bencher = etalon_dashboards::bencher(&benchmarks).map_err(ReportError::Json)?;
+    let action = etalon_dashboards::action(&benchmarks).map_err(ReportError::Json)?;
     Ok(WrittenBench {
         html: replace(folder, HTML, html.as_bytes())?,
-        bencher: replace(folder, BENCHER, &bencher)?,
-        action: replace(folder, ACTION, &action)?,
+        bencher: replace(folder, BENCHER_FILE, &bencher)?,
+        action: replace(folder, ACTION_FILE, &action)?,
         matrix: match matrix.cells.is_empty() {
             true => None,
             false => Some([

@@ -1,5 +1,6 @@
 //! `etalon history export`: a history as files for other programs.
 
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::history_file::{self, DatabaseArguments};
 use crate::output::say;
@@ -62,15 +63,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let history = History::open_read(&arguments.database.path()).map_err(history_file::failure)?;
     let written =
         etalon_export::export(&history, format, &selection, &arguments.dir).map_err(failure)?;
-    let (rows, files, dir) = (written.rows, written.files, arguments.dir.display());
-    say!("etalon: {rows} rows in {files} files in {dir}");
+    let rows = counted(written.rows, "row");
+    let files = counted(written.files, "file");
+    say!("etalon: {rows} in {files} in {}", arguments.dir.display());
     Ok(0)
 }
 
 fn failure(error: ExportError) -> Failure {
     match error {
         ExportError::History(error) => history_file::failure(error),
+        ExportError::NoRuns { .. } => Failure::nothing(error),
         ExportError::NotEmpty { .. } => Failure::usage(error),
-        ExportError::Io { .. } | ExportError::Table { .. } => Failure::incomplete(error),
+        ExportError::Io { .. } | ExportError::Json { .. } | ExportError::Table { .. } => {
+            Failure::incomplete(error)
+        }
     }
 }

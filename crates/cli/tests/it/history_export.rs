@@ -1,0 +1,114 @@
+//! `etalon history export`: folders, selections and exit codes.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::history::Place;
+use assert_cmd::assert::Assert;
+use etalon_record::Verdict;
+use rusqlite::Connection;
+use std::fs;
+
+const FORMATS: [&str; 5] = [
+    "parquet",
+    "openmetrics",
+    "otava",
+    "bencher",
+    "github-action-benchmark",
+];
+
+/// Exports and returns the line that is said.
+fn export(place: &Place, out: &str, arguments: &[&str], code: i32) -> String {
+    let out = place.path(out).display().to_string();
+    let assert: Assert = place.history(&[&["export", &out], arguments].concat());
+    let text = String::from_utf8(assert.code(code).get_output().stderr.clone()).unwrap();
+    assert_eq!(text.lines().count(), 1, "{text}");
+    text
+}
+
+/// A history of three days with two records each.
+fn three_days() -> Place {
+    let place = Place::new();
+    let verdicts = [("depth/a", Verdict::Pass), ("depth/b", Verdict::Fail)];
+    for day in 1..4 {
+        let run = place.run(day, "1.0", &verdicts);
+        place.history(&["add", &run]).code(0);
+    }
+    place
+}
+
+#[test]
+fn a_folder_that_cannot_be_used_is_named() {
+    let place = three_days();
+    fs::write(place.path("file"), "mine").unwrap();
+    fs::create_dir(place.path("full")).unwrap();
+    fs::write(place.path("full/mine"), "mine").unwrap();
+    for format in FORMATS {
+        let line = export(&place, "full", &["--format", format], 64);
+        assert!(line.contains("full is not empty; name another"), "{line}");
+        for out in ["file", "file/below"] {
+            let line = export(&place, out, &["--format", format], 3);
+            let due = format!("cannot write {}", place.path(out).display());
+            assert!(line.contains(&due), "{line}");
+        }
+    }
+    assert_eq!(fs::read_dir(place.path("full")).unwrap().count(), 1);
+    assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "mine");
+}
+
+#[test]
+fn a_selection_of_no_run_writes_nothing() {
+    let place = three_days();
+    let empty = three_days();
+    let file = Connection::open(empty.db()).unwrap();
+    for table in ["part", "change", "run"] {
+        file.execute(&format!("DELETE FROM {table}"), []).unwrap();
+    }
+    drop(file);
+    for format in FORMATS {
+        let format = ["--format", format];
+        for (place, flags) in [
+            (&place, &["--since", "2031-01-01"][..]),
+            (&place, &["--runs", "0"]),
+            (&empty, &[]),
+        ] {
+            let line = export(place, "out", &[&format[..], flags].concat(), 4);
+            let db = place.db().display().to_string();
+            assert!(line.contains(&format!("{db} holds no such run")), "{line}");
+            assert!(!place.path("out").exists(), "{format:?}");
+        }
+    }
+}
+
+#[test]
+fn a_part_of_the_runs_is_selected() {
+    let place = three_days();
+    for (at, (flags, files)) in [
+        (&[][..], 3),
+        (&["--since", "2024-01-03"], 2),
+        (&["--since", "2024-01-03T12:00:00Z"], 1),
+        (&["--runs", "1"], 1),
+        (&["--runs", "7", "--since", "1970-01-01"], 3),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let out = format!("out-{at}");
+        let line = export(&place, &out, &[&["--format", "parquet"], flags].concat(), 0);
+        let of = if files == 1 { "file" } else { "files" };
+        let due = format!("{} rows in {files} {of} in", files * 2);
+        assert!(line.contains(&due), "{flags:?}: {line}");
+    }
+    let line = export(&place, "times", &["--format", "otava"], 0);
+    assert!(line.contains("0 rows in 1 file in"), "{line}");
+}
+
+#[test]
+fn what_is_no_date_or_no_history_is_wrong_usage() {
+    let place = three_days();
+    let since = ["--format", "otava", "--since", "yesterday"];
+    let line = export(&place, "out", &since, 64);
+    assert!(line.contains("is no date; write 2026-01-31"), "{line}");
+    let none = Place::new();
+    let line = export(&none, "out", &["--format", "otava"], 64);
+    assert!(line.contains("there is no history at"), "{line}");
+    assert!(!place.path("out").exists() && !none.path("out").exists());
+}

@@ -1,0 +1,17 @@
+//! Frame times in the formats of services that keep a history of their own.
+//!
+//! [`bencher()`] writes Bencher's format and [`action()`] that of github-action-benchmark, both from the same
+//! [benchmarks](Benchmark): those of one bench, or the latest of a history.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod action;
+mod bencher;
+mod benchmark;
+
+pub use action::{ACTION_FILE, action};
+pub use bencher::{BENCHER_FILE, bencher};
+pub use benchmark::{Benchmark, Figure, nanoseconds};

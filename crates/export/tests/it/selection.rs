@@ -1,0 +1,74 @@
+//! Runs that are selected, and selections of none.
+
+use crate::made::{FORMATS, daily, history, selected};
+use etalon_export::{ExportError, Selection, export};
+use etalon_history::parse_time;
+
+const DAYS: [&str; 3] = ["2026-01-01", "2026-01-02", "2026-01-03"];
+
+fn since(day: &str) -> Selection {
+    Selection {
+        since: parse_time(day),
+        last: None,
+    }
+}
+
+fn last(n: usize) -> Selection {
+    Selection {
+        since: None,
+        last: Some(n),
+    }
+}
+
+#[test]
+fn where_no_run_is_selected_nothing_is_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let full = history(dir.path(), &daily(&DAYS));
+    let other = tempfile::tempdir().unwrap();
+    let empty = history(other.path(), &[]);
+    let out = dir.path().join("out");
+    for format in FORMATS {
+        for (history, selection) in [
+            (&empty, Selection::default()),
+            (&full, since("2026-01-04")),
+            (&full, last(0)),
+        ] {
+            let error = export(history, format, &selection, &out).unwrap_err();
+            assert!(matches!(error, ExportError::NoRuns { .. }), "{error:?}");
+            let line = error.to_string();
+            assert!(
+                line.contains("h.db") && !line.contains('\n'),
+                "{format:?}: {line}"
+            );
+            assert!(!out.exists(), "{format:?}");
+        }
+    }
+}
+
+#[test]
+fn a_run_of_the_day_itself_is_late_enough() {
+    let runs = daily(&DAYS);
+    for (selection, due) in [
+        (since("2026-01-02"), 2),
+        (since("2026-01-02T00:00:01Z"), 1),
+        (last(2), 2),
+        (last(9), 3),
+        (
+            Selection {
+                last: Some(1),
+                ..since("2026-01-01")
+            },
+            1,
+        ),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let history = history(dir.path(), &runs);
+        assert_eq!(selected(&runs, &selection).len(), due);
+        for (format, rows) in FORMATS.into_iter().zip([3, 3, 1]) {
+            let out = dir.path().join(format!("{format:?}"));
+            let written = export(&history, format, &selection, &out).unwrap();
+            // Two records and a time of each run.
+            assert_eq!(written.rows, rows * due as u64, "{format:?} {selection:?}");
+        }
+    }
+}
