@@ -6,10 +6,11 @@ use crate::output::say;
 use clap::Args;
 use etalon_history::{
     AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, Subject, TriageEntry,
-    TriageState, TriageStates, format_time,
+    TriageState, TriageStates, format_time, parse_time,
 };
 use etalon_record::{Record, Run, Standing, Verdict};
 use etalon_report::{News, NewsEntry, Since, quoted};
+use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ const BRANCH: &str = "branch";
 
 #[derive(Clone, Debug, Args)]
 pub(crate) struct NewsArguments {
-    /// Compare with the last run of each adapter in this history, and tell news first. Bad verdicts that `etalon history
+    /// Compare with the last run of each adapter before this one in this history, and tell news first. Bad verdicts that `etalon history
     /// triage` calls real or ignored do not count. A file that is not there is named, and changes nothing
     #[arg(long, value_name = "FILE")]
     pub(crate) history: Option<PathBuf>,
@@ -74,9 +75,44 @@ impl NewsArguments {
     }
 }
 
+/// The run as its reports show it.
+pub(crate) fn shown<'r>(run: &'r Run, news: Option<&News>) -> Cow<'r, Run> {
+    news.map_or(Cow::Borrowed(run), |news| news.settle(run))
+}
+
+/// The run that is compared, among those of a history.
+struct Now<'r> {
+    run: &'r Run,
+    /// When it began; the end of time where its header has none.
+    started: i64,
+}
+
+impl<'r> Now<'r> {
+    fn new(run: &'r Run) -> Self {
+        Self {
+            run,
+            started: parse_time(&run.header.started).unwrap_or(i64::MAX),
+        }
+    }
+
+    /// True if the history's run is this one, also as it was before it was resumed.
+    fn is(&self, info: &RunInfo) -> bool {
+        let header = &self.run.header;
+        format_time(info.started) == header.started
+            && info.commit == header.commit
+            && info.etalon == header.etalon
+    }
+
+    /// True if the history's run came before this one.
+    fn follows(&self, info: &RunInfo) -> bool {
+        info.started <= self.started && !self.is(info)
+    }
+}
+
 fn news(path: &Path, run: &Run, labels: &Labels) -> Result<News, HistoryError> {
     let history = History::open_read(path)?;
     let states = history.triage_states()?;
+    let now = Now::new(run);
     let mut news = News::default();
     let mut gravity = HashMap::new();
     for adapter in &run.header.adapters {
@@ -85,7 +121,7 @@ fn news(path: &Path, run: &Run, labels: &Labels) -> Result<News, HistoryError> {
             .iter()
             .filter(|r| r.adapter == adapter.name)
             .collect();
-        let before = last(&history, run, &adapter.name, &records, labels)?;
+        let before = last(&history, &now, &adapter.name, &records, labels)?;
         news.since.push(Since {
             adapter: adapter.name.clone(),
             run: before.map(|(info, part)| told(info, part)),
@@ -118,7 +154,7 @@ fn news(path: &Path, run: &Run, labels: &Labels) -> Result<News, HistoryError> {
                 (record.case.clone(), record.adapter.clone()),
                 record.verdict.severity(),
             );
-            if let Some(said) = settled(&history, &states, record)? {
+            if let Some(said) = settled(&history, &states, &now, record)? {
                 let note = format!("{}: {}", said.state, said.reason);
                 news.triaged.push(entry(note));
                 continue;
@@ -153,10 +189,10 @@ fn news(path: &Path, run: &Run, labels: &Labels) -> Result<News, HistoryError> {
     Ok(news)
 }
 
-/// The last run of an adapter on the same branch that has any of these cases; not this run itself.
+/// The last run of an adapter before this one, on the same branch, that has any of these cases.
 fn last<'h>(
     history: &'h History,
-    run: &Run,
+    now: &Now<'_>,
     adapter: &str,
     records: &[&Record],
     labels: &Labels,
@@ -165,14 +201,11 @@ fn last<'h>(
         let Some(info) = history.run(part.run) else {
             continue;
         };
-        let itself = format_time(info.started) == run.header.started
-            && info.commit == run.header.commit
-            && info.etalon == run.header.etalon;
         let meant = info.kind == Kind::Run
             && info.resumed.is_none()
             && *part.timeline == *adapter
             && info.labels.get(BRANCH) == labels.get(BRANCH);
-        if !meant || itself {
+        if !meant || !now.follows(info) {
             continue;
         }
         for record in records {
@@ -203,10 +236,12 @@ fn told(info: &RunInfo, part: &AdapterRun) -> String {
 ///
 /// What is ignored stays so until somebody says otherwise. What is real stays so until a later run draws the case right:
 /// when it breaks again, that is another change. Both speak of wrong pictures, and of another bad verdict only where the
-/// history has that one of this case, too: a Fail that is now a Crash is news.
+/// history has that one of this case, too: a Fail that is now a Crash is news. It may have it of this run, if somebody
+/// said it since. Later runs say nothing.
 fn settled<'s>(
     history: &History,
     states: &'s TriageStates,
+    now: &Now<'_>,
     record: &Record,
 ) -> Result<Option<&'s TriageEntry>, HistoryError> {
     let subject = Subject {
@@ -223,11 +258,16 @@ fn settled<'s>(
     seen |= said.state == TriageState::Ignored && record.verdict == Verdict::Flaky;
     for of_case in history.case_history(&record.case, Some(&record.adapter))? {
         for point in &of_case.points {
+            let Some(info) = history.run(point.run) else {
+                continue;
+            };
+            let of_now = now.is(info) && said.at >= info.started;
+            if !of_now && !now.follows(info) {
+                continue;
+            }
             let outcome = history.outcome(point.outcome)?;
             seen |= outcome.verdict == record.verdict;
-            let later = history
-                .run(point.run)
-                .is_some_and(|run| run.started > said.at);
+            let later = info.started > said.at;
             if later && said.state == TriageState::Real && outcome.standing() == Standing::Good {
                 return Ok(None);
             }

@@ -2,7 +2,10 @@
 
 use crate::terminal::TableOptions;
 use crate::words::plain;
+use etalon_record::{Expected, Run};
 use serde::Serialize;
+use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// The most entries of a kind that a terminal lists.
 const LISTED: usize = 20;
@@ -48,6 +51,26 @@ impl News {
     /// The number of records that count against the run.
     pub fn counted(&self) -> u64 {
         (self.broken.len() + self.old.len()) as u64
+    }
+
+    /// The run as reports show it: what triage settled is expected, for the reason that the entry gives.
+    pub fn settle<'r>(&self, run: &'r Run) -> Cow<'r, Run> {
+        if self.triaged.is_empty() {
+            return Cow::Borrowed(run);
+        }
+        let notes = self.triaged.iter();
+        let notes: HashMap<(&str, &str), &str> = notes
+            .map(|entry| ((&*entry.case, &*entry.adapter), &*entry.note))
+            .collect();
+        let mut run = run.clone();
+        for record in run.records.iter_mut().filter(|r| r.unexpected()) {
+            if let Some(note) = notes.get(&(&*record.case, &*record.adapter)) {
+                record.expected = Some(Expected {
+                    reason: format!("triage {note}"),
+                });
+            }
+        }
+        Cow::Owned(run)
     }
 
     /// The kinds of entries in the order in which they are told, each with its title.

@@ -4,7 +4,7 @@ use crate::cases::{build, library};
 use crate::catalogue::catalogue;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
-use crate::news::NewsArguments;
+use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
@@ -75,7 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         write_catalogue(out, &run)?;
     }
     let news = arguments.news.news(&run)?;
-    let written = etalon_report::write_run_with_news(out, &run, news.as_ref())
+    let shown = shown(&run, news.as_ref());
+    let written = etalon_report::write_run_with_news(out, &shown, news.as_ref())
         .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
@@ -95,7 +96,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if let Some(news) = &news {
             summarize(&etalon_report::news_table(news, table_options()));
         }
-        summarize(&etalon_report::table(&run, table_options()));
+        summarize(&etalon_report::table(&shown, table_options()));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     print_overlap(&merged);

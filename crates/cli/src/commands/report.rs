@@ -2,6 +2,7 @@
 
 use crate::expectations;
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
+use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, table_options};
 use clap::Args;
 use etalon_record::{Bench, FolderKind, Record, Run};
@@ -13,28 +14,37 @@ pub(crate) struct Arguments {
     /// Run and bench folders
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) news: NewsArguments,
 }
 
-/// Rebuilds the reports of run and bench folders from the folders alone. Returns what the runs and benches returned, by
-/// their records; of several the gravest.
+/// Rebuilds the reports of run and bench folders from the folders, and those of runs from a history where one is named.
+/// Returns what the runs and benches returned, by their records; of several the gravest.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    arguments.news.check()?;
     let options = table_options();
     let mut codes = Vec::new();
     for folder in &arguments.folders {
         codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
             // A folder that is neither is reported as a missing run.
-            Some(FolderKind::Run) | None => of_run(folder, options)?,
+            Some(FolderKind::Run) | None => of_run(folder, &arguments.news, options)?,
         });
     }
     let gravest = [INCOMPLETE, UNEXPECTED, IMPROVED];
     Ok(gravest.into_iter().find(|c| codes.contains(c)).unwrap_or(0))
 }
 
-fn of_run(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
+fn of_run(folder: &Path, news: &NewsArguments, options: TableOptions) -> Result<u8, Failure> {
     let run = Run::read(folder).map_err(Failure::usage)?;
-    let written = etalon_report::write(folder).map_err(Failure::usage)?;
-    summarize(&etalon_report::table(&run, options));
+    let news = news.news(&run)?;
+    let shown = shown(&run, news.as_ref());
+    let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref())
+        .map_err(Failure::usage)?;
+    if let Some(news) = &news {
+        summarize(&etalon_report::news_table(news, options));
+    }
+    summarize(&etalon_report::table(&shown, options));
     summarize("\n");
     for path in written.all() {
         summarize(&format!("{}\n", path.display()));
@@ -47,7 +57,7 @@ fn of_run(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
             run.header.expected_records()
         );
         INCOMPLETE
-    } else if run.records.iter().any(Record::unexpected) {
+    } else if shown.records.iter().any(Record::unexpected) {
         UNEXPECTED
     } else if run.records.iter().any(Record::improvement) {
         IMPROVED

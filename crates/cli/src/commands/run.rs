@@ -12,7 +12,7 @@ use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
-use crate::news::NewsArguments;
+use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::processors::processors;
@@ -251,7 +251,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     etalon_report::write_catalogue(&arguments.out, &catalogue(&library, &cases))
         .map_err(Failure::incomplete)?;
     let news = arguments.news.news(&run)?;
-    let written = etalon_report::write_run_with_news(&arguments.out, &run, news.as_ref())
+    let shown = shown(&run, news.as_ref());
+    let written = etalon_report::write_run_with_news(&arguments.out, &shown, news.as_ref())
         .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         summarize_json(&json!({
@@ -273,7 +274,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if let Some(news) = &news {
             summarize(&etalon_report::news_table(news, table_options()));
         }
-        summarize(&etalon_report::table(&run, table_options()));
+        summarize(&etalon_report::table(&shown, table_options()));
         summarize(&rechecked(arguments.recheck, outcome.rechecks));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }

@@ -32,15 +32,20 @@ fn add(place: &Place, out: &str, branch: &str) {
 
 /// Copies a run as one of an earlier day in which all was well, and returns the cases that were not.
 fn well_before(place: &Place, from: &str, to: &str) -> Vec<String> {
+    before(place, from, to, "2025-01-01T00:00:00Z", "pass")
+}
+
+/// Copies a run as one of another day in which what crashed had this verdict, and returns the cases that crashed.
+fn before(place: &Place, from: &str, to: &str, day: &str, verdict: &str) -> Vec<String> {
     let text = fs::read_to_string(place.path(from).join("run.jsonl")).unwrap();
     let mut bad = Vec::new();
     let lines = text.lines().map(|line| {
         let mut value: Value = serde_json::from_str(line).unwrap();
         if value["started"].is_string() {
-            value["started"] = json!("2025-01-01T00:00:00Z");
+            value["started"] = json!(day);
         } else if value["verdict"] == "crash" {
             bad.push(value["case"].as_str().unwrap().to_owned());
-            value["verdict"] = json!("pass");
+            value["verdict"] = json!(verdict);
         }
         value.to_string() + "\n"
     });
@@ -123,18 +128,115 @@ fn what_is_mended_is_news() {
     let place = Place::new();
     run(&place, "bad", &[]).code(1);
     let bad = well_before(&place, "bad", "well");
-    // The run that failed comes first, and one in which all is well is merged after it.
+    // The run that failed comes first, and one in which all is well is merged after it. A later one changes nothing.
+    before(&place, "bad", "older", "2024-01-01T00:00:00Z", "crash");
+    add(&place, "older", "main");
     add(&place, "bad", "main");
     let mut command = etalon(&["merge", "--label", "branch=main", "--history"]);
     command
         .arg(place.db())
         .arg("--out")
         .arg(place.path("merged"));
-    command
-        .arg(place.path("well"))
-        .assert()
+    command.arg(place.path("well")).assert().code(0).stdout(
+        contains(format!("{} fixed since the last run", bad.len())).and(contains("2024-01-01")),
+    );
+}
+
+/// The statuses of the tests in the CTRF of a folder.
+fn statuses(place: &Place, out: &str) -> Vec<String> {
+    let text = fs::read(place.path(out).join("ctrf.json")).unwrap();
+    let value: Value = serde_json::from_slice(&text).unwrap();
+    let tests = value["results"]["tests"].as_array().unwrap().iter();
+    tests
+        .map(|test| test["status"].as_str().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
+    let place = Place::new();
+    run(&place, "first", &[]).code(1);
+    let bad = well_before(&place, "first", "well");
+    add(&place, "well", "main");
+    compared(&place, "second", &[]).code(1);
+    let read = |name: &str| fs::read_to_string(place.path("second").join(name)).unwrap();
+    let told = read("summary.md");
+    assert!(told.contains("broken since the last run"), "{told}");
+
+    // The history has the run by now, and a later one.
+    add(&place, "second", "main");
+    compared(&place, "third", &[]).code(1);
+    add(&place, "third", "main");
+    let db = place.db().display().to_string();
+    let report = |flags: &[&str]| {
+        let mut command = etalon(&["report"]);
+        command.arg(place.path("second")).args(flags).assert()
+    };
+    let flags = ["--history", &db, "--label", "branch=main"];
+    report(&[]).code(1);
+    assert_ne!(read("summary.md"), told);
+    report(&flags)
+        .code(1)
+        .stdout(contains("broken since the last run"));
+    assert_eq!(read("summary.md"), told);
+    let failed = |out: &str| {
+        let all = statuses(&place, out);
+        all.iter().filter(|status| *status == "failed").count()
+    };
+    assert_eq!(failed("second"), bad.len());
+
+    // What somebody says of it, the files for other programs say, too.
+    for (case, state) in bad.iter().zip(["real", "ignored"].into_iter().cycle()) {
+        let said = ["triage", case, "--adapter", ADAPTER, "--state", state];
+        let reason = ["--reason", "looked <at> it"];
+        place.history(&[&said[..], &reason].concat()).code(0);
+    }
+    report(&flags)
         .code(0)
-        .stdout(contains(format!("{} fixed since the last run", bad.len())));
+        .stdout(contains("unexpected record").not());
+    compared(&place, "fourth", &[]).code(0);
+    for out in ["second", "fourth"] {
+        let read = |name: &str| fs::read_to_string(place.path(out).join(name)).unwrap();
+        let junit = read("junit.xml");
+        assert!(junit.contains("failures=\"0\" errors=\"0\""), "{junit}");
+        assert!(!junit.contains("<failure") && !junit.contains("<error"));
+        for state in ["real", "ignored"] {
+            let due = format!("expected: triage {state}: looked &lt;at&gt; it");
+            assert!(junit.contains(&due), "{due}: {junit}");
+        }
+        assert_eq!(failed(out), 0);
+        let other = statuses(&place, out);
+        let other = other.iter().filter(|status| *status == "other").count();
+        assert_eq!(other, bad.len());
+        assert!(read("ctrf.json").contains("triage ignored: looked <at> it"));
+        assert!(read("index.html").contains("Nothing unexpected."));
+        assert!(read("summary.md").contains("Nothing unexpected."));
+        // The record itself stays as it is.
+        assert!(!read("run.jsonl").contains("looked"));
+    }
+    report(&[]).code(1);
+    assert_eq!(failed("second"), bad.len());
+}
+
+#[test]
+fn a_history_for_reports_is_refused_or_told_as_for_runs() {
+    let place = Place::new();
+    run(&place, "run", &[]).code(1);
+    let report = |flags: &[&str]| {
+        let mut command = etalon(&["report"]);
+        command.arg(place.path("run")).args(flags).assert()
+    };
+    let db = place.db().display().to_string();
+    report(&["--history", &db])
+        .code(1)
+        .stderr(contains("there is no history at"));
+    report(&["--label", "branch=main"])
+        .code(64)
+        .stderr(contains("--history"));
+    fs::write(place.db(), "something else, which is long enough").unwrap();
+    report(&["--history", &db])
+        .code(64)
+        .stderr(contains("is no history of etalon"));
 }
 
 #[test]

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `failed` | unexpected records: a bad verdict that no expectation names, and a selftest that did not fail |
 //! | `passed` | Pass, Imprecise, and selftests that failed as they should |
-//! | `other` | Measured, which is no judgement, and bad verdicts that the expectations name |
+//! | `other` | Measured, which is no judgement, and bad verdicts that the expectations name or triage settled |
 //! | `skipped` | NotSupported and Skipped |
 //!
 //! `flaky` marks the verdict Flaky. Records hold no time of day, so tests have durations alone, and the

@@ -204,7 +204,9 @@ fn totals(run: &Run) -> Markup {
 fn sentence(verdict: Verdict, tone: Tone) -> &'static str {
     match tone {
         Tone::Plain => words::meaning(verdict),
-        Tone::Excused => "Named by the expectations, or a selftest that is due to fail.",
+        Tone::Excused => {
+            "Named by the expectations or settled by triage, or a selftest that is due to fail."
+        }
         Tone::Missed => "A selftest that is due to fail, and did not: the suite missed a bug.",
     }
 }

@@ -74,7 +74,8 @@ pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
     write_run_with_news(folder, run, None)
 }
 
-/// [`write_run`] of a run that was compared with the one before it: the summary tells news first.
+/// [`write_run`] of a run that was compared with the one before it: the summary tells news first. [`News::settle`] gives
+/// the run in which what triage settled does not count.
 ///
 /// # Errors
 /// As [`write_run`].
