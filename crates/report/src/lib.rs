@@ -3,7 +3,7 @@
 //! [`write()`] writes the reports of a run into its folder, [`table()`] is its summary for a terminal.
 //! [`write_hunt`] and [`hunt_table`] do the same for planted bugs, [`write_bench`] and [`bench_table`]
 //! for frame times. [`runs`] compares two runs, [`diff()`] two benches. A report holds nothing that the
-//! folder does not, so that an old run can be reported again.
+//! folder and the [`News`] against a history do not, so that an old run can be reported again.
 
 #![cfg_attr(
     test,
@@ -30,6 +30,7 @@ mod picture;
 mod run;
 mod site;
 mod terminal;
+mod threads;
 mod versions;
 mod words;
 

@@ -1,8 +1,10 @@
 //! Series of frame times with their change points, and what people said of these.
 
 use super::places::Places;
+use crate::threads::on_threads;
 use etalon_history::{
-    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry, TriageStates,
+    History, HistoryError, MachineId, RunId, SeriesKey, Subject, TimePoint, TriageEntry,
+    TriageStates,
 };
 use etalon_record::Time;
 use etalon_stats::{ChangePoint, Changes, Point, change_points};
@@ -45,6 +47,7 @@ pub(super) fn read(
     states: &TriageStates,
 ) -> Result<Vec<Series>, HistoryError> {
     let mut all = Vec::new();
+    let mut measured = Vec::new();
     for key in history.series_keys()? {
         let line = places.timelines.iter().position(|l| l.name == key.timeline);
         let Some(line) = line else { continue };
@@ -58,26 +61,73 @@ pub(super) fn read(
         let of_case = Said::of(history, &key, states)?;
         for (ruler, points) in parts {
             let times = TIMES.into_iter();
-            let times: Vec<Timed> = times
-                .filter_map(|time| Timed::new(time, &points, places, &of_case))
-                .collect();
-            if !times.is_empty() {
-                all.push(Series {
-                    case: key.case.number() as usize - 1,
-                    line,
-                    machine: key.machine,
-                    ruler: ruler.map(str::to_owned),
-                    times,
-                });
-            }
+            let times = times.filter_map(|time| Measured::new(time, &points, places, &of_case));
+            measured.extend(times.map(|one| (all.len(), one)));
+            all.push(Series {
+                case: key.case.number() as usize - 1,
+                line,
+                machine: key.machine,
+                ruler: ruler.map(str::to_owned),
+                times: Vec::new(),
+            });
         }
     }
+    // Changes take nearly all of the time.
+    let found = on_threads(&measured, |(_, one)| Found::of(&one.points));
+    for ((series, one), found) in measured.into_iter().zip(found) {
+        let timed = found.map(|found| Timed::new(one, found, places));
+        all[series].times.extend(timed);
+    }
+    all.retain(|series| !series.times.is_empty());
     Ok(all)
+}
+
+/// One time of a series, and what people said of it.
+struct Measured<'a> {
+    time: Time,
+    /// The places of the runs.
+    runs: Vec<usize>,
+    points: Vec<Point>,
+    said: Vec<(RunId, &'a TriageEntry)>,
+}
+
+impl<'a> Measured<'a> {
+    /// `None` where no run measured it.
+    fn new(time: Time, points: &[TimePoint], places: &Places<'_>, said: &Said<'a>) -> Option<Self> {
+        let usable = points.iter().filter_map(|point| {
+            let place = places.of(point.run)?;
+            Some((place, point.times.point(time)?))
+        });
+        let (runs, points): (Vec<usize>, Vec<Point>) = usable.unzip();
+        let said = said.entries.iter().filter(|(of, ..)| *of == time);
+        (!points.is_empty()).then(|| Self {
+            time,
+            runs,
+            points,
+            said: said.map(|(_, run, entry)| (*run, *entry)).collect(),
+        })
+    }
+}
+
+/// The changes of one time.
+struct Found {
+    changes: Changes,
+    /// True by change if the last run showed it.
+    fresh: Vec<bool>,
+}
+
+impl Found {
+    fn of(points: &[Point]) -> Option<Self> {
+        // All points were checked, so there is no error.
+        let changes = change_points(points).ok()?;
+        let fresh = fresh(points, &changes);
+        Some(Self { changes, fresh })
+    }
 }
 
 /// The entries about the steps of one series: the time, the place of the run, the entry.
 struct Said<'a> {
-    entries: Vec<(Time, etalon_history::RunId, &'a TriageEntry)>,
+    entries: Vec<(Time, RunId, &'a TriageEntry)>,
 }
 
 impl<'a> Said<'a> {
@@ -105,14 +155,14 @@ impl<'a> Said<'a> {
 }
 
 impl Timed {
-    fn new(time: Time, points: &[TimePoint], places: &Places<'_>, said: &Said<'_>) -> Option<Self> {
-        let usable = points.iter().filter_map(|point| {
-            let place = places.of(point.run)?;
-            Some((place, point.times.point(time)?))
-        });
-        let (runs, points): (Vec<usize>, Vec<Point>) = usable.unzip();
-        // All points were checked, so there is no error.
-        let changes = change_points(&points).ok().filter(|_| !points.is_empty())?;
+    fn new(measured: Measured<'_>, found: Found, places: &Places<'_>) -> Self {
+        let Measured {
+            time,
+            runs,
+            points,
+            said,
+        } = measured;
+        let Found { changes, fresh } = found;
         let states = changes.points.iter().map(|change| {
             let [after, by] = change.between.map(|at| runs.get(at).copied());
             let first = runs.get(change.index).copied();
@@ -123,23 +173,21 @@ impl Timed {
                     after.is_some_and(|after| place > after) && by.is_some_and(|by| place <= by);
                 (is_first || within).then_some((is_first, place))
             };
-            let entries = said.entries.iter().filter(|(of, ..)| *of == time);
-            let ranked =
-                entries.filter_map(|(_, run, entry)| Some((rank(places.of(*run)?)?, *entry)));
+            let entries = said.iter();
+            let ranked = entries.filter_map(|(run, entry)| Some((rank(places.of(*run)?)?, *entry)));
             ranked
                 .max_by_key(|(rank, _)| *rank)
                 .map(|(_, entry)| entry.clone())
         });
         let states = states.collect();
-        let fresh = fresh(&points, &changes);
-        Some(Self {
+        Self {
             time,
             runs,
             points,
             changes,
             states,
             fresh,
-        })
+        }
     }
 
     /// The changes with what people said of each, and whether the last run showed them.

@@ -6,14 +6,12 @@ use crate::mark::{class, mark};
 use crate::numbers::count;
 use crate::page::link;
 use crate::run::grid::{Area, CaseFile, Grid, Tally};
+use crate::threads::on_threads;
 use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::panic::resume_unwind;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 /// The most records that are shown with everything known about them.
 const BODIES: usize = 160;
@@ -120,22 +118,9 @@ fn drawn(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> HashMap<usize, Drawn> {
         .copied()
         .filter(|i| plan.whole(*i))
         .collect();
-    let next = AtomicUsize::new(0);
-    let some = || {
-        let taken = std::iter::from_fn(|| whole.get(next.fetch_add(1, Ordering::Relaxed)));
-        let drawn = taken.filter_map(|i| Some((*i, Drawn::of(folder, grid.record(*i))?)));
-        drawn.collect::<Vec<_>>()
-    };
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(whole.len()))
-            .map(|_| scope.spawn(some))
-            .collect();
-        let own = some();
-        let others = others.into_iter().map(|one| one.join());
-        let others = others.flat_map(|one| one.unwrap_or_else(|panic| resume_unwind(panic)));
-        own.into_iter().chain(others).collect()
-    })
+    let drawn = on_threads(&whole, |i| Drawn::of(folder, grid.record(*i)));
+    let drawn = whole.into_iter().zip(drawn);
+    drawn.filter_map(|(i, drawn)| Some((i, drawn?))).collect()
 }
 
 pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
