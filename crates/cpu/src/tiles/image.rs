@@ -171,25 +171,58 @@ impl Image {
 
     /// Returns the codes of one aspect in the order of [`etalon_frame::Image`].
     pub(crate) fn codes(&self, aspect: Aspect, channels: usize) -> Vec<u32> {
-        let mut codes = Vec::with_capacity(self.width * self.height * self.samples * channels);
-        for y in 0..self.height {
-            for x in 0..self.width {
-                for s in 0..self.samples {
-                    let at = self.place(x, y, s);
+        let texel = self.samples * channels;
+        let mut codes = vec![0; self.width * self.height * texel];
+        let rows = codes.chunks_exact_mut((self.width * texel).max(1));
+        for (y, row) in rows.enumerate() {
+            for (column, part) in row.chunks_mut(TILE * texel).enumerate() {
+                let tile = y / TILE * self.across + column;
+                for sample in 0..self.samples {
+                    let plane = tile * self.samples + sample;
+                    let within = y % TILE * TILE;
+                    let place = plane * AREA + within;
+                    let rest = &mut part[sample * channels..];
                     match aspect {
-                        Aspect::Color if !self.bytes => codes.extend(
-                            (0..channels).map(|word| self.color[self.color_place(x, y, s, word)]),
-                        ),
-                        Aspect::Color => {
-                            let texel = self.color[at].to_ne_bytes();
-                            codes.extend(texel[..channels].iter().map(|c| u32::from(*c)));
+                        Aspect::Color if !self.bytes => {
+                            let start = plane * self.words * AREA + within;
+                            for word in 0..channels {
+                                let words = &self.color[start + word * AREA..][..TILE];
+                                spread(&mut rest[word..], texel, words, |w| *w);
+                            }
                         }
-                        Aspect::Depth => codes.push(self.depth[at]),
-                        Aspect::Stencil => codes.push(u32::from(self.stencil[at])),
+                        Aspect::Color if texel == 4 && channels == 4 => {
+                            let (texels, _) = rest.as_chunks_mut::<4>();
+                            for (codes, texel) in texels.iter_mut().zip(&self.color[place..]) {
+                                *codes = texel.to_ne_bytes().map(u32::from);
+                            }
+                        }
+                        Aspect::Color => {
+                            for c in 0..channels {
+                                let words = &self.color[place..][..TILE];
+                                spread(&mut rest[c..], texel, words, |w| {
+                                    u32::from(w.to_ne_bytes()[c])
+                                });
+                            }
+                        }
+                        Aspect::Depth => {
+                            spread(rest, texel, &self.depth[place..][..TILE], |code| *code)
+                        }
+                        Aspect::Stencil => {
+                            let values = &self.stencil[place..][..TILE];
+                            spread(rest, texel, values, |value| u32::from(*value));
+                        }
                     }
                 }
             }
         }
         codes
+    }
+}
+
+/// Writes what a function makes of values to every so many codes.
+#[inline(always)]
+fn spread<T>(codes: &mut [u32], step: usize, values: &[T], code: impl Fn(&T) -> u32) {
+    for (slot, value) in codes.iter_mut().step_by(step).zip(values) {
+        *slot = code(value);
     }
 }

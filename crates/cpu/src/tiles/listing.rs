@@ -19,6 +19,10 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
             let colors = match draw_plan.shading {
                 Shading::Vertex => "flat colours of vertices",
                 Shading::Expensive(_) => "flat colours of vertices after work",
+                Shading::Kept(_) => "flat colours of vertices unless discarded",
+                Shading::Depth => "one colour at exported depths",
+                Shading::Texels(_, None) => "texels",
+                Shading::Texels(..) => "texels of two textures",
                 Shading::Facing => "a colour for each facing",
                 Shading::Uniform => "one colour",
                 Shading::Nothing => "no colour",
@@ -48,15 +52,14 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
 fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     let color = match shading {
         Shading::Texture { .. } => return "stored as they are",
-        Shading::Vertex | Shading::Expensive(_) => {
+        Shading::Vertex | Shading::Expensive(_) | Shading::Kept(_) => {
             draw.mesh.vertices.first().map_or([0.0; 4], |v| v.color)
         }
-        Shading::Facing | Shading::Uniform => draw.params.color,
-        Shading::Nothing => [0.0; 4],
+        Shading::Depth | Shading::Facing | Shading::Uniform => draw.params.color,
+        Shading::Nothing | Shading::Texels(..) => [0.0; 4],
     };
-    let samples = pass.positions.len();
     let paint = dispatch!(Level::new(), simd => Paint::new(
-        simd, draw, color, pass.channels, pass.logic, samples, false
+        simd, draw, shading, color, pass, false
     ));
     match paint.kernel {
         Kernel::Keep => "not written",
@@ -66,6 +69,8 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Table(_) => "a table of each code",
         Kernel::Weighted(_) => "factors of few channels",
         Kernel::Affine(_) => "a product and a sum in each channel",
+        Kernel::Copy => "copied",
+        Kernel::Varying(_) => "plain arithmetic on two operands",
         Kernel::Lanes(_) => "plain arithmetic on bytes",
         Kernel::Wide(_) => "plain arithmetic on codes",
     }

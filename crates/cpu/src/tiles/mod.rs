@@ -21,6 +21,7 @@ mod plan;
 mod resolve;
 mod scene;
 mod setup;
+mod texels;
 mod texture;
 mod tile;
 mod triangle;

@@ -41,9 +41,9 @@ impl Store {
         };
         let shaded = matches!(
             plan.shading,
-            Shading::Expensive(_) | Shading::Texture { .. }
+            Shading::Expensive(_) | Shading::Texture { .. } | Shading::Texels(..)
         );
-        (plan.stencil.is_none() && !shaded).then_some(Self {
+        (plan.stencil.is_none() && !shaded && paint.others.is_empty()).then_some(Self {
             of: [triangle.draw, triangle.paint],
             color,
             passes: plan.depth.map(|d| passing(d.compare)),

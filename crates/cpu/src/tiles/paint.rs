@@ -9,10 +9,13 @@ use super::affine::{Affine, Join, Term};
 use super::image::{AREA, Texel, Words, are_bytes, word};
 use super::lanes::{ALL, Lane, select, select_texels};
 use super::linear::{CODES, Linear};
+use super::plan::{PassPlan, Shading};
+use super::texels::{NONE, Sources};
 use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
+use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, Draw, LogicOperation,
@@ -29,6 +32,10 @@ const UNORM: Channels = ([ChannelEncoding::Unorm(8); 4], 4);
 #[derive(Debug)]
 pub(crate) struct Paint {
     pub(crate) kernel: Kernel,
+    /// The functions of the colour attachments behind the first.
+    pub(crate) others: Vec<Kernel>,
+    /// True if a function reads the values of fetched texels.
+    pub(crate) decodes: bool,
     /// Bit `i` is set if sample `i` is drawn.
     pub(crate) samples: u32,
 }
@@ -56,6 +63,10 @@ pub(crate) enum Kernel {
     Affine(Box<Affine>),
     /// Any function of texels that have several words.
     Wide(Box<Blending>),
+    /// Replaces them by the words of fetched texels.
+    Copy,
+    /// Any function of them and of fetched texels.
+    Varying(Box<Blending>),
 }
 
 /// The words that replace a texel's.
@@ -88,13 +99,19 @@ impl Paint {
     pub(crate) fn new<S: Simd>(
         simd: S,
         draw: &Draw,
+        shading: Shading,
         source: [f32; 4],
-        channels: &'static [ChannelEncoding],
-        obeys: bool,
-        samples: usize,
+        pass: &PassPlan,
         quick: bool,
     ) -> Self {
         let state = &draw.multisample;
+        let samples = pass.positions.len();
+        if let Shading::Kept(limit) = shading {
+            let kept = Kept::unless_below([source[3]; LANES], [limit; LANES]);
+            if !Faithful.kept(&kept)[0] {
+                return Self::nothing();
+            }
+        }
         let covered = |sample: usize| {
             let covers = || Faithful.alpha_covers([source[3]; LANES], sample, samples)[0];
             Faithful.sample_drawn(state, sample, samples) && (!draw.alpha_to_coverage() || covers())
@@ -102,9 +119,8 @@ impl Paint {
         let drawn = (0..samples)
             .filter(|s| covered(*s))
             .fold(0, |bits, s| bits | 1 << s);
-        let kernel = match draw.targets.first().filter(|_| !channels.is_empty()) {
-            None => Kernel::Keep,
-            Some(target) => Blending {
+        let kernel = |target: &ColorTarget, channels, obeys| {
+            let blending = Blending {
                 source,
                 target: *target,
                 constant: draw.blend_constant,
@@ -113,12 +129,35 @@ impl Paint {
                 alpha_to_one: draw.alpha_to_one(),
                 channels,
                 second_alpha: state.alpha_to_one,
+            };
+            match shading {
+                Shading::Texels(first, _) => blending.varying(first.channels),
+                _ => blending.kernel(simd, quick),
             }
-            .kernel(simd, quick),
         };
+        let first = draw.targets.first().filter(|_| !pass.channels.is_empty());
+        let first = first.map(|target| kernel(target, pass.channels, pass.logic));
+        let others = draw.targets.iter().skip(1).zip(&pass.others);
+        let others: Vec<_> = others
+            .map(|(target, other)| kernel(target, other.channels, other.logic))
+            .collect();
+        let kernel = first.unwrap_or(Kernel::Keep);
+        let decodes = |kernel: &Kernel| matches!(kernel, Kernel::Varying(_));
         Self {
+            decodes: decodes(&kernel) || others.iter().any(decodes),
             kernel,
+            others,
             samples: drawn,
+        }
+    }
+
+    /// Returns the paint of a source that is discarded.
+    fn nothing() -> Self {
+        Self {
+            kernel: Kernel::Keep,
+            others: Vec::new(),
+            decodes: false,
+            samples: 0,
         }
     }
 }
@@ -184,6 +223,18 @@ impl Blending {
         }
     }
 
+    /// Returns the function of texels that are fetched from channels.
+    fn varying(self, fetched: &[ChannelEncoding]) -> Kernel {
+        let replaces = self.target.blend.is_none() && (self.logic.is_none() || !self.obeys);
+        let all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
+        // Codes of 8 unsigned normalized bits are those of their values.
+        let same = fetched == UNORM.0 && *self.channels == UNORM.0;
+        match replaces && all && same && !self.alpha_to_one {
+            true => Kernel::Copy,
+            false => Kernel::Varying(Box::new(self)),
+        }
+    }
+
     /// Returns true if each channel's result depends on no other channel of the destination.
     fn is_separable(&self) -> bool {
         let Some(blend) = self.target.blend else {
@@ -204,7 +255,7 @@ impl Blending {
     #[inline(always)]
     fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
         let blended = |code: u32| {
-            self.values(self.channels(), &[[code; LANES]; 4])
+            self.values(self.channels(), &[[code; LANES]; 4], self.input())
                 .map(|v| v[0])
         };
         let (low, high) = (blended(0), blended(255));
@@ -344,8 +395,12 @@ impl Blending {
 
     /// Returns blended colours before they are stored, of the destination's codes channel by channel.
     #[inline(always)]
-    fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
-        let mut input = self.input();
+    fn values(
+        &self,
+        (encodings, count): Channels,
+        codes: &[Codes; 4],
+        mut input: BlendInput<Real>,
+    ) -> [Real; 4] {
         let Some(state) = &self.target.blend else {
             return input.src;
         };
@@ -371,19 +426,87 @@ impl Blending {
         simd.vectorize(
             #[inline(always)]
             || {
+                let input = self.input();
                 // The same for all channels, and known to the compiler.
                 if *self.channels == UNORM.0 {
-                    self.codes_of(UNORM, old)
+                    self.codes_of(UNORM, old, input)
                 } else {
-                    self.codes_of(self.channels(), old)
+                    self.codes_of(self.channels(), old, input)
                 }
             },
         )
     }
 
+    /// Applies the function to the texels that a mask holds, at a place of a sample's planes, with sources of their own.
+    #[inline(never)]
+    fn varied<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+        sources: &Sources,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.varied_of(planes, at, mask, sources),
+        );
+    }
+
     #[inline(always)]
-    fn codes_of(&self, (encodings, count): Channels, old: &[Codes; 4]) -> [Codes; 4] {
-        let value = self.values((encodings, count), old);
+    fn varied_of(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES], sources: &Sources) {
+        let mut input = BlendInput {
+            src: sources.first,
+            src1: sources.second,
+            ..self.input()
+        };
+        if self.alpha_to_one {
+            input.src[3] = [1.0; LANES];
+        }
+        if self.second_alpha {
+            input.src1[3] = [1.0; LANES];
+        }
+        let count = self.channels.len();
+        let bytes = are_bytes(self.channels);
+        let mut old = [[0; LANES]; 4];
+        let word = *lanes(planes, at);
+        for (c, codes) in old.iter_mut().enumerate().take(count) {
+            *codes = match bytes {
+                true => word,
+                false => *lanes(planes, c * AREA + at),
+            };
+            if bytes {
+                for code in codes {
+                    *code = *code >> (8 * c) & 0xff;
+                }
+            }
+        }
+        let new = if *self.channels == UNORM.0 {
+            self.codes_of(UNORM, &old, input)
+        } else {
+            self.codes_of(self.channels(), &old, input)
+        };
+        if !bytes {
+            for (c, codes) in new.iter().enumerate().take(count) {
+                select(lanes(planes, c * AREA + at), mask, codes);
+            }
+            return;
+        }
+        let mut words = [0; LANES];
+        for (lane, word) in words.iter_mut().enumerate() {
+            *word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
+        }
+        select(lanes(planes, at), mask, &words);
+    }
+
+    #[inline(always)]
+    fn codes_of(
+        &self,
+        (encodings, count): Channels,
+        old: &[Codes; 4],
+        input: BlendInput<Real>,
+    ) -> [Codes; 4] {
+        let value = self.values((encodings, count), old, input);
         let mut result = *old;
         for c in 0..count {
             if self.target.write_mask & (1 << c) == 0 {
@@ -452,8 +575,11 @@ impl Kernel {
         planes: &mut [u32],
         at: usize,
         mask: &[Lane; LANES],
+        sources: &Sources,
     ) {
         match self {
+            Self::Copy => return select(lanes(planes, at), mask, &sources.words),
+            Self::Varying(blending) => return blending.varied(simd, planes, at, mask, sources),
             Self::Replace(stored) => {
                 for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
                     let plane = lanes(planes, word * AREA + at);
@@ -467,7 +593,12 @@ impl Kernel {
         }
         let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
         match self {
-            Self::Keep | Self::Replace(_) | Self::Affine(_) | Self::Wide(_) => {}
+            Self::Keep
+            | Self::Replace(_)
+            | Self::Affine(_)
+            | Self::Wide(_)
+            | Self::Copy
+            | Self::Varying(_) => {}
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
             Self::Masked { value, keep } => {
                 let new = masked(texels, *value, *keep);
@@ -497,7 +628,8 @@ impl Kernel {
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`]. Fetched
+    /// texels are 0.
     #[inline(never)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         simd.vectorize(
@@ -517,6 +649,12 @@ impl Kernel {
                 return;
             }
             Self::Affine(affine) => return affine.whole(simd, planes, count),
+            Self::Copy | Self::Varying(_) => {
+                for at in (0..count).step_by(LANES) {
+                    self.masked(simd, planes, at, &ALL, &NONE);
+                }
+                return;
+            }
             Self::Wide(blending) => {
                 for at in (0..count).step_by(LANES) {
                     blending.wide(simd, planes, at, &ALL);
@@ -527,7 +665,13 @@ impl Kernel {
         }
         let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
         match self {
-            Self::Keep | Self::Store(_) | Self::Replace(_) | Self::Affine(_) | Self::Wide(_) => {}
+            Self::Keep
+            | Self::Store(_)
+            | Self::Replace(_)
+            | Self::Affine(_)
+            | Self::Wide(_)
+            | Self::Copy
+            | Self::Varying(_) => {}
             Self::Masked { value, keep } => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
                     *chunk = masked(chunk, *value, *keep);

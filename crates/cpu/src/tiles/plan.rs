@@ -10,7 +10,8 @@ use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{Arithmetic, Plain, takes_logic, window_position};
 use etalon_scene::{
     AddressMode, ColorTarget, DepthState, Draw, EarlyTests, FilterMode, Multisample, Pass,
-    PolygonMode, PrimitiveTopology, ProvokingVertex, RESTART, Scene, Shader, StencilState,
+    PolygonMode, PrimitiveTopology, PrimitiveVertices, ProvokingVertex, RESTART, Scene, Shader,
+    StencilState, Vertex,
 };
 
 /// The farthest that a vertex may lie from the window's corner, in texels: beyond it the kernels' integers overflow.
@@ -38,8 +39,19 @@ pub(crate) struct PassPlan {
     pub(crate) channels: &'static [ChannelEncoding],
     /// True if logic operations apply to it.
     pub(crate) logic: bool,
+    /// The colour attachments behind the first.
+    pub(crate) others: Vec<TargetPlan>,
     pub(crate) depth: Option<ChannelEncoding>,
     pub(crate) draws: Vec<DrawPlan>,
+}
+
+/// A colour attachment of a pass.
+#[derive(Debug)]
+pub(crate) struct TargetPlan {
+    pub(crate) index: usize,
+    pub(crate) channels: &'static [ChannelEncoding],
+    /// True if logic operations apply to it.
+    pub(crate) logic: bool,
 }
 
 /// The kernels of a draw.
@@ -55,23 +67,31 @@ pub(crate) struct DrawPlan {
     pub(crate) bounds: [i32; 4],
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil: Option<StencilState>,
+    /// True if triangles may lie wholly before the near or behind the far plane, so that nothing of them is drawn.
+    pub(crate) rejects: bool,
     /// True if every three vertices or indices are a triangle whose first vertex is flat over it.
     pub(crate) listed: bool,
 }
 
-/// The source of a triangle's colour, which is constant over it.
+/// The source of a triangle's colour, which is constant over it unless it is a texture's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shading {
     /// The provoking vertex's.
     Vertex,
     /// The provoking vertex's, after so many steps of work for each texel.
     Expensive(f32),
+    /// The provoking vertex's, if its alpha is not below a limit; nothing is drawn otherwise.
+    Kept(f32),
+    /// The parameters' first, at the depth that is the provoking vertex's red.
+    Depth,
     /// The parameters' first or second, by facing.
     Facing,
     /// The parameters' first.
     Uniform,
     /// None: zeros.
     Nothing,
+    /// The texels of one or two textures at the place that is drawn.
+    Texels(Fetched, Option<Fetched>),
     /// The nearest texels of a texture, of the format that is drawn to.
     Texture {
         /// The texture's attachment.
@@ -80,6 +100,14 @@ pub(crate) enum Shading {
         /// Bit `i` of the words is set if alpha `i` is discarded.
         discarded: [u32; 8],
     },
+}
+
+/// A texture whose texels are fetched where they are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fetched {
+    /// The texture's attachment.
+    pub(crate) index: usize,
+    pub(crate) channels: &'static [ChannelEncoding],
 }
 
 /// The reason why a scene has no kernels.
@@ -104,8 +132,8 @@ impl Plan {
 
 impl PassPlan {
     fn new(scene: &Scene, pass: &Pass) -> Result<Self, Reason> {
-        if pass.color.len() > 1 {
-            return Err("several colour attachments");
+        if pass.resolve.iter().skip(1).any(Option::is_some) {
+            return Err("a resolve of several colour attachments");
         }
         if pass.depth_stencil_resolve.is_some() {
             return Err("a resolve of depth or stencil");
@@ -117,6 +145,11 @@ impl PassPlan {
         let size = scene.pass_size(pass);
         let positions = standard_sample_positions(scene.pass_samples(pass));
         let format = |index: usize| scene.attachments[index].format;
+        let target = |index: usize| TargetPlan {
+            index,
+            channels: format(index).color_channels(),
+            logic: takes_logic(format(index)),
+        };
         let depth_stencil = pass.depth_stencil;
         let mut plan = Self {
             color,
@@ -129,6 +162,7 @@ impl PassPlan {
                 .collect(),
             channels: color.map_or(&[], |i| format(i).color_channels()),
             logic: color.is_some_and(|i| takes_logic(format(i))),
+            others: pass.color.iter().skip(1).map(|i| target(*i)).collect(),
             depth: depth_stencil.and_then(|i| depth_encoding(format(i))),
             draws: Vec::new(),
         };
@@ -152,15 +186,24 @@ impl DrawPlan {
         pass: &PassPlan,
         stencil: bool,
     ) -> Result<Self, Reason> {
+        // Forced early tests store what the shader discards, and a depth that it does not write.
+        let late = draw.early_tests == EarlyTests::Implicit;
         let shading = match draw.shader {
             Shader::FlatColor => Shading::Vertex,
             Shader::ExpensiveColor if pass.positions.len() == 1 => {
                 Shading::Expensive(draw.params.back_color[0])
             }
+            Shader::ExpensiveDiscard if late && draw.params.back_color[0] as u32 == 0 => {
+                Shading::Kept(draw.params.color[3])
+            }
+            Shader::FlatColorDepth if late => Shading::Depth,
             Shader::FrontFacing => Shading::Facing,
             Shader::UniformColor | Shader::UintColor => Shading::Uniform,
             Shader::VertexOnly => Shading::Nothing,
             Shader::SampledColor | Shader::SampledDiscard => texture(scene, draw, pass)?,
+            Shader::TexelColor | Shader::TexelColorAll | Shader::TexelDualSource => {
+                texels(scene, draw, size)?
+            }
             _ => return Err("a shader"),
         };
         use PrimitiveTopology::{TriangleFan, TriangleList, TriangleStrip};
@@ -181,15 +224,18 @@ impl DrawPlan {
         if draw.stencil.is_some() && !stencil {
             return Err("a stencil test without stencil");
         }
-        let inside = draw.mesh.vertices.iter().all(|v| {
+        let near = draw.mesh.vertices.iter().all(|v| {
             let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
-            let clip = v.position[2] / v.position[3];
             let texture = v.uv.iter().all(|c| c.is_finite());
-            let clips = !draw.depth_clamp && !(0.0..=1.0).contains(&clip);
-            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture && !clips
+            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture
         });
-        if !inside {
-            return Err("clipped by the near or the far plane, or far outside");
+        if !near {
+            return Err("far outside");
+        }
+        let clips = |v: &Vertex| !(0.0..=1.0).contains(&(v.position[2] / v.position[3]));
+        let rejects = !draw.depth_clamp && draw.mesh.vertices.iter().any(clips);
+        if rejects && draw.primitives().iter().any(|p| is_cut(draw, p)) {
+            return Err("clipped by the near or the far plane");
         }
         let drawn = bounds(draw, size).map(|v| v as i32);
         let rects: Vec<_> = pass
@@ -216,12 +262,69 @@ impl DrawPlan {
             rects,
             depth: draw.depth.filter(|_| pass.depth.is_some()),
             stencil: draw.stencil,
+            rejects,
             listed: in_order
                 && draw.topology == TriangleList
                 && draw.tessellation.is_none()
                 && draw.provoking != Some(ProvokingVertex::Last),
         })
     }
+}
+
+/// The plane of the clip volume behind which a vertex lies, if it lies behind one of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Behind {
+    Near,
+    Far,
+}
+
+impl Behind {
+    /// Returns the plane behind which a vertex lies, if it is the near or the far one.
+    pub(crate) fn of(vertex: &Vertex) -> Option<Self> {
+        let [.., z, w] = vertex.position;
+        match () {
+            () if z < 0.0 => Some(Self::Near),
+            () if z > w => Some(Self::Far),
+            () => None,
+        }
+    }
+}
+
+/// Returns true if the near or the far plane may cut a primitive.
+fn is_cut(draw: &Draw, primitive: &PrimitiveVertices) -> bool {
+    let PrimitiveVertices::Triangle(triangle) = primitive else {
+        return true;
+    };
+    let vertices = triangle.map(|i| &draw.mesh.vertices[i]);
+    let [a, b, c] = vertices.map(Behind::of);
+    let w = vertices.iter().all(|v| v.position[3] > 0.0);
+    !(w && a == b && a == c)
+}
+
+/// Returns the shading by texels of textures that are as large as the attachments.
+fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason> {
+    let fetched = |place: usize| match draw.textures.get(place) {
+        Some(index) => {
+            let attachment = &scene.attachments[*index];
+            let fits = attachment.size == size && attachment.samples == 1;
+            (fits && attachment.format.is_color()).then_some(Fetched {
+                index: *index,
+                channels: attachment.format.color_channels(),
+            })
+        }
+        None => None,
+    };
+    let two = draw.shader.textures() > 1;
+    let (Some(first), second) = (fetched(0), fetched(1).filter(|_| two)) else {
+        return Err("a texture of another size, or of depths");
+    };
+    if two && second.is_none() {
+        return Err("a texture of another size, or of depths");
+    }
+    if draw.sampler.is_some() || draw.alpha_to_coverage() {
+        return Err("texels that are sampled or cover a part");
+    }
+    Ok(Shading::Texels(first, second))
 }
 
 /// Returns the shading by a texture, whose codes are stored as they are.

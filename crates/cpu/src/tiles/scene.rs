@@ -112,15 +112,10 @@ impl TiledScene {
     fn pass(&mut self, number: usize) {
         let plan = &self.plan.passes[number];
         let pass = &self.scene.passes[number];
-        let inputs = inputs(pass, plan, &self.images);
-        transform(self.machine, &inputs, &mut self.placed);
-        let parts = set_up(self.machine, plan, &inputs, &self.placed, &mut self.parts);
-        let color = plan
-            .color
-            .map(|i| (i, std::mem::take(&mut self.images[i].color)));
-        let resolved = plan
-            .resolve
-            .map(|i| (i, std::mem::take(&mut self.images[i].color)));
+        let mut take = |i: usize| (i, std::mem::take(&mut self.images[i].color));
+        let color = plan.color.map(&mut take);
+        let resolved = plan.resolve.map(&mut take);
+        let mut others: Vec<_> = plan.others.iter().map(|o| take(o.index)).collect();
         let depth_stencil = plan.depth_stencil.map(|i| {
             let image = &mut self.images[i];
             let (depth, stencil) = (&mut image.depth, &mut image.stencil);
@@ -128,6 +123,9 @@ impl TiledScene {
         });
         let (mut color, mut resolved, mut depth_stencil) = (color, resolved, depth_stencil);
         {
+            let inputs = inputs(pass, plan, &self.images);
+            transform(self.machine, &inputs, &mut self.placed);
+            let parts = set_up(self.machine, plan, &inputs, &self.placed, &mut self.parts);
             let cleared = |i: Option<usize>| i.map(|i| self.images[i].clear).unwrap_or_default();
             let [across, down] = plan.size.map(|s| s.div_ceil(TILE));
             let samples = plan.positions.len();
@@ -138,6 +136,14 @@ impl TiledScene {
             let words = words(plan.channels);
             let mut colors = chunks(color.as_mut().map(|c| c.1.as_mut_slice()), samples * words);
             let mut targets = chunks(resolved.as_mut().map(|c| c.1.as_mut_slice()), words);
+            let mut others: Vec<_> = others
+                .iter_mut()
+                .map(|(i, memory)| {
+                    let words = self.images[*i].words;
+                    let planes = chunks(Some(memory), samples * words);
+                    (planes, words, self.images[*i].clear.color)
+                })
+                .collect();
             let mut depths = chunks(Some(depths), samples);
             let mut stencils = chunks(Some(stencils), samples);
             let (clear, depth_clear) = (cleared(plan.color), cleared(plan.depth_stencil));
@@ -149,6 +155,14 @@ impl TiledScene {
                         words,
                         clear: clear.color,
                     },
+                    others: others
+                        .iter_mut()
+                        .map(|(planes, words, clear)| Layer {
+                            planes: planes.next().unwrap_or_default(),
+                            words: *words,
+                            clear: *clear,
+                        })
+                        .collect(),
                     resolved: targets.next().unwrap_or_default(),
                     depth: Layer {
                         planes: depths.next().unwrap_or_default(),
@@ -164,7 +178,7 @@ impl TiledScene {
                 .collect();
             draw_tiles(self.machine, plan, &inputs, parts, tiles);
         }
-        for (i, memory) in color.into_iter().chain(resolved) {
+        for (i, memory) in color.into_iter().chain(resolved).chain(others) {
             self.images[i].color = memory;
             self.images[i].clear.color = None;
         }
@@ -184,7 +198,7 @@ fn chunks<T>(memory: Option<&mut [T]>, planes: usize) -> std::slice::ChunksExact
 }
 
 /// Returns the vertices and primitives of a pass's draws.
-fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &[Image]) -> Vec<Input<'a>> {
+fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &'a [Image]) -> Vec<Input<'a>> {
     let (mut base, mut first) = (0, 0);
     let mut all = Vec::with_capacity(plan.draws.len());
     for draw_plan in &plan.draws {

@@ -5,7 +5,8 @@ use super::edges::{Edges, Touch};
 use super::image::Image;
 use super::opaque::NARROW;
 use super::paint::Paint;
-use super::plan::{DrawPlan, PassPlan, Shading};
+use super::plan::{Behind, DrawPlan, PassPlan, Shading};
+use super::texels::Texels;
 use super::texture::Texture;
 use super::triangle::{Placed, Rare, Shape, Triangle, point};
 use crate::lanes::LANES;
@@ -73,6 +74,8 @@ pub(crate) struct Input<'a> {
     pub(crate) primitives: Vec<([usize; 3], usize)>,
     /// The texture that the draw's shader samples.
     pub(crate) texture: Option<Texture>,
+    /// Those that it fetches from.
+    pub(crate) texels: Option<Texels<'a>>,
 }
 
 impl<'a> Input<'a> {
@@ -80,7 +83,7 @@ impl<'a> Input<'a> {
     pub(crate) fn new(
         draw: &'a Draw,
         plan: &'a DrawPlan,
-        images: &[Image],
+        images: &'a [Image],
         base: usize,
         first: usize,
     ) -> Self {
@@ -112,6 +115,10 @@ impl<'a> Input<'a> {
             primitives,
             texture: match plan.shading {
                 Shading::Texture { index, .. } => Some(Texture::new(&images[index])),
+                _ => None,
+            },
+            texels: match plan.shading {
+                Shading::Texels(first, second) => Some(Texels::new(first, second, images)),
                 _ => None,
             },
         }
@@ -199,7 +206,9 @@ impl Part {
 #[derive(Debug, PartialEq)]
 struct Ingredients {
     color: [u32; 4],
+    shading: Shading,
     target: Option<ColorTarget>,
+    others: Vec<ColorTarget>,
     constant: [u32; 4],
     logic: Option<LogicOperation>,
     multisample: Multisample,
@@ -208,10 +217,12 @@ struct Ingredients {
 }
 
 impl Ingredients {
-    fn new(draw: &Draw, color: [u32; 4]) -> Self {
+    fn new(draw: &Draw, shading: Shading, color: [u32; 4]) -> Self {
         Self {
             color,
+            shading,
             target: draw.targets.first().copied(),
+            others: draw.targets.iter().skip(1).copied().collect(),
             constant: draw.blend_constant.map(f32::to_bits),
             logic: draw.logic,
             multisample: draw.multisample,
@@ -273,7 +284,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         // The extents of small triangles, and of most others, are small enough for the product.
         let area = (i64::from(b[1]) - i64::from(a[1])) * (i64::from(c[0]) - i64::from(a[0]))
             - (i64::from(b[0]) - i64::from(a[0])) * (i64::from(c[1]) - i64::from(a[1]));
-        if area == 0 {
+        if area == 0 || self.plan.rejects && self.is_behind(vertices) {
             return;
         }
         let front = front_facing(area, self.draw.front_face);
@@ -307,8 +318,15 @@ impl<'a, S: Simd> SetUp<'a, S> {
             return;
         }
         let paint = self.paint(front, provoking);
-        let flat = corners[0].z == corners[1].z && corners[0].z == corners[2].z;
-        let bias = self.bias(&corners);
+        let exported = self.exported(provoking);
+        let depth = exported.unwrap_or(corners[0].z);
+        let flat =
+            exported.is_some() || corners[0].z == corners[1].z && corners[0].z == corners[2].z;
+        let bias = if exported.is_some() {
+            0.0
+        } else {
+            self.bias(&corners)
+        };
         let around = around.map(|v| v as i16);
         // Samples of a texel have rectangles of their own, which differ by a texel at most.
         let cut = left <= bounds[0] + 1
@@ -341,7 +359,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
             corners,
             rare,
             code: match (flat, self.pass.depth) {
-                (true, Some(encoding)) => self.code(encoding, corners[0].z, bias),
+                (true, Some(encoding)) => self.code(encoding, depth, bias),
                 _ => 0,
             },
             draw: self.number as u32,
@@ -355,6 +373,20 @@ impl<'a, S: Simd> SetUp<'a, S> {
         let index = self.part.triangles.len();
         self.part.triangles.push(triangle);
         self.sort(index, &triangle, covers);
+    }
+
+    /// True if a triangle lies before the near or behind the far plane. None is cut by them.
+    fn is_behind(&self, [vertex, ..]: [usize; 3]) -> bool {
+        Behind::of(&self.draw.mesh.vertices[vertex]).is_some()
+    }
+
+    /// Returns the depth that the shader writes, if it writes one.
+    #[inline(always)]
+    fn exported(&self, provoking: usize) -> Option<f32> {
+        match self.plan.shading {
+            Shading::Depth => Some(self.draw.mesh.vertices[provoking].color[0]),
+            _ => None,
+        }
     }
 
     /// Returns the code of a flat triangle's depths.
@@ -394,10 +426,14 @@ impl<'a, S: Simd> SetUp<'a, S> {
     fn paint(&mut self, front: bool, provoking: usize) -> u32 {
         let params = &self.draw.params;
         let color = match self.plan.shading {
-            Shading::Vertex | Shading::Expensive(_) => self.draw.mesh.vertices[provoking].color,
+            Shading::Vertex => self.draw.mesh.vertices[provoking].color,
+            // The work adds 0.
+            Shading::Expensive(_) | Shading::Kept(_) => {
+                self.draw.mesh.vertices[provoking].color.map(|v| v + 0.0)
+            }
             Shading::Facing if !front => params.back_color,
-            Shading::Facing | Shading::Uniform => params.color,
-            Shading::Nothing | Shading::Texture { .. } => [0.0; 4],
+            Shading::Depth | Shading::Facing | Shading::Uniform => params.color,
+            Shading::Nothing | Shading::Texture { .. } | Shading::Texels(..) => [0.0; 4],
         };
         let bits = color.map(f32::to_bits);
         match self.last {
@@ -410,7 +446,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         let bits = color.map(f32::to_bits);
         // Draws mostly have one colour, and one of few states.
         let first = self.last.is_none();
-        let ingredients = Ingredients::new(self.draw, bits);
+        let ingredients = Ingredients::new(self.draw, self.plan.shading, bits);
         if first {
             let mut known = self.part.known.iter();
             if let Some((_, paint)) = known.find(|(i, _)| *i == ingredients) {
@@ -422,10 +458,9 @@ impl<'a, S: Simd> SetUp<'a, S> {
         let paint = Paint::new(
             self.simd,
             self.draw,
+            self.plan.shading,
             color,
-            self.pass.channels,
-            self.pass.logic,
-            self.pass.positions.len(),
+            self.pass,
             quick,
         );
         let place = self.part.paints.len() as u32;

@@ -12,6 +12,7 @@ use super::opaque::{Opaque, Planes, Store};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
 use super::setup::{Entry, Input, Part, tile_texels};
+use super::texels::NONE;
 use super::texture::Coordinates;
 use super::triangle::{Shape, Triangle};
 use super::work::Work;
@@ -78,6 +79,8 @@ pub(crate) struct Tile<'a> {
     /// Its column and row.
     pub(crate) at: [usize; 2],
     pub(crate) color: Layer<'a, u32>,
+    /// The colour attachments behind the first.
+    pub(crate) others: Vec<Layer<'a, u32>>,
     /// The tile of the attachment that colour is resolved to.
     pub(crate) resolved: &'a mut [u32],
     pub(crate) depth: Layer<'a, u32>,
@@ -88,6 +91,8 @@ pub(crate) struct Tile<'a> {
 struct Drawing<'t, 'a> {
     pass: &'t PassPlan,
     tile: Tile<'a>,
+    /// The number of the tile in the attachments.
+    index: usize,
     /// Left, top, right and bottom of its texels.
     texels: [i32; 4],
     /// True if the first plane stands for all.
@@ -109,10 +114,12 @@ pub(crate) fn draw<S: Simd>(
     let across = pass.size[0].div_ceil(TILE);
     let index = tile.at[1] * across + tile.at[0];
     let cleared = (tile.color.planes.is_empty() || tile.color.clear.is_some())
+        && tile.others.iter().all(|o| o.clear.is_some())
         && (tile.depth.planes.is_empty() || tile.depth.clear.is_some())
         && (tile.stencil.planes.is_empty() || tile.stencil.clear.is_some());
     let mut drawing = Drawing {
         pass,
+        index,
         texels: tile_texels(pass, tile.at),
         same: samples == 1 || cleared,
         range: tile.depth.clear.map_or(ANY, |[code, ..]| [code; 2]),
@@ -168,6 +175,11 @@ impl Drawing<'_, '_> {
         if !paint.kernel.keeps() {
             self.tile.color.touch(self.same);
         }
+        for (layer, kernel) in self.tile.others.iter_mut().zip(&paint.others) {
+            if !kernel.keeps() {
+                layer.touch(self.same);
+            }
+        }
         if plan.depth.is_some() {
             self.tile.depth.touch(self.same);
         }
@@ -194,9 +206,11 @@ impl Drawing<'_, '_> {
                     Coordinates::new(input.draw, triangle, &part.rare(triangle).vertices),
                 )
             }),
+            texels: input.texels,
         };
         self.samples(simd, &work, whole, answer);
-        let all = whole && self.same && face.is_none() && work.texture.is_none();
+        let all =
+            whole && self.same && face.is_none() && work.texture.is_none() && work.texels.is_none();
         self.widen(triangle, plan, all && answer == Some(Decided::Pass));
         None
     }
@@ -242,6 +256,7 @@ impl Drawing<'_, '_> {
     fn expand(&mut self) {
         if self.pass.positions.len() > 1 {
             self.tile.color.expand();
+            self.tile.others.iter_mut().for_each(Layer::expand);
             self.tile.depth.expand();
             self.tile.stencil.expand();
             self.same = false;
@@ -258,7 +273,10 @@ impl Drawing<'_, '_> {
             self.pass.positions.len()
         };
         let decided = answer.filter(|_| {
-            whole && work.texture.is_none() && work.face.as_ref().is_none_or(always_passes)
+            whole
+                && work.texture.is_none()
+                && work.texels.is_none()
+                && work.face.as_ref().is_none_or(always_passes)
         });
         for sample in 0..planes {
             if !self.same && work.paint.samples & (1 << sample) == 0 {
@@ -305,6 +323,11 @@ impl Drawing<'_, '_> {
             let texels = range.len();
             let colors = self.tile.color.sample(sample);
             work.paint.kernel.whole(simd, colors, texels);
+        }
+        for (layer, kernel) in self.tile.others.iter_mut().zip(&work.paint.others) {
+            if !kernel.keeps() {
+                kernel.whole(simd, layer.sample(sample), range.len());
+            }
         }
     }
 
@@ -503,11 +526,21 @@ impl Drawing<'_, '_> {
         }
         if work.texture.is_some() {
             select(self.tile.color.lanes(place), &passed, &texels);
-        } else if !work.paint.kernel.keeps() {
+            return;
+        }
+        let at = place % AREA;
+        let fetched = work
+            .texels
+            .map(|t| t.sources(self.index, at, work.paint.decodes));
+        let sources = fetched.as_ref().unwrap_or(&NONE);
+        if !work.paint.kernel.keeps() {
             let colors = self.tile.color.sample(sample);
-            work.paint
-                .kernel
-                .masked(simd, colors, place % AREA, &passed);
+            work.paint.kernel.masked(simd, colors, at, &passed, sources);
+        }
+        for (layer, kernel) in self.tile.others.iter_mut().zip(&work.paint.others) {
+            if !kernel.keeps() {
+                kernel.masked(simd, layer.sample(sample), at, &passed, sources);
+            }
         }
     }
 
@@ -516,12 +549,14 @@ impl Drawing<'_, '_> {
     fn finish<S: Simd>(&mut self, simd: S) {
         let Tile {
             color,
+            others,
             resolved,
             depth,
             stencil,
             ..
         } = &mut self.tile;
         color.touch(self.same);
+        others.iter_mut().for_each(|o| o.touch(self.same));
         depth.touch(self.same);
         stencil.touch(self.same);
         if !resolved.is_empty() {

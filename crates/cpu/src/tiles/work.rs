@@ -3,6 +3,7 @@
 use super::depth::Depths;
 use super::paint::Paint;
 use super::plan::DrawPlan;
+use super::texels::Texels;
 use super::texture::{Coordinates, Texture};
 use super::triangle::Triangle;
 use etalon_scene::StencilFace;
@@ -16,4 +17,6 @@ pub(crate) struct Work<'a> {
     /// The depths, unless the triangle is flat or none are tested.
     pub(crate) depths: Option<Depths>,
     pub(crate) texture: Option<(&'a Texture, Coordinates)>,
+    /// The textures that are fetched from.
+    pub(crate) texels: Option<Texels<'a>>,
 }
