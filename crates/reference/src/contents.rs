@@ -87,7 +87,10 @@ impl Walk<'_> {
             };
             of_codes[c] = rounded(codes[c].map_increasing(|v| v / count));
             result[c] = match self.rules.resolve.value() {
-                _ if between.is_exact() && !encoding.is_float() => between,
+                // The least code of signed normalized integers has the value of the next one, whose code is stored.
+                _ if between.is_exact() && !encoding.is_float() => {
+                    between.hull(canonical(*encoding, between.low))
+                }
                 _ if exact.may_be_nan() && encoding.is_float() => average,
                 Resolve::Between if encoding.is_float() => between.hull(average),
                 Resolve::Between => between,
@@ -231,4 +234,10 @@ fn codes_list(encodings: &[ChannelEncoding], codes: &[CodeInterval; 4]) -> Strin
     each.map(|(e, c)| codes_text(*e, *c))
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// Returns the code that the value of a code is stored as.
+fn canonical(encoding: ChannelEncoding, order: i64) -> CodeInterval {
+    let code = encoding.nearest_code(encoding.value_of_order(order));
+    CodeInterval::exact(encoding.order_of_code(code))
 }

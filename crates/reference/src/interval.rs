@@ -126,19 +126,37 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Widens each end by a share of its magnitude; zero stays zero.
+    /// Widens each end by a share of its magnitude; zero and infinities stay what they are.
     pub fn widen_relative(self, share: f64) -> Self {
         Self {
-            low: self.low - self.low.abs() * share,
-            high: self.high + self.high.abs() * share,
+            low: widened(self.low, -self.low.abs() * share),
+            high: widened(self.high, self.high.abs() * share),
         }
     }
 
-    /// Widens each end by an amount.
+    /// Widens each end by an amount; infinities stay what they are.
     pub fn widen(self, amount: f64) -> Self {
         Self {
-            low: self.low - amount,
-            high: self.high + amount,
+            low: widened(self.low, -amount),
+            high: widened(self.high, amount),
+        }
+    }
+
+    /// Returns the results of a step that may be computed in 32-bit floats: an end beyond the greatest of them may
+    /// be infinite.
+    pub fn may_overflow(self) -> Self {
+        let greatest = f64::from(f32::MAX);
+        Self {
+            low: if self.low < -greatest {
+                f64::NEG_INFINITY
+            } else {
+                self.low
+            },
+            high: if self.high > greatest {
+                f64::INFINITY
+            } else {
+                self.high
+            },
         }
     }
 
@@ -156,6 +174,11 @@ impl fmt::Display for Interval {
             write!(f, "{}..{}", Short(self.low), Short(self.high))
         }
     }
+}
+
+/// Returns an end with an amount added, unless it is infinite.
+fn widened(end: f64, amount: f64) -> f64 {
+    if end.is_infinite() { end } else { end + amount }
 }
 
 /// Returns a number in the digits that a story shows.

@@ -528,7 +528,7 @@ impl Arithmetic for Judging<'_> {
             product.float.widen_relative(self.error())
         };
         Range {
-            float,
+            float: float.may_overflow(),
             coarse: self.round_outward(encoding, product.coarse),
         }
     }
@@ -551,7 +551,7 @@ impl Arithmetic for Judging<'_> {
             sum.float.widen(largest * self.error())
         };
         Range {
-            float,
+            float: float.may_overflow(),
             coarse: match encoding {
                 // A sum of floats is rounded like any result; one of integers is an integer.
                 _ if self.advanced => self.round_outward(encoding, sum.coarse),
@@ -580,7 +580,10 @@ impl Arithmetic for Judging<'_> {
         if let Some((low, high)) = encoding.normalized_range() {
             coarse = coarse.hull(coarse.clamp(f64::from(low), f64::from(high)));
         }
-        Range { float, coarse }
+        Range {
+            float: float.may_overflow(),
+            coarse,
+        }
     }
 
     /// Where a divisor may be 0, only what is above counts: 0 itself is not divided by.

@@ -2,7 +2,7 @@ use super::{Sample, explain, judge};
 use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
-use etalon_frame::{Api, ApiVersion, Limits};
+use etalon_frame::{Api, ApiVersion, ChannelEncoding, Limits};
 use etalon_scene::Scene;
 
 fn case(text: &str) -> Case {
@@ -533,4 +533,50 @@ fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
     assert!(!of(beyond, 0.6));
     let within = "[-1,-1,0.45],[-1,1,0.45],[1,-1,0.55]";
     assert!(!of(within, 0.529_8) && of(within, 0.559_6));
+}
+
+#[test]
+fn the_least_signed_code_is_resolved_to_itself_or_to_the_code_of_its_value() {
+    let case = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+        "attachments":{"many":{"format":"rgba8snorm","samples":2,"size":[1,1]},"one":{"format":"rgba8snorm"}},
+        "passes":[{"color":["many"],"resolve":["one"],"draws":[{"logic":"nor","mesh":{"kind":"full"},
+        "params":{"color":1},"shader":"uniform_color"}]}],"read":["one"]}}"#,
+    );
+    let limits = limits(Api::Vulkan);
+    let set = judge(&case.scene, &limits, &Rules::of(&limits));
+    let sample = set.groups[0].sample(0, 0, 0);
+    for (order, legal) in [(-128, true), (-127, true), (-126, false), (127, false)] {
+        assert_eq!(sample.allows(&[order; 4]), legal, "{order}");
+    }
+}
+
+/// Returns true if NaN is legal after a draw over a colour of 32-bit floats.
+fn may_become_nan(stored: [f32; 4], draw: &str) -> bool {
+    let case = case(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+        "attachments":{{"color":{{"format":"rgba32float","size":[1,1],"clear":{stored:?}}}}},
+        "passes":[{{"color":["color"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",{draw}}}]}}],
+        "read":["color"]}}}}"#
+    ));
+    let limits = limits(Api::Vulkan);
+    let set = judge(&case.scene, &limits, &Rules::of(&limits));
+    let nan = ChannelEncoding::Float32.order_of_code(f32::NAN.to_bits());
+    set.groups[0].sample(0, 0, 0).allows(&[nan; 4])
+}
+
+#[test]
+fn what_overflows_on_the_way_may_become_nan() {
+    let multiply = r#""advanced_blend":"multiply","params":{"color":[0,0,0,255]}"#;
+    assert!(may_become_nan([0.0, 0.0, 0.0, 2e38], multiply));
+    assert!(!may_become_nan([0.0, 0.0, 0.0, 1.0], multiply));
+    let difference = |constant: f32| {
+        format!(
+            r#""params":{{"color":[2e38,2e38,2e38,2e38]}},"blend_constant":[{constant},{constant},{constant},{constant}],
+            "blend":{{"color":{{"operation":"subtract","src_factor":"constant","dst_factor":"constant"}},
+            "alpha":{{"operation":"subtract","src_factor":"constant-alpha","dst_factor":"constant-alpha"}}}}"#
+        )
+    };
+    assert!(may_become_nan([2e38; 4], &difference(4.0)));
+    assert!(!may_become_nan([2e38; 4], &difference(0.5)));
 }
