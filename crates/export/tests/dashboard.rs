@@ -1,0 +1,196 @@
+//! The queries of `ci/history` name what an export has: metrics and labels of the dashboard, good verdicts everywhere.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use etalon_export::{Format, Selection, export};
+use etalon_history::{
+    Adapter, FrameTimes, History, Kind, Labels, NewAdapter, NewRun, Outcome, Writer, parse_time,
+};
+use etalon_record::{Machine, Verdict};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// The labels of each metric.
+type Metrics = BTreeMap<String, BTreeSet<String>>;
+
+fn text(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ci/history");
+    fs::read_to_string(path.join(name)).unwrap()
+}
+
+/// The samples of a history of one run with a record and a time.
+fn samples() -> String {
+    let mut adapter = NewAdapter::new(Adapter {
+        name: "an adapter".to_owned(),
+        backend: "vulkan".to_owned(),
+        device: String::new(),
+        driver: "a driver".to_owned(),
+        driver_version: "1.0".to_owned(),
+        driver_id: String::new(),
+        api_version: String::new(),
+        software: true,
+        line: String::new(),
+        version: String::new(),
+    });
+    let pass = Outcome::new(Verdict::Pass);
+    adapter.outcomes.insert("perf/a".to_owned(), pass);
+    let times = FrameTimes {
+        frames: 5,
+        wall: vec![0.5],
+        ..FrameTimes::default()
+    };
+    adapter.times.insert("perf/a".to_owned(), times);
+    let run = NewRun {
+        digest: [1; 32],
+        header: [1; 32],
+        kind: Kind::Run,
+        etalon: "0.1.0".to_owned(),
+        commit: None,
+        machine: Machine {
+            os: "an os".to_owned(),
+            cpu: "a processor".to_owned(),
+            cores: 2,
+        },
+        started: parse_time("2026-01-01").unwrap(),
+        released: None,
+        profile: None,
+        ruler: None,
+        missing: 0,
+        labels: Labels::new(),
+        adapters: vec![adapter],
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("h.db");
+    let mut writer = Writer::open(&path).unwrap();
+    writer.add(&run).unwrap();
+    drop(writer);
+    let history = History::open_read(&path).unwrap();
+    let out = dir.path().join("out");
+    export(&history, Format::OpenMetrics, &Selection::default(), &out).unwrap();
+    fs::read_to_string(out.join("history.om")).unwrap()
+}
+
+/// The words of a query: names, and every other character for itself. A text in quotes is one word with its quotes.
+fn words(query: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    let mut rest = query.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '$';
+        let len = match first {
+            '"' => rest[1..].find('"').unwrap() + 2,
+            c if is_name(c) => rest.find(|c| !is_name(c)).unwrap_or(rest.len()),
+            c => c.len_utf8(),
+        };
+        let (word, more) = rest.split_at(len);
+        words.push(word);
+        rest = more.trim_start();
+    }
+    words
+}
+
+/// The metrics of a query or a sample with the labels that their selectors name, and the labels of its groups.
+fn named(query: &str) -> (Metrics, BTreeSet<String>) {
+    let words = words(query);
+    let (mut metrics, mut groups) = (Metrics::new(), BTreeSet::new());
+    for (at, word) in words.iter().enumerate() {
+        if word.starts_with("etalon_") {
+            let labels = metrics.entry((*word).to_owned()).or_default();
+            if words.get(at + 1) == Some(&"{") {
+                let inner = words[at + 1..].split(|w| *w == "}").next().unwrap();
+                let of = inner.split(|w| *w == "{" || *w == ",");
+                labels.extend(of.filter_map(|l| l.first()).map(|l| (*l).to_owned()));
+            }
+        }
+        if ["by", "without", "on", "ignoring"].contains(word) && words[at + 1] == "(" {
+            let inner = words[at + 2..].split(|w| *w == ")").next().unwrap();
+            let labels = inner.iter().filter(|w| **w != ",");
+            groups.extend(labels.map(|l| (*l).to_owned()));
+        }
+    }
+    (metrics, groups)
+}
+
+/// Every query of the dashboard, those of its variables too.
+fn queries(value: &Value) -> Vec<&str> {
+    match value {
+        Value::Object(object) => {
+            let own = ["expr", "definition"].map(|key| object.get(key).and_then(Value::as_str));
+            let inner = object.values().flat_map(queries);
+            own.into_iter().flatten().chain(inner).collect()
+        }
+        Value::Array(items) => items.iter().flat_map(queries).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn good() -> BTreeSet<String> {
+    let good = Verdict::ALL.into_iter().filter(|v| !v.is_bad());
+    good.map(|v| v.to_string()).collect()
+}
+
+#[test]
+fn the_dashboard_asks_for_metrics_and_labels_that_are_written() {
+    let mut written = Metrics::new();
+    for line in samples().lines().filter(|l| !l.starts_with('#')) {
+        for (metric, labels) in named(line).0 {
+            written.entry(metric).or_default().extend(labels);
+        }
+    }
+    let board: Value = serde_json::from_str(&text("grafana.json")).unwrap();
+    let queries = queries(&board);
+    let mut asked = BTreeSet::new();
+    for query in &queries {
+        let (metrics, mut groups) = named(query);
+        assert!(!metrics.is_empty(), "{query}");
+        if let Some(arguments) = query.strip_prefix("label_values(") {
+            let label = arguments.trim_end_matches(')').rsplit(", ").next();
+            groups.extend(label.map(str::to_owned));
+        }
+        for (metric, labels) in metrics {
+            let due = written.get(&metric);
+            let due = due.unwrap_or_else(|| panic!("no metric {metric}: {query}"));
+            for label in labels.union(&groups) {
+                assert!(due.contains(label), "{metric} has no {label}: {query}");
+            }
+            asked.insert(metric);
+        }
+    }
+    let all: BTreeSet<String> = written.into_keys().collect();
+    assert_eq!(asked, all, "the dashboard shows every metric");
+}
+
+#[test]
+fn the_queries_agree_with_the_suite_on_what_is_good() {
+    let board: Value = serde_json::from_str(&text("grafana.json")).unwrap();
+    let mut lists = 0;
+    for query in queries(&board) {
+        for quoted in words(query).iter().filter(|w| w.contains('|')) {
+            let named = quoted.trim_matches('"').split('|').map(str::to_owned);
+            assert_eq!(named.collect::<BTreeSet<_>>(), good(), "{query}");
+            lists += 1;
+        }
+    }
+    assert!(lists > 0);
+    for name in ["duckdb.sql", "clickhouse.sql"] {
+        let sql = text(name);
+        let mut all: Vec<BTreeSet<String>> = Vec::new();
+        for list in sql.split("verdict in (").skip(1) {
+            let list = list.split(')').next().unwrap();
+            let named = list
+                .split(',')
+                .map(|v| v.trim().trim_matches('\'').to_owned());
+            all.push(named.collect());
+        }
+        // The question about disagreement parts what was not drawn from what is good.
+        let drawn: BTreeSet<String> = ["pass", "imprecise", "measured"].map(str::to_owned).into();
+        let rest: BTreeSet<String> = good().difference(&drawn).cloned().collect();
+        assert!(all.len() > 3, "{name}");
+        for list in all {
+            assert!(
+                [&good(), &drawn, &rest].contains(&&list),
+                "{name}: {list:?}"
+            );
+        }
+    }
+}
