@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// The time that a worker may take to exit after its pipe broke.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
+/// The time that the end of a worker's standard error may take to arrive.
+const LAST_WORDS: Duration = Duration::from_secs(2);
 /// The time that a worker which is no longer needed may take to exit.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
@@ -241,9 +243,8 @@ impl WorkerProcess {
                 None
             }
         };
-        // The reader of stderr may still be a moment behind.
-        thread::sleep(Duration::from_millis(20));
-        ExitReport::new(loss, status, self.launched, self.stderr.text())
+        let words = self.stderr.text(LAST_WORDS);
+        ExitReport::new(loss, status, self.launched, words)
     }
 
     fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {

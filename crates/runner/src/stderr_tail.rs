@@ -3,39 +3,78 @@
 use crate::sync::lock;
 use std::collections::VecDeque;
 use std::io::Read;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
+use std::time::Duration;
 
 /// The bytes that are kept.
 const CAPACITY: usize = 4096;
 
 /// The end of a stream, which a thread of its own reads so that the writer never blocks.
 #[derive(Debug)]
-pub(crate) struct StderrTail(Arc<Mutex<VecDeque<u8>>>);
+pub(crate) struct StderrTail(Arc<Shared>);
+
+#[derive(Debug, Default)]
+struct Shared {
+    kept: Mutex<Kept>,
+    /// Signals the stream's end.
+    end: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Kept {
+    bytes: VecDeque<u8>,
+    ended: bool,
+}
 
 impl StderrTail {
     /// Reads a stream until its end.
     pub(crate) fn of(mut stream: impl Read + Send + 'static) -> Self {
         let tail = Self(Arc::default());
-        let kept = Arc::clone(&tail.0);
+        let shared = Arc::clone(&tail.0);
         thread::spawn(move || {
             let mut buffer = [0; 1024];
             while let Ok(n) = stream.read(&mut buffer) {
                 if n == 0 {
                     break;
                 }
-                let mut kept = lock(&kept);
-                kept.extend(&buffer[..n]);
-                let excess = kept.len().saturating_sub(CAPACITY);
-                kept.drain(..excess);
+                let mut kept = lock(&shared.kept);
+                kept.bytes.extend(&buffer[..n]);
+                let excess = kept.bytes.len().saturating_sub(CAPACITY);
+                kept.bytes.drain(..excess);
             }
+            lock(&shared.kept).ended = true;
+            shared.end.notify_all();
         });
         tail
     }
 
-    /// The text read so far, or its end.
-    pub(crate) fn text(&self) -> String {
-        let bytes: Vec<u8> = lock(&self.0).iter().copied().collect();
+    /// Returns the end of the stream; after a time, the end of what was read. A child of the process may hold the
+    /// stream open.
+    pub(crate) fn text(&self, limit: Duration) -> String {
+        let kept = lock(&self.0.kept);
+        let kept = self.0.end.wait_timeout_while(kept, limit, |k| !k.ended);
+        let (kept, _) = kept.unwrap_or_else(PoisonError::into_inner);
+        let bytes: Vec<u8> = kept.bytes.iter().copied().collect();
         String::from_utf8_lossy(&bytes).trim().to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{self, Write};
+
+    #[test]
+    fn what_is_written_late_is_read_and_a_stream_without_an_end_is_not_waited_for() {
+        let (reader, mut writer) = io::pipe().expect("a pipe");
+        let tail = StderrTail::of(reader);
+        assert_eq!(tail.text(Duration::from_millis(1)), "");
+        let late = thread::spawn(move || {
+            thread::sleep(Duration::from_millis(50));
+            writer.write_all(b"last words\n").expect("writes");
+        });
+        assert_eq!(tail.text(Duration::from_secs(60)), "last words");
+        late.join().expect("no panic");
     }
 }
