@@ -1,6 +1,7 @@
 //! Attachments in memory, tile by tile.
 
 use super::TILE;
+use crate::lanes::{Codes, LANES};
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -78,6 +79,28 @@ pub(crate) fn texel(
 #[inline(always)]
 pub(crate) fn word(texel: Texel) -> u32 {
     u32::from_ne_bytes(texel)
+}
+
+/// Returns the codes of one channel of words that hold the bytes of all.
+#[inline(always)]
+pub(crate) fn channel(words: &Codes, channel: usize) -> Codes {
+    let mut codes = *words;
+    for code in &mut codes {
+        *code = u32::from_le(*code) >> (8 * channel) & 0xff;
+    }
+    codes
+}
+
+/// Returns the words that hold the bytes of all channels.
+#[inline(always)]
+pub(crate) fn joined(codes: &[Codes; 4]) -> Codes {
+    let mut words = [0; LANES];
+    for (lane, word) in words.iter_mut().enumerate() {
+        let bytes =
+            codes[0][lane] | codes[1][lane] << 8 | codes[2][lane] << 16 | codes[3][lane] << 24;
+        *word = bytes.to_le();
+    }
+    words
 }
 
 /// Returns the words of a texel again and again.
@@ -179,43 +202,46 @@ impl Image {
                 let tile = y / TILE * self.across + column;
                 for sample in 0..self.samples {
                     let plane = tile * self.samples + sample;
-                    let within = y % TILE * TILE;
-                    let place = plane * AREA + within;
                     let rest = &mut part[sample * channels..];
-                    match aspect {
-                        Aspect::Color if !self.bytes => {
-                            let start = plane * self.words * AREA + within;
-                            for word in 0..channels {
-                                let words = &self.color[start + word * AREA..][..TILE];
-                                spread(&mut rest[word..], texel, words, |w| *w);
-                            }
-                        }
-                        Aspect::Color if texel == 4 && channels == 4 => {
-                            let (texels, _) = rest.as_chunks_mut::<4>();
-                            for (codes, texel) in texels.iter_mut().zip(&self.color[place..]) {
-                                *codes = texel.to_ne_bytes().map(u32::from);
-                            }
-                        }
-                        Aspect::Color => {
-                            for c in 0..channels {
-                                let words = &self.color[place..][..TILE];
-                                spread(&mut rest[c..], texel, words, |w| {
-                                    u32::from(w.to_ne_bytes()[c])
-                                });
-                            }
-                        }
-                        Aspect::Depth => {
-                            spread(rest, texel, &self.depth[place..][..TILE], |code| *code)
-                        }
-                        Aspect::Stencil => {
-                            let values = &self.stencil[place..][..TILE];
-                            spread(rest, texel, values, |value| u32::from(*value));
-                        }
-                    }
+                    self.row(aspect, channels, [plane, y % TILE * TILE], rest);
                 }
             }
         }
         codes
+    }
+
+    /// Writes the codes of one sample of a tile's row, given its plane and the row's place in it.
+    fn row(&self, aspect: Aspect, channels: usize, [plane, within]: [usize; 2], codes: &mut [u32]) {
+        let step = self.samples * channels;
+        let place = plane * AREA + within;
+        match aspect {
+            Aspect::Color if !self.bytes => {
+                for word in 0..channels {
+                    let start = (plane * self.words + word) * AREA + within;
+                    let words = &self.color[start..][..TILE];
+                    spread(&mut codes[word..], step, words, |w| *w);
+                }
+            }
+            Aspect::Color if step == 4 && channels == 4 => {
+                let (texels, _) = codes.as_chunks_mut::<4>();
+                for (codes, texel) in texels.iter_mut().zip(&self.color[place..]) {
+                    *codes = texel.to_ne_bytes().map(u32::from);
+                }
+            }
+            Aspect::Color => {
+                for c in 0..channels {
+                    let words = &self.color[place..][..TILE];
+                    spread(&mut codes[c..], step, words, |w| {
+                        u32::from(w.to_ne_bytes()[c])
+                    });
+                }
+            }
+            Aspect::Depth => spread(codes, step, &self.depth[place..][..TILE], |code| *code),
+            Aspect::Stencil => {
+                let values = &self.stencil[place..][..TILE];
+                spread(codes, step, values, |value| u32::from(*value));
+            }
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 //! [affine](Affine) functions and [weights](Weights) say them without a choice per texel.
 
 use super::affine::{Affine, Join, Term};
-use super::image::{AREA, Texel, Words, are_bytes, word};
+use super::image::{AREA, Texel, Words, are_bytes, channel, joined, word};
 use super::lanes::{ALL, Lane, select, select_texels};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
@@ -425,16 +425,19 @@ impl Blending {
     fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
         simd.vectorize(
             #[inline(always)]
-            || {
-                let input = self.input();
-                // The same for all channels, and known to the compiler.
-                if *self.channels == UNORM.0 {
-                    self.codes_of(UNORM, old, input)
-                } else {
-                    self.codes_of(self.channels(), old, input)
-                }
-            },
+            || self.codes_from(old, self.input()),
         )
+    }
+
+    /// Returns the codes after the function, of sources given with it.
+    #[inline(always)]
+    fn codes_from(&self, old: &[Codes; 4], input: BlendInput<Real>) -> [Codes; 4] {
+        // The same for all channels, and known to the compiler.
+        if *self.channels == UNORM.0 {
+            self.codes_of(UNORM, old, input)
+        } else {
+            self.codes_of(self.channels(), old, input)
+        }
     }
 
     /// Applies the function to the texels that a mask holds, at a place of a sample's planes, with sources of their own.
@@ -466,37 +469,13 @@ impl Blending {
         if self.second_alpha {
             input.src1[3] = [1.0; LANES];
         }
-        let count = self.channels.len();
-        let bytes = are_bytes(self.channels);
-        let mut old = [[0; LANES]; 4];
-        let word = *lanes(planes, at);
-        for (c, codes) in old.iter_mut().enumerate().take(count) {
-            *codes = match bytes {
-                true => word,
-                false => *lanes(planes, c * AREA + at),
-            };
-            if bytes {
-                for code in codes {
-                    *code = *code >> (8 * c) & 0xff;
-                }
-            }
+        if !are_bytes(self.channels) {
+            let new = self.codes_from(&self.words(planes, at), input);
+            return self.select_words(planes, at, mask, &new);
         }
-        let new = if *self.channels == UNORM.0 {
-            self.codes_of(UNORM, &old, input)
-        } else {
-            self.codes_of(self.channels(), &old, input)
-        };
-        if !bytes {
-            for (c, codes) in new.iter().enumerate().take(count) {
-                select(lanes(planes, c * AREA + at), mask, codes);
-            }
-            return;
-        }
-        let mut words = [0; LANES];
-        for (lane, word) in words.iter_mut().enumerate() {
-            *word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
-        }
-        select(lanes(planes, at), mask, &words);
+        let word = lanes(planes, at);
+        let old = std::array::from_fn(|c| channel(word, c));
+        select(word, mask, &joined(&self.codes_from(&old, input)));
     }
 
     #[inline(always)]
@@ -524,30 +503,32 @@ impl Blending {
     /// Returns texels of bytes after the function.
     #[inline(always)]
     fn applied<S: Simd>(&self, simd: S, texels: &[Texel; LANES]) -> [Texel; LANES] {
-        let mut old = [[0; LANES]; 4];
-        for (lane, texel) in texels.iter().enumerate() {
-            let texel = u32::from_le_bytes(*texel);
-            for (c, codes) in old.iter_mut().enumerate() {
-                codes[lane] = texel >> (8 * c) & 0xff;
-            }
-        }
-        let new = self.codes(simd, &old);
-        let mut result = *texels;
-        for (lane, texel) in result.iter_mut().enumerate() {
-            let word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
-            *texel = word.to_le_bytes();
-        }
-        result
+        let words = bytemuck::cast(*texels);
+        let old = std::array::from_fn(|c| channel(&words, c));
+        bytemuck::cast(joined(&self.codes(simd, &old)))
     }
 
     /// Applies the function to lanes of a sample's planes, where a mask holds.
     #[inline(always)]
     fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
-        let mut old = [[0; LANES]; 4];
-        for (c, codes) in old.iter_mut().enumerate().take(self.channels.len()) {
+        let old = self.words(planes, at);
+        let new = self.codes(simd, &old);
+        self.select_words(planes, at, mask, &new);
+    }
+
+    /// Returns the codes of texels that have several words.
+    #[inline(always)]
+    fn words(&self, planes: &mut [u32], at: usize) -> [Codes; 4] {
+        let mut codes = [[0; LANES]; 4];
+        for (c, codes) in codes.iter_mut().enumerate().take(self.channels.len()) {
             *codes = *lanes(planes, c * AREA + at);
         }
-        let new = self.codes(simd, &old);
+        codes
+    }
+
+    /// Replaces the codes of texels that have several words, where a mask holds.
+    #[inline(always)]
+    fn select_words(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES], new: &[Codes; 4]) {
         for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
             select(lanes(planes, c * AREA + at), mask, codes);
         }

@@ -232,7 +232,7 @@ impl DrawPlan {
         if !near {
             return Err("far outside");
         }
-        let clips = |v: &Vertex| !(0.0..=1.0).contains(&(v.position[2] / v.position[3]));
+        let clips = |v: &Vertex| Behind::of(v).is_some();
         let rejects = !draw.depth_clamp && draw.mesh.vertices.iter().any(clips);
         if rejects && draw.primitives().iter().any(|p| is_cut(draw, p)) {
             return Err("clipped by the near or the far plane");

@@ -1,6 +1,6 @@
 //! Textures whose texels a shader fetches where it draws.
 
-use super::image::{AREA, Image, are_bytes};
+use super::image::{AREA, Image, are_bytes, channel};
 use super::plan::Fetched;
 use crate::lanes::{Codes, LANES, Real};
 use etalon_frame::ChannelEncoding;
@@ -85,14 +85,10 @@ impl Texture<'_> {
         let bytes = are_bytes(self.channels);
         let words = self.plane(tile, at, 0);
         for (c, (value, encoding)) in values.iter_mut().zip(self.channels).enumerate() {
-            let mut codes = words;
-            if bytes {
-                for code in &mut codes {
-                    *code = *code >> (8 * c) & 0xff;
-                }
-            } else {
-                codes = self.plane(tile, at, c);
-            }
+            let codes = match bytes {
+                true => channel(&words, c),
+                false => self.plane(tile, at, c),
+            };
             *value = Plain::<LANES>.decode(*encoding, codes);
         }
         values

@@ -9,6 +9,7 @@ use super::edges::Edges;
 use super::image::AREA;
 use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
 use super::opaque::{Opaque, Planes, Store};
+use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
 use super::setup::{Entry, Input, Part, tile_texels};
@@ -21,6 +22,7 @@ use etalon_pipeline::shader::cost;
 use etalon_scene::StencilOperation;
 use fearless_simd::Simd;
 use std::hint::black_box;
+use std::iter;
 
 /// One aspect of a tile: its planes, sample by sample; empty if the pass lacks the aspect.
 #[derive(Debug)]
@@ -85,6 +87,19 @@ pub(crate) struct Tile<'a> {
     pub(crate) resolved: &'a mut [u32],
     pub(crate) depth: Layer<'a, u32>,
     pub(crate) stencil: Layer<'a, u8>,
+}
+
+impl<'a> Tile<'a> {
+    /// Returns the colour attachments that a paint changes, each with its function.
+    #[inline(always)]
+    fn drawn<'t, 'p>(
+        &'t mut self,
+        paint: &'p Paint,
+    ) -> impl Iterator<Item = (&'t mut Layer<'a, u32>, &'p Kernel)> {
+        let first = iter::once((&mut self.color, &paint.kernel));
+        let all = first.chain(self.others.iter_mut().zip(&paint.others));
+        all.filter(|(_, kernel)| !kernel.keeps())
+    }
 }
 
 /// A tile being drawn.
@@ -172,13 +187,8 @@ impl Drawing<'_, '_> {
         if (answer == Some(Decided::Fail) && face.is_none()) || paint.samples == 0 {
             return None;
         }
-        if !paint.kernel.keeps() {
-            self.tile.color.touch(self.same);
-        }
-        for (layer, kernel) in self.tile.others.iter_mut().zip(&paint.others) {
-            if !kernel.keeps() {
-                layer.touch(self.same);
-            }
+        for (layer, _) in self.tile.drawn(paint) {
+            layer.touch(self.same);
         }
         if plan.depth.is_some() {
             self.tile.depth.touch(self.same);
@@ -209,8 +219,7 @@ impl Drawing<'_, '_> {
             texels: input.texels,
         };
         self.samples(simd, &work, whole, answer);
-        let all =
-            whole && self.same && face.is_none() && work.texture.is_none() && work.texels.is_none();
+        let all = whole && self.same && face.is_none() && work.is_constant();
         self.widen(triangle, plan, all && answer == Some(Decided::Pass));
         None
     }
@@ -273,10 +282,7 @@ impl Drawing<'_, '_> {
             self.pass.positions.len()
         };
         let decided = answer.filter(|_| {
-            whole
-                && work.texture.is_none()
-                && work.texels.is_none()
-                && work.face.as_ref().is_none_or(always_passes)
+            whole && work.is_constant() && work.face.as_ref().is_none_or(always_passes)
         });
         for sample in 0..planes {
             if !self.same && work.paint.samples & (1 << sample) == 0 {
@@ -319,15 +325,8 @@ impl Drawing<'_, '_> {
                 }
             }
         }
-        if !work.paint.kernel.keeps() {
-            let texels = range.len();
-            let colors = self.tile.color.sample(sample);
-            work.paint.kernel.whole(simd, colors, texels);
-        }
-        for (layer, kernel) in self.tile.others.iter_mut().zip(&work.paint.others) {
-            if !kernel.keeps() {
-                kernel.whole(simd, layer.sample(sample), range.len());
-            }
+        for (layer, kernel) in self.tile.drawn(work.paint) {
+            kernel.whole(simd, layer.sample(sample), range.len());
         }
     }
 

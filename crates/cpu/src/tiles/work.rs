@@ -20,3 +20,10 @@ pub(crate) struct Work<'a> {
     /// The textures that are fetched from.
     pub(crate) texels: Option<Texels<'a>>,
 }
+
+impl Work<'_> {
+    /// True if all texels have one colour.
+    pub(crate) fn is_constant(&self) -> bool {
+        self.texture.is_none() && self.texels.is_none()
+    }
+}
