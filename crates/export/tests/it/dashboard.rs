@@ -1,11 +1,9 @@
 //! The queries of `ci/history` name what an export has: metrics and labels of the dashboard, good verdicts everywhere.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use etalon_export::{Format, Selection, export};
-use etalon_history::{
-    Adapter, FrameTimes, History, Kind, Labels, NewAdapter, NewRun, Outcome, Writer, parse_time,
-};
-use etalon_record::{Machine, Verdict};
+use crate::made::{adapter, exported, run, wall};
+use etalon_export::{Format, Selection};
+use etalon_history::Outcome;
+use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -21,53 +19,14 @@ fn text(name: &str) -> String {
 
 /// The samples of a history of one run with a record and a time.
 fn samples() -> String {
-    let mut adapter = NewAdapter::new(Adapter {
-        name: "an adapter".to_owned(),
-        backend: "vulkan".to_owned(),
-        device: String::new(),
-        driver: "a driver".to_owned(),
-        driver_version: "1.0".to_owned(),
-        driver_id: String::new(),
-        api_version: String::new(),
-        software: true,
-        line: String::new(),
-        version: String::new(),
-    });
+    let mut adapter = adapter("an adapter", "1.0");
     let pass = Outcome::new(Verdict::Pass);
     adapter.outcomes.insert("perf/a".to_owned(), pass);
-    let times = FrameTimes {
-        frames: 5,
-        wall: vec![0.5],
-        ..FrameTimes::default()
-    };
-    adapter.times.insert("perf/a".to_owned(), times);
-    let run = NewRun {
-        digest: [1; 32],
-        header: [1; 32],
-        kind: Kind::Run,
-        etalon: "0.1.0".to_owned(),
-        commit: None,
-        machine: Machine {
-            os: "an os".to_owned(),
-            cpu: "a processor".to_owned(),
-            cores: 2,
-        },
-        started: parse_time("2026-01-01").unwrap(),
-        released: None,
-        profile: None,
-        ruler: None,
-        missing: 0,
-        labels: Labels::new(),
-        adapters: vec![adapter],
-    };
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("h.db");
-    let mut writer = Writer::open(&path).unwrap();
-    writer.add(&run).unwrap();
-    drop(writer);
-    let history = History::open_read(&path).unwrap();
-    let out = dir.path().join("out");
-    export(&history, Format::OpenMetrics, &Selection::default(), &out).unwrap();
+    adapter.times.insert("perf/a".to_owned(), wall(&[0.5]));
+    let mut run = run(1, "2026-01-01", vec![adapter]);
+    // [`words`] reads no escapes.
+    run.machine.os = "an os".to_owned();
+    let (out, _dir) = exported(&[run], Format::OpenMetrics, &Selection::default());
     fs::read_to_string(out.join("history.om")).unwrap()
 }
 
