@@ -3,7 +3,7 @@
 use crate::error::ExportError;
 use crate::tables::machine_text;
 use crate::written::Written;
-use etalon_history::{History, Kind, MachineId, RunId};
+use etalon_history::{FrameTimes, History, Kind, MachineId, RunId, SeriesKey};
 use etalon_record::Time;
 use std::collections::{BTreeMap, HashSet};
 use std::fs::File;
@@ -14,6 +14,11 @@ use std::path::Path;
 pub(crate) const RECORDS: &str = "etalon_records";
 /// The median frame time.
 pub(crate) const FRAME: &str = "etalon_frame_seconds";
+/// The median of the ruler beside it.
+pub(crate) const RULER: &str = "etalon_ruler_seconds";
+
+/// Seconds since 1970 and a value, in ascending time.
+type Samples = Vec<(i64, f64)>;
 
 /// The times of which medians are written.
 const TIMES: [Time; 4] = [Time::Wall, Time::Cpu, Time::Gpu, Time::ReadBack];
@@ -75,31 +80,19 @@ pub(crate) fn write(
         }
     }
 
-    writeln!(
-        out,
-        "# TYPE {FRAME} gauge\n# UNIT {FRAME} seconds\n# HELP {FRAME} Median frame time of a bench."
-    )
-    .map_err(&wrong)?;
-    for key in history.series_keys()? {
-        let case = history.case_name(key.case)?;
-        let mut by_time = BTreeMap::new();
-        for point in history.series(&key)? {
-            if let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) {
-                by_time.insert(run.time(), point.times);
-            }
-        }
-        for time in TIMES {
-            let labels = [
-                ("adapter", &*key.timeline),
-                ("machine", &machine(history, key.machine)),
-                ("case", &case),
-                ("time", time.name()),
-            ]
-            .map(|(name, value)| label(name, value))
-            .join(",");
-            for (at, times) in &by_time {
-                if let Some(median) = times.median(time).filter(|m| m.is_finite()) {
-                    writeln!(out, "{FRAME}{{{labels}}} {median} {at}").map_err(&wrong)?;
+    for (metric, help) in [
+        (FRAME, "Median frame time of a bench."),
+        (RULER, "Median time of a bench's ruler beside a case."),
+    ] {
+        writeln!(
+            out,
+            "# TYPE {metric} gauge\n# UNIT {metric} seconds\n# HELP {metric} {help}"
+        )
+        .map_err(&wrong)?;
+        for key in history.series_keys()? {
+            for (labels, samples) in samples(history, &key, runs, metric)? {
+                for (at, seconds) in samples {
+                    writeln!(out, "{metric}{{{labels}}} {seconds} {at}").map_err(&wrong)?;
                     rows += 1;
                 }
             }
@@ -108,6 +101,50 @@ pub(crate) fn write(
     writeln!(out, "# EOF").map_err(&wrong)?;
     out.flush().map_err(&wrong)?;
     Ok(Written { files: 1, rows })
+}
+
+/// The samples of one metric in one series, by their labels. Times beside different rulers do not compare, so that the
+/// ruler is one of the labels.
+fn samples(
+    history: &History,
+    key: &SeriesKey,
+    runs: &HashSet<RunId>,
+    metric: &str,
+) -> Result<Vec<(String, Samples)>, ExportError> {
+    let case = history.case_name(key.case)?;
+    let machine = machine(history, key.machine);
+    let mut all = Vec::new();
+    for (ruler, points) in history.series_by_ruler(key)? {
+        // The later of two runs at one time stands for both.
+        let mut by_time: BTreeMap<i64, FrameTimes> = BTreeMap::new();
+        for point in points {
+            if let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) {
+                by_time.insert(run.time(), point.times);
+            }
+        }
+        let mut labels = vec![
+            label("adapter", &key.timeline),
+            label("machine", &machine),
+            label("case", &case),
+        ];
+        labels.extend(ruler.map(|ruler| label("ruler", ruler)));
+        let labels = labels.join(",");
+        let mut push = |labels: String, median: &dyn Fn(&FrameTimes) -> Option<f64>| {
+            let values = by_time
+                .iter()
+                .filter_map(|(at, times)| Some((*at, median(times).filter(|m| m.is_finite())?)));
+            all.push((labels, values.collect()));
+        };
+        if metric == RULER {
+            push(labels, &FrameTimes::ruler_median);
+            continue;
+        }
+        for time in TIMES {
+            let labels = format!("{labels},{}", label("time", time.name()));
+            push(labels, &|times| times.median(time));
+        }
+    }
+    Ok(all)
 }
 
 fn machine(history: &History, id: MachineId) -> String {

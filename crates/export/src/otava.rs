@@ -4,7 +4,7 @@ use crate::error::ExportError;
 use crate::folder::part;
 use crate::tables::machine_text;
 use crate::written::Written;
-use etalon_history::{History, RunId, format_time};
+use etalon_history::{History, RunId, SeriesKey, TimePoint, format_time};
 use etalon_record::Time;
 use serde_json::json;
 use std::collections::HashSet;
@@ -27,59 +27,40 @@ pub(crate) fn write(
 ) -> Result<Written, ExportError> {
     let mut written = Written::default();
     let mut tests = serde_json::Map::new();
-    for (place, key) in history.series_keys()?.iter().enumerate() {
+    let mut place = 0;
+    for key in history.series_keys()? {
         let case = history.case_name(key.case)?;
-        let mut csv = String::from("time,commit,version,wall,cpu,gpu,read_back,ruler\n");
-        let mut rows = 0;
-        for point in history.series(key)? {
-            let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) else {
+        for (ruler, points) in history.series_by_ruler(&key)? {
+            let (csv, rows) = table(history, runs, &key, points);
+            if rows == 0 {
                 continue;
-            };
-            let adapter = history.adapter(run.id, &key.timeline);
-            let commit = run.commit.as_deref().unwrap_or_default();
-            let version = adapter.map_or("", |a| a.adapter.shown_version());
-            let _ = write!(
-                csv,
-                "{},{},{}",
-                format_time(run.time()),
-                field(commit),
-                field(version)
-            );
-            let times = TIMES.map(|(_, time)| point.times.median(time));
-            for value in times.into_iter().chain([point.times.ruler_median()]) {
-                csv.push(',');
-                if let Some(value) = value {
-                    let _ = write!(csv, "{value}");
-                }
             }
-            csv.push('\n');
-            rows += 1;
+            let name = format!("{}-{place}.csv", part(&case, place));
+            place += 1;
+            let path = dir.join(&name);
+            fs::write(&path, csv).map_err(ExportError::io(&path))?;
+            written.files += 1;
+            written.rows += rows;
+            let machine = history.machine(key.machine).map(machine_text);
+            let machine = machine.unwrap_or_default();
+            let ruler = ruler.map_or(String::new(), |ruler| format!(", ruler {ruler}"));
+            let title = format!("{case} {} {machine}{ruler}", key.timeline);
+            let metrics: serde_json::Map<_, _> = TIMES
+                .iter()
+                .map(|(column, _)| {
+                    let metric = json!({"column": column, "direction": -1});
+                    ((*column).to_owned(), metric)
+                })
+                .collect();
+            let test = json!({
+                "type": "csv",
+                "file": name,
+                "time_column": "time",
+                "attributes": ["commit", "version"],
+                "metrics": metrics,
+            });
+            tests.insert(title, test);
         }
-        if rows == 0 {
-            continue;
-        }
-        let name = format!("{}-{place}.csv", part(&case, place));
-        let path = dir.join(&name);
-        fs::write(&path, csv).map_err(ExportError::io(&path))?;
-        written.files += 1;
-        written.rows += rows;
-        let machine = history.machine(key.machine).map(machine_text);
-        let title = format!("{case} {} {}", key.timeline, machine.unwrap_or_default());
-        let metrics: serde_json::Map<_, _> = TIMES
-            .iter()
-            .map(|(column, _)| {
-                let metric = json!({"column": column, "direction": -1});
-                ((*column).to_owned(), metric)
-            })
-            .collect();
-        let test = json!({
-            "type": "csv",
-            "file": name,
-            "time_column": "time",
-            "attributes": ["commit", "version"],
-            "metrics": metrics,
-        });
-        tests.insert(title, test);
     }
     // JSON is YAML.
     let path = dir.join("otava.yaml");
@@ -87,6 +68,42 @@ pub(crate) fn write(
     fs::write(&path, text).map_err(ExportError::io(&path))?;
     written.files += 1;
     Ok(written)
+}
+
+/// The text of a file and its rows.
+fn table(
+    history: &History,
+    runs: &HashSet<RunId>,
+    key: &SeriesKey,
+    points: Vec<TimePoint>,
+) -> (String, u64) {
+    let mut csv = String::from("time,commit,version,wall,cpu,gpu,read_back,ruler\n");
+    let mut rows = 0;
+    for point in points {
+        let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) else {
+            continue;
+        };
+        let adapter = history.adapter(run.id, &key.timeline);
+        let commit = run.commit.as_deref().unwrap_or_default();
+        let version = adapter.map_or("", |a| a.adapter.shown_version());
+        let _ = write!(
+            csv,
+            "{},{},{}",
+            format_time(run.time()),
+            field(commit),
+            field(version)
+        );
+        let times = TIMES.map(|(_, time)| point.times.median(time));
+        for value in times.into_iter().chain([point.times.ruler_median()]) {
+            csv.push(',');
+            if let Some(value) = value {
+                let _ = write!(csv, "{value}");
+            }
+        }
+        csv.push('\n');
+        rows += 1;
+    }
+    (csv, rows)
 }
 
 /// A field of CSV, quoted where it must be.

@@ -6,7 +6,7 @@ use crate::history::History;
 use crate::ids::{CaseId, MachineId, RunId};
 use crate::packing::unpack_times;
 use rusqlite::Row;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 /// The subject of a series. Machines differ in speed, so each has its own.
@@ -102,6 +102,24 @@ impl History {
         }
         points.sort_by_key(|point| self.place(point.run));
         Ok(points)
+    }
+
+    /// The points of a series as [`series`](Self::series) gives them, parted by the description of the ruler: times
+    /// beside different rulers do not compare.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is damaged.
+    pub fn series_by_ruler(
+        &self,
+        key: &SeriesKey,
+    ) -> Result<BTreeMap<Option<&str>, Vec<TimePoint>>, HistoryError> {
+        let mut parts: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for point in self.series(key)? {
+            let run = self.run(point.run);
+            let ruler = run.and_then(|run| run.ruler.as_deref());
+            parts.entry(ruler).or_default().push(point);
+        }
+        Ok(parts)
     }
 }
 

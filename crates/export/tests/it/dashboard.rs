@@ -17,15 +17,18 @@ fn text(name: &str) -> String {
     fs::read_to_string(path.join(name)).unwrap()
 }
 
-/// The samples of a history of one run with a record and a time.
+/// The samples of a history of one run with a record and a time beside a ruler.
 fn samples() -> String {
     let mut adapter = adapter("an adapter", "1.0");
     let pass = Outcome::new(Verdict::Pass);
     adapter.outcomes.insert("perf/a".to_owned(), pass);
-    adapter.times.insert("perf/a".to_owned(), wall(&[0.5]));
+    let mut times = wall(&[0.5]);
+    times.ruler = vec![0.25];
+    adapter.times.insert("perf/a".to_owned(), times);
     let mut run = run(1, "2026-01-01", vec![adapter]);
     // [`words`] reads no escapes.
     run.machine.os = "an os".to_owned();
+    run.ruler = Some("a ruler".to_owned());
     let (out, _dir) = exported(&[run], Format::OpenMetrics, &Selection::default());
     fs::read_to_string(out.join("history.om")).unwrap()
 }

@@ -125,7 +125,8 @@ fn due(runs: &[&NewRun]) -> Samples {
                 records.insert((key.clone(), time(run)), &part.outcomes);
             }
             for (case, of_case) in &part.times {
-                let of_series = times.entry((key.clone(), case)).or_default();
+                let ruler = run.ruler.as_deref();
+                let of_series = times.entry((key.clone(), case, ruler)).or_default();
                 of_series.insert(time(run), of_case);
             }
         }
@@ -146,25 +147,30 @@ fn due(runs: &[&NewRun]) -> Samples {
             *samples.entry(series).or_default().entry(at).or_default() += 1.0;
         }
     }
-    for (((adapter, machine), case), by_time) in times {
-        for (at, times) in by_time {
-            for (time, rounds) in [
-                ("wall", &times.wall),
-                ("cpu", &times.cpu),
-                ("gpu", &times.gpu),
-                ("read-back", &times.read_back),
-            ] {
-                let labels = [
-                    ("adapter", &*adapter),
-                    ("machine", &machine),
-                    ("case", case),
-                    ("time", time),
-                ];
-                if let Some(median) = middle(rounds) {
-                    let series = series("etalon_frame_seconds", labels);
-                    samples.entry(series).or_default().insert(at, median);
-                }
+    for (((adapter, machine), case, ruler), by_time) in times {
+        let mut take = |metric: &str, time: Option<&str>, at: i64, rounds: &[f32]| {
+            let labels = [
+                ("adapter", Some(&*adapter)),
+                ("machine", Some(&machine)),
+                ("case", Some(case)),
+                ("ruler", ruler),
+                ("time", time),
+            ];
+            let labels = labels
+                .into_iter()
+                .filter_map(|(name, value)| value.map(|value| (name.to_owned(), value.to_owned())));
+            if let Some(median) = middle(rounds) {
+                let series = (metric.to_owned(), labels.collect());
+                samples.entry(series).or_default().insert(at, median);
             }
+        };
+        for (at, times) in by_time {
+            take("etalon_frame_seconds", Some("wall"), at, &times.wall);
+            take("etalon_frame_seconds", Some("cpu"), at, &times.cpu);
+            take("etalon_frame_seconds", Some("gpu"), at, &times.gpu);
+            let read_back = &times.read_back;
+            take("etalon_frame_seconds", Some("read-back"), at, read_back);
+            take("etalon_ruler_seconds", None, at, &times.ruler);
         }
     }
     samples

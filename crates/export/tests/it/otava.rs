@@ -79,7 +79,9 @@ fn due(runs: &[&NewRun]) -> Told {
     for run in runs {
         for part in &run.adapters {
             for (case, times) in &part.times {
-                let title = format!("{case} {} {}", part.timeline, machine(run));
+                let ruler = run.ruler.as_deref().map(|ruler| format!(", ruler {ruler}"));
+                let ruler = ruler.unwrap_or_default();
+                let title = format!("{case} {} {}{ruler}", part.timeline, machine(run));
                 let all = [
                     &times.wall,
                     &times.cpu,

@@ -108,11 +108,12 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
         any::<bool>(),
         prop::option::of("[a-f0-9,\"\n]{0,3}"),
         prop::option::of("[a-z\"\\\\\n]{0,3}"),
+        select(&[None, None, Some("a ruler"), Some(HOSTILE)][..]),
     );
     vec((parts, about, prop::bool::weighted(0.2)), 1..6).prop_map(|all| {
         let mut made: Vec<NewRun> = Vec::new();
         for (number, (parts, about, resumes)) in (1..).zip(all) {
-            let (kind, day, released, machine, commit, label) = about;
+            let (kind, day, released, machine, commit, label, ruler) = about;
             let at = |day: u8| parse_time(&format!("2026-01-0{day}")).unwrap();
             let named = |parts: BTreeMap<&str, NewAdapter>| -> Vec<NewAdapter> {
                 let each = parts.into_iter().map(|(name, mut part)| {
@@ -132,6 +133,7 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
                 released: released.map(at),
                 commit,
                 labels: Labels::from_iter(labels),
+                ruler: ruler.map(str::to_owned),
                 profile: machine.then(|| "full".to_owned()),
                 machine: Machine {
                     cores: u32::from(machine),

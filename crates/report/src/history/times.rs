@@ -8,7 +8,6 @@ use etalon_history::{
 };
 use etalon_record::Time;
 use etalon_stats::{ChangePoint, Changes, Point, change_points};
-use std::collections::BTreeMap;
 
 /// The times of which series are shown.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
@@ -51,15 +50,8 @@ pub(super) fn read(
     for key in history.series_keys()? {
         let line = places.timelines.iter().position(|l| l.name == key.timeline);
         let Some(line) = line else { continue };
-        // Times beside different rulers do not compare.
-        let mut parts: BTreeMap<Option<&str>, Vec<TimePoint>> = BTreeMap::new();
-        for point in history.series(&key)? {
-            let run = history.run(point.run);
-            let ruler = run.and_then(|run| run.ruler.as_deref());
-            parts.entry(ruler).or_default().push(point);
-        }
         let of_case = Said::of(history, &key, states)?;
-        for (ruler, points) in parts {
+        for (ruler, points) in history.series_by_ruler(&key)? {
             let times = TIMES.into_iter();
             let times = times.filter_map(|time| Measured::new(time, &points, places, &of_case));
             measured.extend(times.map(|one| (all.len(), one)));

@@ -13,7 +13,6 @@ use etalon_record::Time;
 use etalon_report::plain;
 use etalon_stats::{Cause, ChangePoint, Changes, Drift, Point, Ratio, change_points};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 
 /// The runs behind a change for which its smallest visible size is told.
 const AFTER: usize = 10;
@@ -96,19 +95,16 @@ pub(super) fn of_key(
     time: Time,
     labels: &Labels,
 ) -> Result<Vec<Series>, HistoryError> {
-    let mut by_ruler: BTreeMap<Option<&str>, Vec<(RunId, Point)>> = BTreeMap::new();
-    for timed in history.series(key)? {
-        let (Some(info), Some(point)) = (history.run(timed.run), timed.times.point(time)) else {
-            continue;
-        };
-        if is_meant(history, timed.run, labels) {
-            let ruler = info.ruler.as_deref();
-            by_ruler.entry(ruler).or_default().push((timed.run, point));
-        }
-    }
     let mut found = Vec::new();
-    for (runs, points) in by_ruler.into_values().map(|all| all.into_iter().unzip()) {
-        let points: Vec<Point> = points;
+    for timed in history.series_by_ruler(key)?.into_values() {
+        let meant = timed
+            .into_iter()
+            .filter(|timed| is_meant(history, timed.run, labels))
+            .filter_map(|timed| Some((timed.run, timed.times.point(time)?)));
+        let (runs, points): (Vec<RunId>, Vec<Point>) = meant.unzip();
+        if points.is_empty() {
+            continue;
+        }
         let changes = change_points(&points).map_err(|error| {
             let path = history.path().to_owned();
             let message = format!("the times of {case}: {error}");
