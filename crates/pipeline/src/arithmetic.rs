@@ -66,6 +66,11 @@ pub trait Arithmetic {
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// A factor as it is multiplied: clamped to the encoding's range.
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// One side of a blend equation whose factor is zero: that, or what zero times an infinity or NaN is.
+    #[inline(always)]
+    fn blend_zero(&mut self, _operand: Self::Real) -> Self::Real {
+        self.constant(0.0)
+    }
     /// One side of a blend equation: operand times factor.
     fn blend_product(
         &mut self,

@@ -17,8 +17,8 @@ pub struct BlendInput<R> {
     pub constant: [R; 4],
 }
 
-/// A factor before it is multiplied. Zero and one need no arithmetic: `0 * x = 0` and `1 * x = x` are
-/// exact for finite `x` in every specification.
+/// A factor before it is multiplied. Zero and one need no arithmetic: `0 * x = 0` is exact for finite `x`, and
+/// `1 * x = x` for every `x`, in every specification.
 enum Factor<R> {
     Zero,
     One,
@@ -84,7 +84,7 @@ fn side<A: Arithmetic>(
     factor: Factor<A::Real>,
 ) -> A::Real {
     match factor {
-        Factor::Zero => a.constant(0.0),
+        Factor::Zero => a.blend_zero(operand),
         Factor::One => operand,
         Factor::Value(value) => a.blend_product(encoding, operand, value),
     }

@@ -519,6 +519,16 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
+    /// No text says whether a factor of zero is multiplied or leaves its side out.
+    fn blend_zero(&mut self, operand: Range) -> Range {
+        operand.zip(operand, |v, _| {
+            match v.low.is_finite() && v.high.is_finite() {
+                true => Interval::exact(0.0),
+                false => Interval::EVERYTHING,
+            }
+        })
+    }
+
     fn blend_product(&mut self, encoding: ChannelEncoding, operand: Range, factor: Range) -> Range {
         let product = operand.zip(factor, Interval::times);
         let plain = |v: Interval| v.is(0.0) || v.is(1.0);
@@ -544,10 +554,12 @@ impl Arithmetic for Judging<'_> {
         let float = if a.float.is(0.0) || b.float.is(0.0) {
             sum.float
         } else {
-            // The error is relative to the sides, of which the sum may be a small difference.
+            // The error is relative to the sides, of which the sum may be a small difference. That of an infinite
+            // side is none.
+            let greatest = f64::from(f32::MAX);
             let largest = [a.float.low, a.float.high, b.float.low, b.float.high]
                 .into_iter()
-                .fold(0.0, |m: f64, v| m.max(v.abs()));
+                .fold(0.0, |m: f64, v| m.max(v.abs().min(greatest)));
             sum.float.widen(largest * self.error())
         };
         Range {

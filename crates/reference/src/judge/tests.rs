@@ -553,10 +553,19 @@ fn the_least_signed_code_is_resolved_to_itself_or_to_the_code_of_its_value() {
 
 /// Returns true if NaN is legal after a draw over a colour of 32-bit floats.
 fn may_become_nan(stored: [f32; 4], draw: &str) -> bool {
+    may_draws_become_nan(stored, &[draw])
+}
+
+/// Returns true if NaN is legal after draws over a colour of 32-bit floats.
+fn may_draws_become_nan(stored: [f32; 4], draws: &[&str]) -> bool {
+    let draws = draws
+        .iter()
+        .map(|draw| format!(r#"{{"mesh":{{"kind":"full"}},"shader":"uniform_color",{draw}}}"#));
+    let draws = draws.collect::<Vec<_>>().join(",");
     let case = case(&format!(
         r#"{{"about":"t","spec":["t"],"scene":{{
         "attachments":{{"color":{{"format":"rgba32float","size":[1,1],"clear":{stored:?}}}}},
-        "passes":[{{"color":["color"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",{draw}}}]}}],
+        "passes":[{{"color":["color"],"draws":[{draws}]}}],
         "read":["color"]}}}}"#
     ));
     let limits = limits(Api::Vulkan);
@@ -579,4 +588,22 @@ fn what_overflows_on_the_way_may_become_nan() {
     };
     assert!(may_become_nan([2e38; 4], &difference(4.0)));
     assert!(!may_become_nan([2e38; 4], &difference(0.5)));
+}
+
+#[test]
+fn a_factor_of_zero_may_multiply_an_infinity() {
+    let twice = r#""params":{"color":[2e38,2e38,2e38,2e38]},
+        "blend":{"color":{"operation":"add","src_factor":"one","dst_factor":"one"},
+        "alpha":{"operation":"add","src_factor":"one","dst_factor":"one"}}"#;
+    let replace = |factor: &str| {
+        format!(
+            r#""params":{{"color":[1,1,1,1]}},
+            "blend":{{"color":{{"operation":"add","src_factor":"one","dst_factor":"{factor}"}},
+            "alpha":{{"operation":"add","src_factor":"one","dst_factor":"{factor}"}}}}"#
+        )
+    };
+    let (zero, one) = (replace("zero"), replace("one"));
+    assert!(may_draws_become_nan([2e38; 4], &[twice, &zero]));
+    assert!(!may_draws_become_nan([2e38; 4], &[twice, &one]));
+    assert!(!may_draws_become_nan([1e38; 4], &[twice, &zero]));
 }
