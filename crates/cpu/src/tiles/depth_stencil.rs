@@ -69,9 +69,47 @@ pub(crate) fn stencil_passes(face: &StencilFace, stored: &[u8; LANES]) -> [Lane;
     )
 }
 
-/// Returns true if every stored value passes a stencil test.
-pub(crate) fn always_passes(face: &StencilFace) -> bool {
-    face.compare == CompareFunction::Always
+/// Returns the answer of a stencil test of stored values of a range, if it is one.
+pub(crate) fn stencil_decided(face: &StencilFace, [low, high]: [u8; 2]) -> Option<Decided> {
+    let mask = face.read_mask;
+    // Masked values of a range are in no order, unless they are one.
+    let range = match () {
+        () if mask == u8::MAX => [low, high],
+        () if low == high => [low & mask; 2],
+        () => [0, mask],
+    };
+    decided(
+        face.compare,
+        u32::from(face.reference & mask),
+        range.map(u32::from),
+    )
+}
+
+/// True if an operation leaves stored values as they are.
+pub(crate) fn keeps(face: &StencilFace, operation: StencilOperation) -> bool {
+    operation == StencilOperation::Keep || face.write_mask == 0
+}
+
+/// Returns a range around what an operation makes of stored values of a range.
+pub(crate) fn operated(
+    face: &StencilFace,
+    operation: StencilOperation,
+    [low, high]: [u8; 2],
+) -> [u8; 2] {
+    if keeps(face, operation) || [low, high] == ANY_STENCIL {
+        return [low, high];
+    }
+    let mut values: [u8; 256] = std::array::from_fn(|value| value as u8);
+    let values = &mut values[usize::from(low)..=usize::from(high)];
+    operate(face, operation, values);
+    values
+        .iter()
+        .fold([u8::MAX, 0], |[a, b], v| [a.min(*v), b.max(*v)])
+}
+
+/// Returns the range around two.
+pub(crate) fn hull<T: Ord>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
+    [a.min(c), b.max(d)]
 }
 
 /// Applies an operation to stored values.
@@ -96,5 +134,8 @@ pub(crate) fn operate(face: &StencilFace, operation: StencilOperation, stored: &
 
 /// A range of codes that holds whatever is stored.
 pub(crate) const ANY: [u32; 2] = [0, u32::MAX];
+
+/// The same of stencil values.
+pub(crate) const ANY_STENCIL: [u8; 2] = [0, u8::MAX];
 
 const _: () = assert!(AREA.is_multiple_of(LANES));

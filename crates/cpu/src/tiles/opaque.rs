@@ -21,6 +21,8 @@ pub(crate) const NARROW: i32 = 8;
 pub(crate) struct Store {
     /// The draw and the paint that it belongs to.
     of: [u32; 2],
+    /// The facing, if the other one's stencil state may do something.
+    front: Option<bool>,
     /// The word that a texel of one word becomes.
     color: Option<u32>,
     /// Whether a code passes that is less than the stored one, equal and greater; `None` if depths are not tested.
@@ -30,7 +32,7 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Returns what a triangle does, if it is opaque.
+    /// Returns what a triangle does, if it is opaque and its stencil state does nothing.
     #[inline(always)]
     pub(crate) fn new(triangle: &Triangle, plan: &DrawPlan, paint: &Paint) -> Option<Self> {
         let color = match &paint.kernel {
@@ -43,8 +45,9 @@ impl Store {
             plan.shading,
             Shading::Expensive(_) | Shading::Texture { .. } | Shading::Texels(..)
         );
-        (plan.stencil.is_none() && !shaded && paint.others.is_empty()).then_some(Self {
+        (!shaded && paint.others.is_empty()).then_some(Self {
             of: [triangle.draw, triangle.paint],
+            front: plan.stencil.map(|_| triangle.front),
             color,
             passes: plan.depth.map(|d| passing(d.compare)),
             write: plan.depth.is_some_and(|d| d.write),
@@ -55,6 +58,7 @@ impl Store {
     #[inline(always)]
     pub(crate) fn is_of(&self, triangle: &Triangle) -> bool {
         self.of == [triangle.draw, triangle.paint]
+            && self.front.is_none_or(|front| front == triangle.front)
     }
 
     /// True if texels are written.

@@ -9,7 +9,7 @@ use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{Arithmetic, Plain, takes_logic, window_position};
 use etalon_scene::{
-    AddressMode, ColorTarget, DepthState, Draw, EarlyTests, FilterMode, Multisample, Pass,
+    AddressMode, ColorTarget, DepthState, Draw, EarlyTests, FilterMode, Mesh, Multisample, Pass,
     PolygonMode, PrimitiveTopology, PrimitiveVertices, ProvokingVertex, RESTART, Scene, Shader,
     StencilState, Vertex,
 };
@@ -69,8 +69,43 @@ pub(crate) struct DrawPlan {
     pub(crate) stencil: Option<StencilState>,
     /// True if triangles may lie wholly before the near or behind the far plane, so that nothing of them is drawn.
     pub(crate) rejects: bool,
-    /// True if every three vertices or indices are a triangle whose first vertex is flat over it.
-    pub(crate) listed: bool,
+    /// The runs of vertices or indices of which every three are a triangle whose first vertex is flat over it; `None` if
+    /// they are none.
+    pub(crate) runs: Option<Vec<Run>>,
+}
+
+/// Neighbouring primitives of a list, which a restart ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    /// The number of its first primitive.
+    pub(crate) first: usize,
+    /// The number of primitives.
+    pub(crate) count: usize,
+    /// The place of its first vertex or index.
+    pub(crate) at: usize,
+}
+
+impl Run {
+    /// Returns the runs of a list.
+    fn all(mesh: &Mesh) -> Vec<Self> {
+        let Some(indices) = &mesh.indices else {
+            let count = mesh.vertices.len() / 3;
+            return vec![Self {
+                first: 0,
+                count,
+                at: 0,
+            }];
+        };
+        let (mut first, mut at) = (0, 0);
+        let runs = indices.split(|i| *i == RESTART).map(|run| {
+            let count = run.len() / 3;
+            let this = Self { first, count, at };
+            first += count;
+            at += run.len() + 1;
+            this
+        });
+        runs.collect()
+    }
 }
 
 /// The source of a triangle's colour, which is constant over it unless it is a texture's.
@@ -251,10 +286,9 @@ impl DrawPlan {
                 a[3].max(b[3]),
             ]
         });
-        let in_order = match &draw.mesh.indices {
-            Some(indices) => !indices.contains(&RESTART),
-            None => true,
-        };
+        let listed = draw.topology == TriangleList
+            && draw.tessellation.is_none()
+            && draw.provoking != Some(ProvokingVertex::Last);
         Ok(Self {
             index,
             shading,
@@ -263,10 +297,7 @@ impl DrawPlan {
             depth: draw.depth.filter(|_| pass.depth.is_some()),
             stencil: draw.stencil,
             rejects,
-            listed: in_order
-                && draw.topology == TriangleList
-                && draw.tessellation.is_none()
-                && draw.provoking != Some(ProvokingVertex::Last),
+            runs: listed.then(|| Run::all(&draw.mesh)),
         })
     }
 }

@@ -5,7 +5,7 @@ use super::edges::{Edges, Touch};
 use super::image::Image;
 use super::opaque::NARROW;
 use super::paint::Paint;
-use super::plan::{Behind, DrawPlan, PassPlan, Shading};
+use super::plan::{Behind, DrawPlan, PassPlan, Run, Shading};
 use super::texels::Texels;
 use super::texture::Texture;
 use super::triangle::{Placed, Rare, Shape, Triangle, point};
@@ -87,13 +87,9 @@ impl<'a> Input<'a> {
         base: usize,
         first: usize,
     ) -> Self {
-        let listed = || {
-            let order = draw.mesh.indices.as_ref();
-            order.map_or(draw.mesh.vertices.len(), Vec::len) / 3
-        };
-        let primitives: Vec<_> = match plan.listed {
-            true => Vec::new(),
-            false => {
+        let primitives: Vec<_> = match plan.runs {
+            Some(_) => Vec::new(),
+            None => {
                 let all = draw.primitives().into_iter().zip(draw.provoking_vertices());
                 all.filter_map(|(primitive, provoking)| match primitive {
                     PrimitiveVertices::Triangle(triangle) => Some((triangle, provoking)),
@@ -102,9 +98,9 @@ impl<'a> Input<'a> {
                 .collect()
             }
         };
-        let count = match plan.listed {
-            true => listed(),
-            false => primitives.len(),
+        let count = match &plan.runs {
+            Some(runs) => runs.last().map_or(0, |run| run.first + run.count),
+            None => primitives.len(),
         };
         Self {
             draw,
@@ -124,13 +120,13 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Returns vertices and provoking vertex of a primitive.
+    /// Returns vertices and provoking vertex of a primitive in its run.
     #[inline(always)]
-    fn primitive(&self, number: usize) -> ([usize; 3], usize) {
-        if !self.plan.listed {
+    fn primitive(&self, run: &Run, number: usize) -> ([usize; 3], usize) {
+        if self.plan.runs.is_none() {
             return self.primitives[number];
         }
-        let at = 3 * number;
+        let at = run.at + 3 * (number - run.first);
         let triangle = match &self.draw.mesh.indices {
             Some(indices) => {
                 let three = &indices[at..at + 3];
@@ -190,13 +186,24 @@ impl Part {
             let start = range.start.clamp(input.first, input.first + input.count);
             let end = range.end.clamp(start, input.first + input.count);
             let mut draw = SetUp::new(simd, pass, input, number, self);
-            for primitive in start..end {
-                let (triangle, provoking) = input.primitive(primitive - input.first);
-                draw.triangle(
-                    triangle,
-                    triangle.map(|i| placed[input.base + i]),
-                    provoking,
-                );
+            let (start, end) = (start - input.first, end - input.first);
+            // Primitives that are not listed are one run.
+            let whole = [Run {
+                first: 0,
+                count: input.count,
+                at: 0,
+            }];
+            let runs = input.plan.runs.as_deref().unwrap_or(&whole);
+            let before = runs.partition_point(|run| run.first + run.count <= start);
+            for run in &runs[before..] {
+                for number in run.first.max(start)..(run.first + run.count).min(end) {
+                    let (triangle, provoking) = input.primitive(run, number);
+                    draw.triangle(
+                        triangle,
+                        triangle.map(|i| placed[input.base + i]),
+                        provoking,
+                    );
+                }
             }
         }
     }

@@ -3,7 +3,8 @@
 use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{
-    ANY, Decided, always_passes, compared, decided, operate, stencil_passes,
+    ANY, ANY_STENCIL, Decided, compared, decided, hull, keeps, operate, operated, stencil_decided,
+    stencil_passes,
 };
 use super::edges::Edges;
 use super::image::AREA;
@@ -19,7 +20,7 @@ use super::triangle::{Shape, Triangle};
 use super::work::Work;
 use crate::lanes::{Codes, LANES};
 use etalon_pipeline::shader::cost;
-use etalon_scene::StencilOperation;
+use etalon_scene::{StencilFace, StencilOperation};
 use fearless_simd::Simd;
 use std::hint::black_box;
 use std::iter;
@@ -114,6 +115,37 @@ struct Drawing<'t, 'a> {
     same: bool,
     /// The least and the greatest depth code, or a range around them.
     range: [u32; 2],
+    /// The same of stencil values.
+    stencils: [u8; 2],
+}
+
+/// What the tests of all texels of a triangle come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    StencilFails,
+    DepthFails,
+    Passes,
+}
+
+impl Outcome {
+    /// Returns what two answers come to, if it is one.
+    fn of(stencil: Option<Decided>, depth: Option<Decided>) -> Option<Self> {
+        match (stencil?, depth) {
+            (Decided::Fail, _) => Some(Self::StencilFails),
+            (Decided::Pass, Some(Decided::Fail)) => Some(Self::DepthFails),
+            (Decided::Pass, Some(Decided::Pass)) => Some(Self::Passes),
+            (Decided::Pass, None) => None,
+        }
+    }
+
+    /// Returns the operation on stored stencil values.
+    fn operation(self, face: &StencilFace) -> StencilOperation {
+        match self {
+            Self::StencilFails => face.fail_op,
+            Self::DepthFails => face.depth_fail_op,
+            Self::Passes => face.pass_op,
+        }
+    }
 }
 
 /// Draws a tile.
@@ -138,6 +170,7 @@ pub(crate) fn draw<S: Simd>(
         texels: tile_texels(pass, tile.at),
         same: samples == 1 || cleared,
         range: tile.depth.clear.map_or(ANY, |[code, ..]| [code; 2]),
+        stencils: (tile.stencil.clear).map_or(ANY_STENCIL, |[value, ..]| [value; 2]),
         tile,
     };
     for part in parts {
@@ -180,11 +213,27 @@ impl Drawing<'_, '_> {
     ) -> Option<Store> {
         let paint = &part.paints[triangle.paint as usize];
         let plan = input.plan;
-        let face = plan
-            .stencil
-            .map(|s| if triangle.front { s.front } else { s.back });
+        let state = plan.stencil.as_ref();
+        let face = state.map(|s| if triangle.front { &s.front } else { &s.back });
         let answer = self.answer(triangle, plan);
-        if (answer == Some(Decided::Fail) && face.is_none()) || paint.samples == 0 {
+        let stencil = match face {
+            Some(face) => stencil_decided(face, self.stencils),
+            None => Some(Decided::Pass),
+        };
+        let outcome = Outcome::of(stencil, answer);
+        // Stencil state that passes and changes nothing is none.
+        let face = face.filter(|face| match outcome {
+            // Those behind a triangle that covers a part may have another answer.
+            Some(outcome) if whole || outcome == Outcome::StencilFails => {
+                !keeps(face, outcome.operation(face))
+            }
+            _ => {
+                let pass = stencil == Some(Decided::Pass);
+                !(pass && keeps(face, face.depth_fail_op) && keeps(face, face.pass_op))
+            }
+        });
+        let fails = matches!(outcome, Some(Outcome::StencilFails | Outcome::DepthFails));
+        if (fails && face.is_none()) || paint.samples == 0 {
             return None;
         }
         for (layer, _) in self.tile.drawn(paint) {
@@ -196,13 +245,16 @@ impl Drawing<'_, '_> {
         if face.is_some() {
             self.tile.stencil.touch(self.same);
         }
-        let all = u32::MAX >> (32 - self.pass.positions.len());
-        if self.same && !(whole && paint.samples & all == all) {
+        let samples = u32::MAX >> (32 - self.pass.positions.len());
+        let all = whole && paint.samples & samples == samples;
+        if self.same && !all {
             self.expand();
         }
-        let store = Store::new(triangle, plan, paint).filter(|_| !whole);
-        if store.is_some() {
-            return store;
+        if !whole && face.is_none() {
+            let store = Store::new(triangle, plan, paint);
+            if store.is_some() {
+                return store;
+            }
         }
         let work = Work {
             triangle,
@@ -218,9 +270,14 @@ impl Drawing<'_, '_> {
             }),
             texels: input.texels,
         };
-        self.samples(simd, &work, whole, answer);
-        let all = whole && self.same && face.is_none() && work.is_constant();
-        self.widen(triangle, plan, all && answer == Some(Decided::Pass));
+        self.samples(simd, &work, whole, outcome);
+        let all = all && work.is_constant();
+        if !fails {
+            self.widen(triangle, plan, all && outcome == Some(Outcome::Passes));
+        }
+        if let Some(face) = face {
+            self.widen_stencils(face, all, outcome);
+        }
         None
     }
 
@@ -260,6 +317,20 @@ impl Drawing<'_, '_> {
         };
     }
 
+    /// Keeps the range of stencil values around what a face may have made of all or some of them.
+    #[inline(always)]
+    fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<Outcome>) {
+        let old = self.stencils;
+        let of = |outcome: Outcome| operated(face, outcome.operation(face), old);
+        self.stencils = match outcome {
+            Some(outcome) if all => of(outcome),
+            Some(outcome) => hull(old, of(outcome)),
+            None => [Outcome::StencilFails, Outcome::DepthFails, Outcome::Passes]
+                .into_iter()
+                .fold(old, |range, outcome| hull(range, of(outcome))),
+        };
+    }
+
     /// Makes planes of their own for all samples.
     #[inline(always)]
     fn expand(&mut self) {
@@ -274,45 +345,42 @@ impl Drawing<'_, '_> {
 
     /// Draws a triangle sample by sample.
     #[inline(always)]
-    fn samples<S: Simd>(&mut self, simd: S, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
+    fn samples<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        whole: bool,
+        outcome: Option<Outcome>,
+    ) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
             1
         } else {
             self.pass.positions.len()
         };
-        let decided = answer.filter(|_| {
-            whole && work.is_constant() && work.face.as_ref().is_none_or(always_passes)
-        });
+        let decided = outcome.filter(|_| whole && work.is_constant());
         for sample in 0..planes {
             if !self.same && work.paint.samples & (1 << sample) == 0 {
                 continue;
             }
             match decided {
-                Some(answer) => self.decided(simd, work, sample, answer),
+                Some(outcome) => self.decided(simd, work, sample, outcome),
                 None => self.scan(simd, work, sample, whole),
             }
         }
     }
 
-    /// Draws all texels of a sample, whose tests have one answer.
+    /// Draws all texels of a sample, whose tests come to the same.
     #[inline(always)]
-    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, answer: Decided) {
+    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, outcome: Outcome) {
         let [left, top, right, bottom] = self.texels;
         let start = sample * AREA;
         let range = start..start + (bottom - top) as usize * TILE;
-        if let Some(face) = &work.face {
-            let operation = match answer {
-                Decided::Pass => face.pass_op,
-                Decided::Fail => face.depth_fail_op,
-            };
-            operate(
-                face,
-                operation,
-                &mut self.tile.stencil.planes[range.clone()],
-            );
+        if let Some(face) = work.face {
+            let values = &mut self.tile.stencil.planes[range.clone()];
+            operate(face, outcome.operation(face), values);
         }
-        if answer == Decided::Fail {
+        if outcome != Outcome::Passes {
             return;
         }
         if work.plan.depth.is_some_and(|d| d.write) {
@@ -486,7 +554,7 @@ impl Drawing<'_, '_> {
             }
         }
         let mut passed = mask;
-        if let Some(face) = &work.face {
+        if let Some(face) = work.face {
             passed = and(
                 &passed,
                 &stencil_passes(face, self.tile.stencil.lanes(place)),
@@ -504,7 +572,7 @@ impl Drawing<'_, '_> {
                 select(stored, &passed, &codes);
             }
         }
-        if let Some(face) = &work.face {
+        if let Some(face) = work.face {
             let stored = self.tile.stencil.lanes(place);
             let old = *stored;
             let mut update = |operation: StencilOperation, mask: &[Lane; LANES]| {

@@ -12,7 +12,8 @@ use etalon_scene::StencilFace;
 pub(crate) struct Work<'a> {
     pub(crate) triangle: &'a Triangle,
     pub(crate) plan: &'a DrawPlan,
-    pub(crate) face: Option<StencilFace>,
+    /// The stencil state of its facing, if it may do something.
+    pub(crate) face: Option<&'a StencilFace>,
     pub(crate) paint: &'a Paint,
     /// The depths, unless the triangle is flat or none are tested.
     pub(crate) depths: Option<Depths>,
