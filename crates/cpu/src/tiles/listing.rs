@@ -65,6 +65,7 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Keep => "not written",
         Kernel::Store(_) | Kernel::Replace(_) => "stored",
         Kernel::Masked { .. } => "stored through a mask",
+        Kernel::Bits { .. } => "a function of each code's bits",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",
         Kernel::Weighted(_) => "factors of few channels",

@@ -10,7 +10,7 @@ use super::image::{AREA, Texel, Words, are_bytes, channel, joined, word};
 use super::lanes::{ALL, Lane, select, select_texels};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
-use super::texels::{NONE, Sources};
+use super::texels::Sources;
 use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
@@ -34,8 +34,6 @@ pub(crate) struct Paint {
     pub(crate) kernel: Kernel,
     /// The functions of the colour attachments behind the first.
     pub(crate) others: Vec<Kernel>,
-    /// True if a function reads the values of fetched texels.
-    pub(crate) decodes: bool,
     /// Bit `i` is set if sample `i` is drawn.
     pub(crate) samples: u32,
 }
@@ -49,6 +47,8 @@ pub(crate) enum Kernel {
     Store(Texel),
     /// Replaces the channels whose bits are not kept.
     Masked { value: Texel, keep: Texel },
+    /// Keeps some bits and inverts some.
+    Bits { and: Texel, xor: Texel },
     /// A product and a sum in each channel.
     Linear(Box<Linear>),
     /// A function of each channel's own code.
@@ -142,9 +142,7 @@ impl Paint {
             .map(|(target, other)| kernel(target, other.channels, other.logic))
             .collect();
         let kernel = first.unwrap_or(Kernel::Keep);
-        let decodes = |kernel: &Kernel| matches!(kernel, Kernel::Varying(_));
         Self {
-            decodes: decodes(&kernel) || others.iter().any(decodes),
             kernel,
             others,
             samples: drawn,
@@ -156,7 +154,6 @@ impl Paint {
         Self {
             kernel: Kernel::Keep,
             others: Vec::new(),
-            decodes: false,
             samples: 0,
         }
     }
@@ -212,6 +209,11 @@ impl Blending {
                     table[first + i] = code;
                 }
             }
+        }
+        // Bytes that no channel has are not read.
+        table[count..].fill([0; CODES]);
+        if let Some(bits) = bits(&table) {
+            return bits;
         }
         let linear = simd.vectorize(
             #[inline(always)]
@@ -448,7 +450,7 @@ impl Blending {
         planes: &mut [u32],
         at: usize,
         mask: &[Lane; LANES],
-        sources: &Sources,
+        sources: &Sources<'_>,
     ) {
         simd.vectorize(
             #[inline(always)]
@@ -457,10 +459,16 @@ impl Blending {
     }
 
     #[inline(always)]
-    fn varied_of(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES], sources: &Sources) {
+    fn varied_of(
+        &self,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+        sources: &Sources<'_>,
+    ) {
         let mut input = BlendInput {
-            src: sources.first,
-            src1: sources.second,
+            src: sources.first(),
+            src1: sources.second(),
             ..self.input()
         };
         if self.alpha_to_one {
@@ -556,10 +564,10 @@ impl Kernel {
         planes: &mut [u32],
         at: usize,
         mask: &[Lane; LANES],
-        sources: &Sources,
+        sources: &Sources<'_>,
     ) {
         match self {
-            Self::Copy => return select(lanes(planes, at), mask, &sources.words),
+            Self::Copy => return select(lanes(planes, at), mask, &sources.words()),
             Self::Varying(blending) => return blending.varied(simd, planes, at, mask, sources),
             Self::Replace(stored) => {
                 for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
@@ -583,6 +591,10 @@ impl Kernel {
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
             Self::Masked { value, keep } => {
                 let new = masked(texels, *value, *keep);
+                select_texels(texels, mask, &new);
+            }
+            Self::Bits { and, xor } => {
+                let new = bits_of(texels, *and, *xor);
                 select_texels(texels, mask, &new);
             }
             Self::Linear(linear) => {
@@ -632,7 +644,7 @@ impl Kernel {
             Self::Affine(affine) => return affine.whole(simd, planes, count),
             Self::Copy | Self::Varying(_) => {
                 for at in (0..count).step_by(LANES) {
-                    self.masked(simd, planes, at, &ALL, &NONE);
+                    self.masked(simd, planes, at, &ALL, &Sources::NONE);
                 }
                 return;
             }
@@ -658,6 +670,11 @@ impl Kernel {
                     *chunk = masked(chunk, *value, *keep);
                 }
             }
+            Self::Bits { and, xor } => {
+                for chunk in texels.as_chunks_mut::<LANES>().0 {
+                    *chunk = bits_of(chunk, *and, *xor);
+                }
+            }
             Self::Linear(linear) => linear.apply(texels),
             Self::Table(table) => {
                 for texel in texels {
@@ -674,6 +691,30 @@ impl Kernel {
             }
         }
     }
+}
+
+/// Returns the function that keeps and inverts bits or replaces all, if it is equal to tables in all codes. Logic
+/// operations are such.
+fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
+    let (and, xor) = (
+        tables.each_ref().map(|t| t[0] ^ t[CODES - 1]),
+        tables.each_ref().map(|t| t[0]),
+    );
+    let equal = |c: usize| {
+        let mut codes = tables[c].iter().zip(0..=u8::MAX);
+        codes.all(|(new, old)| *new == old & and[c] ^ xor[c])
+    };
+    (0..4).all(equal).then_some(match and {
+        [0, 0, 0, 0] => Kernel::Store(xor),
+        _ => Kernel::Bits { and, xor },
+    })
+}
+
+/// Returns texels of which some bits are kept and some inverted.
+#[inline(always)]
+fn bits_of(texels: &[Texel; LANES], and: Texel, xor: Texel) -> [Texel; LANES] {
+    let [and, xor] = [and, xor].map(u32::from_ne_bytes);
+    texels.map(|t| (u32::from_ne_bytes(t) & and ^ xor).to_ne_bytes())
 }
 
 /// Returns texels with a value in the bits that are not kept.

@@ -6,21 +6,58 @@ use crate::lanes::{Codes, LANES, Real};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 
-/// What a shader gives for neighbouring texels.
-#[derive(Debug)]
-pub(crate) struct Sources {
-    /// The words of the first texture's texels, if they have one.
-    pub(crate) words: Codes,
-    pub(crate) first: [Real; 4],
-    pub(crate) second: [Real; 4],
+/// The commonest channels.
+const UNORM: [ChannelEncoding; 4] = [ChannelEncoding::Unorm(8); 4];
+
+/// Where a shader fetches its sources.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sources<'a> {
+    texels: Option<&'a Texels<'a>>,
+    tile: usize,
+    at: usize,
 }
 
-/// The sources of a shader that fetches nothing.
-pub(crate) static NONE: Sources = Sources {
-    words: [0; LANES],
-    first: [[0.0; LANES]; 4],
-    second: [[0.0; LANES]; 4],
-};
+impl<'a> Sources<'a> {
+    /// The sources of a shader that fetches nothing: zeros.
+    pub(crate) const NONE: Self = Self {
+        texels: None,
+        tile: 0,
+        at: 0,
+    };
+
+    /// Returns those at a place of a tile's plane, of the textures that there are.
+    #[inline(always)]
+    pub(crate) fn new(texels: Option<&'a Texels<'a>>, tile: usize, at: usize) -> Self {
+        Self { texels, tile, at }
+    }
+
+    /// Returns the words of the first texture's texels, if they have one.
+    #[inline(always)]
+    pub(crate) fn words(&self) -> Codes {
+        match self.texels {
+            Some(texels) => texels.first.plane(self.tile, self.at, 0),
+            None => [0; LANES],
+        }
+    }
+
+    /// Returns the values of the first texture's texels.
+    #[inline(always)]
+    pub(crate) fn first(&self) -> [Real; 4] {
+        match self.texels {
+            Some(texels) => texels.first.values(self.tile, self.at),
+            None => [[0.0; LANES]; 4],
+        }
+    }
+
+    /// Returns the values of the second texture's texels, zeros if there is none.
+    #[inline(always)]
+    pub(crate) fn second(&self) -> [Real; 4] {
+        match self.texels.and_then(|t| t.second.as_ref()) {
+            Some(texture) => texture.values(self.tile, self.at),
+            None => [[0.0; LANES]; 4],
+        }
+    }
+}
 
 /// The textures that a draw fetches from.
 #[derive(Clone, Copy, Debug)]
@@ -47,23 +84,6 @@ impl<'a> Texels<'a> {
             second: second.map(texture),
         }
     }
-
-    /// Returns the sources of the texels at a place of a tile's plane: with their values, or the words alone.
-    #[inline(always)]
-    pub(crate) fn sources(&self, tile: usize, at: usize, values: bool) -> Sources {
-        let words = self.first.plane(tile, at, 0);
-        if !values {
-            return Sources { words, ..NONE };
-        }
-        Sources {
-            words,
-            first: self.first.values(tile, at),
-            second: match &self.second {
-                Some(texture) => texture.values(tile, at),
-                None => NONE.second,
-            },
-        }
-    }
 }
 
 impl Texture<'_> {
@@ -82,8 +102,15 @@ impl Texture<'_> {
     #[inline(always)]
     fn values(&self, tile: usize, at: usize) -> [Real; 4] {
         let mut values = [[0.0; LANES], [0.0; LANES], [0.0; LANES], [1.0; LANES]];
-        let bytes = are_bytes(self.channels);
         let words = self.plane(tile, at, 0);
+        // The commonest encoding is known to the compiler.
+        if *self.channels == UNORM {
+            for (c, value) in values.iter_mut().enumerate() {
+                *value = Plain::<LANES>.decode(UNORM[0], channel(&words, c));
+            }
+            return values;
+        }
+        let bytes = are_bytes(self.channels);
         for (c, (value, encoding)) in values.iter_mut().zip(self.channels).enumerate() {
             let codes = match bytes {
                 true => channel(&words, c),

@@ -14,7 +14,7 @@ use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
 use super::setup::{Entry, Input, Part, tile_texels};
-use super::texels::NONE;
+use super::texels::Sources;
 use super::texture::Coordinates;
 use super::triangle::{Shape, Triangle};
 use super::work::Work;
@@ -596,17 +596,16 @@ impl Drawing<'_, '_> {
             return;
         }
         let at = place % AREA;
-        let fetched = work
-            .texels
-            .map(|t| t.sources(self.index, at, work.paint.decodes));
-        let sources = fetched.as_ref().unwrap_or(&NONE);
+        let sources = Sources::new(work.texels.as_ref(), self.index, at);
         if !work.paint.kernel.keeps() {
             let colors = self.tile.color.sample(sample);
-            work.paint.kernel.masked(simd, colors, at, &passed, sources);
+            work.paint
+                .kernel
+                .masked(simd, colors, at, &passed, &sources);
         }
         for (layer, kernel) in self.tile.others.iter_mut().zip(&work.paint.others) {
             if !kernel.keeps() {
-                kernel.masked(simd, layer.sample(sample), at, &passed, sources);
+                kernel.masked(simd, layer.sample(sample), at, &passed, &sources);
             }
         }
     }
