@@ -44,7 +44,7 @@ impl Range {
         self.float.hull(self.coarse)
     }
 
-    fn zip(self, other: Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
+    pub(crate) fn zip(self, other: Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
         Self {
             float: f(self.float, other.float),
             coarse: f(self.coarse, other.coarse),
@@ -177,13 +177,7 @@ impl<'r> Judging<'r> {
         }
         match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
-            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
-                let scale = encoding.max_order() as f64;
-                Interval {
-                    low: (value.low * scale + INTEGER_SLACK).floor() / scale,
-                    high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
-                }
-            }
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => to_codes(encoding, value),
             // The codes of sRGB are spaced in the encoded value.
             ChannelEncoding::Srgb8 => {
                 let position = |v: f64| encoding.position(v).unwrap_or(0.0);
@@ -292,6 +286,15 @@ impl<'r> Judging<'r> {
             false => order,
         };
         CodeInterval::new(flush(low, low.min(0)), flush(high, high.max(0)))
+    }
+}
+
+/// Widens to a normalized encoding's codes on either side.
+pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
+    let scale = encoding.max_order() as f64;
+    Interval {
+        low: (value.low * scale + INTEGER_SLACK).floor() / scale,
+        high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
     }
 }
 

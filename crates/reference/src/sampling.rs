@@ -1,11 +1,11 @@
 //! Textures as a shader reads them: single texels, or a sampler's weighted average.
 
 use crate::interval::Interval;
-use crate::judging::{Judging, Range};
+use crate::judging::{Judging, Range, to_codes};
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};
 use crate::world::World;
-use etalon_frame::CodeInterval;
+use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, texel_position};
 use etalon_scene::{AddressMode, FilterMode, Sampler};
 
@@ -157,34 +157,37 @@ impl Walk<'_> {
         if texture.pass.is_some() && across.len() * down.len() > MOST_DRAWN_TEXELS {
             return None;
         }
-        let mut result: Option<[Interval; 4]> = None;
+        let mut result: Option<[Range; 4]> = None;
         for y in &down {
             for x in &across {
                 let one = match sampler.filter {
-                    FilterMode::Nearest => self.tap(texture, sampler, [*x as i64, *y as i64])?,
+                    FilterMode::Nearest => {
+                        let at = [*x as i64, *y as i64];
+                        let texel = self.tap(texture, sampler, at)?;
+                        texel.map(|c| Range::same(c.float.hull(c.coarse)))
+                    }
                     FilterMode::Linear => self.weighted(texture, sampler, [*x, *y])?,
                 };
                 result = Some(match result {
                     None => one,
-                    Some(all) => std::array::from_fn(|c| all[c].hull(one[c])),
+                    Some(all) => std::array::from_fn(|c| all[c].zip(one[c], Interval::hull)),
                 });
             }
         }
-        Some(result.map_or([Range::exact(0.0); 4], |all| all.map(Range::same)))
+        Some(result.unwrap_or([Range::exact(0.0); 4]))
     }
 
-    fn tap(&self, texture: Texture, sampler: Sampler, at: [i64; 2]) -> Option<[Interval; 4]> {
+    fn tap(&self, texture: Texture, sampler: Sampler, at: [i64; 2]) -> Option<[Range; 4]> {
         let index = texture.index;
         let inside = |axis: usize| {
             let mode: AddressMode = sampler.address[axis];
             texel_position(mode, at[axis], self.scene.attachments[index].size[axis])
         };
         let at = [inside(0), inside(1)];
-        let texel = match texture.pass {
-            None => self.fetched(index, at),
-            Some(pass) => self.drawn(index, at, pass)?,
-        };
-        Some(texel.map(|channel| channel.float.hull(channel.coarse)))
+        match texture.pass {
+            None => Some(self.fetched(index, at)),
+            Some(pass) => self.drawn(index, at, pass),
+        }
     }
 
     /// Returns one texel of a texture after earlier passes: all that it can be; `None` if that is not known.
@@ -208,29 +211,59 @@ impl Walk<'_> {
         Some(self.decoded(index, hull))
     }
 
-    /// Returns the average at a position counted from the centre of the first texel.
-    fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Interval; 4]> {
+    /// Returns the average at a position counted from the centre of the first texel: in floats, and by steps that may
+    /// be rounded to codes.
+    fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Range; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
         let mut largest: f64 = 0.0;
+        // Averages along one axis: of the rows, and of the columns.
+        let mut lines = [[[Interval::exact(0.0); 4]; 2]; 2];
+        let part = |axis: usize, far: i64| match far {
+            0 => 1.0 - weight[axis],
+            _ => weight[axis],
+        };
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let part = |axis: usize, far: i64| match far {
-                0 => 1.0 - weight[axis],
-                _ => weight[axis],
-            };
             let share = part(0, dx) * part(1, dy);
             let position = [
                 (first[0] as i64).saturating_add(dx),
                 (first[1] as i64).saturating_add(dy),
             ];
-            for (sum, tap) in sum.iter_mut().zip(self.tap(texture, sampler, position)?) {
+            let taps = self.tap(texture, sampler, position)?;
+            for (c, texel) in taps.into_iter().enumerate() {
+                let tap = texel.float.hull(texel.coarse);
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
-                let scaled = tap.map_increasing(|v| v * share);
-                *sum = sum.plus(scaled);
+                sum[c] = sum[c].plus(tap.map_increasing(|v| v * share));
+                for (axis, [near, far]) in [[dx, dy], [dy, dx]].into_iter().enumerate() {
+                    let line = &mut lines[axis][far as usize][c];
+                    let weight = part(axis, near);
+                    *line = line.plus(texel.coarse.map_increasing(|v| v * weight));
+                }
             }
         }
-        Some(sum.map(|sum| sum.widen(largest * self.rules.float_error.value() * 4.0)))
+        let floats = sum.map(|sum| sum.widen(largest * self.rules.float_error.value() * 4.0));
+        let mut all = floats.map(Range::same);
+        let encodings = self.scene.attachments[texture.index]
+            .format
+            .color_channels();
+        for (c, (range, encoding)) in all.iter_mut().zip(encodings).enumerate() {
+            let normalized = matches!(
+                encoding,
+                ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_)
+            );
+            if normalized && self.rules.filters_to_codes.value() {
+                let stepped = |axis: usize| {
+                    let [near, far] = [0, 1].map(|line| {
+                        let line_of = to_codes(*encoding, lines[axis][line][c]);
+                        line_of.map_increasing(|v| v * part(1 - axis, line as i64))
+                    });
+                    to_codes(*encoding, near.plus(far))
+                };
+                range.coarse = stepped(0).hull(stepped(1));
+            }
+        }
+        Some(all)
     }
 }
 

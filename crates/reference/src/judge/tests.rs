@@ -607,3 +607,37 @@ fn a_factor_of_zero_may_multiply_an_infinity() {
     assert!(!may_draws_become_nan([2e38; 4], &[twice, &one]));
     assert!(!may_draws_become_nan([1e38; 4], &[twice, &zero]));
 }
+
+#[test]
+fn filtering_may_round_each_step_to_codes() {
+    let case = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+        "attachments":{"color":{"format":"rgba32float","size":[4,4]},
+        "sampled":{"format":"rgba8unorm","size":[2,2],"texels":{"kind":"columns",
+        "values":[[0,0,0,255],[3,0,0,255]]}}},
+        "passes":[{"color":["color"],"draws":[{"mesh":{"kind":"cover","uv":[0.5,0.5,0.5,0.5]},
+        "sampler":{"address":["clamp-to-edge","clamp-to-edge"],"filter":"linear"},
+        "shader":"sampled_color","textures":["sampled"]}]}],"read":["color"]}}"#,
+    );
+    let limits = limits(Api::Vulkan);
+    let order = |v: f32| ChannelEncoding::Float32.order_of_code(v.to_bits());
+    let of = |rules: &Rules, red: f32, alpha: f32| {
+        let set = judge(&case.scene, &limits, rules);
+        let value = [red / 255.0, 0.0, 0.0, alpha / 255.0].map(order);
+        set.groups[0].sample(1, 1, 0).allows(&value)
+    };
+    let (text, yardstick) = (Rules::of(&limits), Rules::yardstick(&limits));
+    // Between the codes 0 and 3.
+    for (red, legal) in [
+        (1.5, true),
+        (1.0, true),
+        (2.0, true),
+        (0.0, false),
+        (3.0, false),
+    ] {
+        assert_eq!(of(&text, red, 255.0), legal, "{red}");
+        assert_eq!(of(&yardstick, red, 255.0), red == 1.5, "{red}");
+    }
+    // Equal texels leave no choice.
+    assert!(!of(&text, 1.5, 254.0));
+}

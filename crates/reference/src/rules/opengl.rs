@@ -332,6 +332,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
         ),
+        filters_to_codes: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+                "OpenGL 4.5: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+                "OpenGL 4.6: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+            ]),
+        ),
         half_overflows: narrowed(
             true,
             false,

@@ -271,6 +271,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
         ),
+        filters_to_codes: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+                "OpenGL ES 3.1: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+                "OpenGL ES 3.2: silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+            ]),
+        ),
         half_overflows: narrowed(
             true,
             false,

@@ -437,6 +437,8 @@ rules! {
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     filter_step: f64,
+    /// True if each step of filtering a normalized format may be rounded to a neighbouring code.
+    filters_to_codes: bool,
     /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
     /// anything.
     half_overflows: bool,

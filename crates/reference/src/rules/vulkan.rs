@@ -193,6 +193,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             1.0 / 16.0,
             "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
         ),
+        filters_to_codes: permit(
+            true,
+            "Vulkan: Texel Filtering, silent on the precision of a filtered value (read as: no coarser than the format's codes in any step)",
+        ),
         half_overflows: permit(
             true,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",

@@ -157,6 +157,10 @@ pub(super) fn rules() -> Rules {
             1.0 / 16.0,
             "WebGPU: silent on the precision of filter weights; Vulkan: at least 4 bits",
         ),
+        filters_to_codes: permit(
+            true,
+            "WebGPU: silent on the precision of a filtered value; read as Vulkan, no coarser than the format's codes in any step",
+        ),
         half_overflows: permit(
             true,
             "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",

@@ -120,6 +120,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             1.0 / 256.0,
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
+        filters_to_codes: permit(false, "Yardstick: in floats"),
         half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
         runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
