@@ -64,7 +64,7 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     match paint.kernel {
         Kernel::Keep => "not written",
         Kernel::Store(_) | Kernel::Replace(_) => "stored",
-        Kernel::Masked { .. } => "stored through a mask",
+        Kernel::Bits { and, xor } if is_mask(and, xor) => "stored through a mask",
         Kernel::Bits { .. } => "a function of each code's bits",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",
@@ -75,4 +75,13 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Lanes(_) => "plain arithmetic on bytes",
         Kernel::Wide(_) => "plain arithmetic on codes",
     }
+}
+
+/// True if a function of bits replaces whole channels and keeps the others.
+fn is_mask(and: [u8; 4], xor: [u8; 4]) -> bool {
+    and.iter().zip(xor).all(|(and, xor)| match and {
+        0 => true,
+        0xff => xor == 0,
+        _ => false,
+    })
 }

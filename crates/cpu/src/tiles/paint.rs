@@ -45,9 +45,7 @@ pub(crate) enum Kernel {
     Keep,
     /// Replaces them.
     Store(Texel),
-    /// Replaces the channels whose bits are not kept.
-    Masked { value: Texel, keep: Texel },
-    /// Keeps some bits and inverts some.
+    /// Keeps some bits, replaces the others, and inverts some of those that it keeps.
     Bits { and: Texel, xor: Texel },
     /// A product and a sum in each channel.
     Linear(Box<Linear>),
@@ -186,11 +184,10 @@ impl Blending {
         }
         if replaces {
             let [value, ..] = self.applied(simd, &[[0; 4]; LANES]);
-            let keep = std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
-            return match keep {
-                [0, 0, 0, 0] => Kernel::Store(value),
-                keep => Kernel::Masked { value, keep },
-            };
+            let keep: Texel =
+                std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
+            let replaced = std::array::from_fn(|c| value[c] & !keep[c]);
+            return Kernel::of_bits(keep, replaced);
         }
         if quick || !self.is_separable() {
             return match self.weights() {
@@ -551,6 +548,14 @@ fn lanes(planes: &mut [u32], at: usize) -> &mut [u32; LANES] {
 }
 
 impl Kernel {
+    /// Returns the function that keeps the bits of the first, and then inverts those of the second.
+    fn of_bits(and: Texel, xor: Texel) -> Self {
+        match and {
+            [0, 0, 0, 0] => Self::Store(xor),
+            _ => Self::Bits { and, xor },
+        }
+    }
+
     /// Returns true if the function leaves every texel as it is.
     pub(crate) fn keeps(&self) -> bool {
         matches!(self, Self::Keep)
@@ -589,10 +594,6 @@ impl Kernel {
             | Self::Copy
             | Self::Varying(_) => {}
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
-            Self::Masked { value, keep } => {
-                let new = masked(texels, *value, *keep);
-                select_texels(texels, mask, &new);
-            }
             Self::Bits { and, xor } => {
                 let new = bits_of(texels, *and, *xor);
                 select_texels(texels, mask, &new);
@@ -665,11 +666,6 @@ impl Kernel {
             | Self::Wide(_)
             | Self::Copy
             | Self::Varying(_) => {}
-            Self::Masked { value, keep } => {
-                for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = masked(chunk, *value, *keep);
-                }
-            }
             Self::Bits { and, xor } => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
                     *chunk = bits_of(chunk, *and, *xor);
@@ -704,10 +700,7 @@ fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
         let mut codes = tables[c].iter().zip(0..=u8::MAX);
         codes.all(|(new, old)| *new == old & and[c] ^ xor[c])
     };
-    (0..4).all(equal).then_some(match and {
-        [0, 0, 0, 0] => Kernel::Store(xor),
-        _ => Kernel::Bits { and, xor },
-    })
+    (0..4).all(equal).then(|| Kernel::of_bits(and, xor))
 }
 
 /// Returns texels of which some bits are kept and some inverted.
@@ -715,11 +708,4 @@ fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
 fn bits_of(texels: &[Texel; LANES], and: Texel, xor: Texel) -> [Texel; LANES] {
     let [and, xor] = [and, xor].map(u32::from_ne_bytes);
     texels.map(|t| (u32::from_ne_bytes(t) & and ^ xor).to_ne_bytes())
-}
-
-/// Returns texels with a value in the bits that are not kept.
-#[inline(always)]
-fn masked(texels: &[Texel; LANES], value: Texel, keep: Texel) -> [Texel; LANES] {
-    let [value, keep] = [value, keep].map(u32::from_ne_bytes);
-    texels.map(|t| (u32::from_ne_bytes(t) & keep | value & !keep).to_ne_bytes())
 }
