@@ -3,8 +3,8 @@
 //! A term is what the pipeline's plain arithmetic does, with its constants computed once; planes are gone through
 //! channel by channel, each with the code of its encoding.
 
+use super::fragments::Fragments;
 use super::image::AREA;
-use super::lanes::{Lane, select};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
@@ -38,21 +38,14 @@ pub(crate) enum Join {
 }
 
 impl Affine {
-    /// Applies the function to lanes of a sample's planes, where a mask holds.
+    /// Applies the function to fragments of a sample's planes.
     #[inline(always)]
-    pub(crate) fn masked<S: Simd>(
-        &self,
-        simd: S,
-        planes: &mut [u32],
-        at: usize,
-        mask: &[Lane; LANES],
-    ) {
+    pub(crate) fn masked<S: Simd>(&self, simd: S, planes: &mut [u32], fragments: &Fragments) {
         for (channel, term) in self.terms.iter().enumerate() {
             if let Some(term) = term {
-                let (lanes, _) = planes[channel * AREA + at..][..LANES].as_chunks_mut();
-                let mut new = [lanes[0]];
-                term.apply(simd, &mut new);
-                select(&mut lanes[0], mask, &new[0]);
+                fragments.replace(simd, &mut planes[channel * AREA..], |new| {
+                    term.apply(simd, new)
+                });
             }
         }
     }

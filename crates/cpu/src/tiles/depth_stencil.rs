@@ -1,10 +1,11 @@
 //! Depth and stencil kernels.
 
 use super::image::AREA;
-use super::lanes::{Lane, where_};
+use super::lanes::{Mask, lanes, select_bytes};
 use crate::lanes::LANES;
 use etalon_pipeline::stencil_operation;
 use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
+use fearless_simd::Simd;
 
 /// The answer to a depth test that is the same all over a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,34 +40,19 @@ pub(crate) fn decided(
     }
 }
 
-/// Returns the lanes whose comparison holds.
+/// Returns whether a number passes that is less than the stored one, equal and greater.
 #[inline(always)]
-pub(crate) fn compared<T: Copy + PartialOrd>(
-    function: CompareFunction,
-    incoming: &[T; LANES],
-    stored: &[T; LANES],
-) -> [Lane; LANES] {
-    match function {
-        CompareFunction::Never => [0; LANES],
-        CompareFunction::Less => where_(incoming, stored, |a, b| a < b),
-        CompareFunction::Equal => where_(incoming, stored, |a, b| a == b),
-        CompareFunction::LessEqual => where_(incoming, stored, |a, b| a <= b),
-        CompareFunction::Greater => where_(incoming, stored, |a, b| a > b),
-        CompareFunction::NotEqual => where_(incoming, stored, |a, b| a != b),
-        CompareFunction::GreaterEqual => where_(incoming, stored, |a, b| a >= b),
-        CompareFunction::Always => [-1; LANES],
+pub(crate) fn passing(compare: CompareFunction) -> [bool; 3] {
+    match compare {
+        CompareFunction::Never => [false, false, false],
+        CompareFunction::Less => [true, false, false],
+        CompareFunction::Equal => [false, true, false],
+        CompareFunction::LessEqual => [true, true, false],
+        CompareFunction::Greater => [false, false, true],
+        CompareFunction::NotEqual => [true, false, true],
+        CompareFunction::GreaterEqual => [false, true, true],
+        CompareFunction::Always => [true, true, true],
     }
-}
-
-/// Returns the lanes that pass the stencil test.
-#[inline(always)]
-pub(crate) fn stencil_passes(face: &StencilFace, stored: &[u8; LANES]) -> [Lane; LANES] {
-    let seen = stored.map(|s| s & face.read_mask);
-    compared(
-        face.compare,
-        &[face.reference & face.read_mask; LANES],
-        &seen,
-    )
 }
 
 /// Returns the answer of a stencil test of stored values of a range, if it is one.
@@ -112,24 +98,57 @@ pub(crate) fn hull<T: Ord>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
     [a.min(c), b.max(d)]
 }
 
+/// Runs code once for an operation, with the function of a stored value that it is with a face's state. `Keep` runs
+/// nothing.
+macro_rules! with_operation {
+    ($face:expr, $operation:expr, |$new:ident| $run:expr) => {
+        with_operation!($face, $operation, |$new| $run;
+            Zero Replace Invert IncrementClamp DecrementClamp IncrementWrap DecrementWrap)
+    };
+    ($face:expr, $operation:expr, |$new:ident| $run:expr; $($name:ident)*) => {{
+        let (mask, reference) = ($face.write_mask, $face.reference);
+        match $operation {
+            StencilOperation::Keep => {}
+            $(StencilOperation::$name => {
+                let $new = |value: u8| {
+                    let new = stencil_operation(StencilOperation::$name, value, reference);
+                    value & !mask | new & mask
+                };
+                $run
+            })*
+        }
+    }};
+}
+
 /// Applies an operation to stored values.
 #[inline(always)]
 pub(crate) fn operate(face: &StencilFace, operation: StencilOperation, stored: &mut [u8]) {
-    let (mask, reference) = (face.write_mask, face.reference);
-    macro_rules! run {
-        ($($name:ident)*) => {
-            match operation {
-                StencilOperation::Keep => {}
-                $(StencilOperation::$name => {
-                    for value in stored {
-                        let new = stencil_operation(StencilOperation::$name, *value, reference);
-                        *value = *value & !mask | new & mask;
-                    }
-                })*
+    with_operation!(face, operation, |new| {
+        for value in stored {
+            *value = new(*value);
+        }
+    });
+}
+
+/// Applies an operation to the stored values of groups of a sample's plane, where their masks hold.
+#[inline(always)]
+pub(crate) fn operate_groups<S: Simd>(
+    simd: S,
+    face: &StencilFace,
+    operation: StencilOperation,
+    plane: &mut [u8],
+    groups: impl Iterator<Item = (usize, Mask)>,
+) {
+    with_operation!(face, operation, |new| {
+        for (place, mask) in groups {
+            let stored = lanes(plane, place);
+            let mut values = *stored;
+            for value in &mut values {
+                *value = new(*value);
             }
-        };
-    }
-    run!(Zero Replace Invert IncrementClamp DecrementClamp IncrementWrap DecrementWrap);
+            select_bytes(simd, stored, mask, &values);
+        }
+    });
 }
 
 /// A range of codes that holds whatever is stored.

@@ -1,8 +1,7 @@
 //! Edge functions, tile by tile and row by row.
 
-use super::lanes::{ALL, Lane, NUMBERS, any};
+use super::lanes::{Mask, NUMBERS};
 use super::triangle::{Triangle, clockwise};
-use crate::lanes::LANES;
 use crate::linear::UNITS;
 use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
@@ -146,36 +145,34 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Returns the rows behind so many others.
+    /// Returns the numbers at the row's first texels.
     #[inline(always)]
-    pub(crate) fn behind(&self, rows: i32) -> Self {
-        let ([a, b, c], [d, e, f]) = (self.at, self.down);
-        Self {
-            at: [a + d * rows, b + e * rows, c + f * rows],
-            ..*self
-        }
+    pub(crate) fn lanes<S: Simd>(&self, simd: S) -> Numbers<S> {
+        let numbers = i32x16::from_slice(simd, &NUMBERS);
+        // Operations in closures would not be inlined.
+        let ([a, b, c], [d, e, f]) = (self.at, self.across);
+        Numbers([numbers * d + a, numbers * e + b, numbers * f + c])
+    }
+}
+
+/// The numbers of [`Rows`] at neighbouring texels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Numbers<S: Simd>([i32x16<S>; 3]);
+
+impl<S: Simd> Numbers<S> {
+    /// Returns the covered lanes.
+    #[inline(always)]
+    pub(crate) fn covered(&self, simd: S) -> Mask {
+        let [a, b, c] = self.0;
+        let covered = (a | b | c).simd_ge(i32x16::splat(simd, 0));
+        covered.to_bitmask() as Mask
     }
 
-    /// Returns the covered lanes of those that stand so many texels behind the first; `None` if there are none.
+    /// Goes so many times on by a growth.
     #[inline(always)]
-    pub(crate) fn covered<S: Simd>(&self, simd: S, texels: i32) -> Option<[Lane; LANES]> {
-        // Each value by itself: in an array they would go through memory row by row.
-        let ([a, b, c], [d, e, f]) = (self.at, self.across);
-        let (a, b, c) = (a + d * texels, b + e * texels, c + f * texels);
-        let last = LANES as i32 - 1;
-        let (g, h, i) = (a + d * last, b + e * last, c + f * last);
-        if (a & g) | (b & h) | (c & i) < 0 {
-            return None;
+    pub(crate) fn grow(&mut self, growth: [i32; 3], times: i32) {
+        for (numbers, growth) in self.0.iter_mut().zip(growth) {
+            *numbers += growth * times;
         }
-        if (a | g) | (b | h) | (c | i) >= 0 {
-            return Some(ALL);
-        }
-        let numbers = i32x16::from_slice(simd, &NUMBERS);
-        let bits = (numbers * d + a) | (numbers * e + b) | (numbers * f + c);
-        let [zero, all] = [0, -1].map(|v| i32x16::splat(simd, v));
-        let mut result = [0; LANES];
-        let covered = bits.simd_ge(zero);
-        covered.select(all, zero).store_slice(&mut result);
-        any(&result).then_some(result)
     }
 }

@@ -11,6 +11,7 @@ mod affine;
 mod depth;
 mod depth_stencil;
 mod edges;
+mod fragments;
 mod image;
 mod lanes;
 mod linear;

@@ -2,6 +2,7 @@
 
 use super::TILE;
 use super::depth::Depths;
+use super::depth_stencil::passing;
 use super::edges::{Edges, Rows};
 use super::image::word;
 use super::lanes::NUMBERS;
@@ -9,7 +10,6 @@ use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, Shading};
 use super::triangle::Triangle;
 use crate::lanes::LANES;
-use etalon_scene::CompareFunction;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 
@@ -424,20 +424,5 @@ impl Opaque<'_> {
             }
             y += 1;
         }
-    }
-}
-
-/// Returns whether a code passes that is less than the stored one, equal and greater.
-#[inline(always)]
-fn passing(compare: CompareFunction) -> [bool; 3] {
-    match compare {
-        CompareFunction::Never => [false, false, false],
-        CompareFunction::Less => [true, false, false],
-        CompareFunction::Equal => [false, true, false],
-        CompareFunction::LessEqual => [true, true, false],
-        CompareFunction::Greater => [false, false, true],
-        CompareFunction::NotEqual => [true, false, true],
-        CompareFunction::GreaterEqual => [false, true, true],
-        CompareFunction::Always => [true, true, true],
     }
 }

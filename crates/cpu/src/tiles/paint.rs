@@ -6,8 +6,9 @@
 //! [affine](Affine) functions and [weights](Weights) say them without a choice per texel.
 
 use super::affine::{Affine, Join, Term};
+use super::fragments::Fragments;
 use super::image::{AREA, Texel, Words, are_bytes, channel, joined, word};
-use super::lanes::{ALL, Lane, select, select_texels};
+use super::lanes::{ALL, Mask, lanes, select};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
 use super::texels::Sources;
@@ -439,33 +440,37 @@ impl Blending {
         }
     }
 
-    /// Applies the function to the texels that a mask holds, at a place of a sample's planes, with sources of their own.
+    /// Applies the function to fragments of a sample's planes, with sources of their own.
     #[inline(never)]
     fn varied<S: Simd>(
         &self,
         simd: S,
         planes: &mut [u32],
-        at: usize,
-        mask: &[Lane; LANES],
+        fragments: &Fragments,
         sources: &Sources<'_>,
     ) {
         simd.vectorize(
             #[inline(always)]
-            || self.varied_of(planes, at, mask, sources),
+            || {
+                for (at, mask) in fragments.groups() {
+                    self.varied_of(simd, planes, at, mask, sources);
+                }
+            },
         );
     }
 
     #[inline(always)]
-    fn varied_of(
+    fn varied_of<S: Simd>(
         &self,
+        simd: S,
         planes: &mut [u32],
         at: usize,
-        mask: &[Lane; LANES],
+        mask: Mask,
         sources: &Sources<'_>,
     ) {
         let mut input = BlendInput {
-            src: sources.first(),
-            src1: sources.second(),
+            src: sources.first(at),
+            src1: sources.second(at),
             ..self.input()
         };
         if self.alpha_to_one {
@@ -476,11 +481,11 @@ impl Blending {
         }
         if !are_bytes(self.channels) {
             let new = self.codes_from(&self.words(planes, at), input);
-            return self.select_words(planes, at, mask, &new);
+            return self.select_words(simd, planes, at, mask, &new);
         }
         let word = lanes(planes, at);
         let old = std::array::from_fn(|c| channel(word, c));
-        select(word, mask, &joined(&self.codes_from(&old, input)));
+        select(simd, word, mask, &joined(&self.codes_from(&old, input)));
     }
 
     #[inline(always)]
@@ -513,14 +518,6 @@ impl Blending {
         bytemuck::cast(joined(&self.codes(simd, &old)))
     }
 
-    /// Applies the function to lanes of a sample's planes, where a mask holds.
-    #[inline(always)]
-    fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
-        let old = self.words(planes, at);
-        let new = self.codes(simd, &old);
-        self.select_words(planes, at, mask, &new);
-    }
-
     /// Returns the codes of texels that have several words.
     #[inline(always)]
     fn words(&self, planes: &mut [u32], at: usize) -> [Codes; 4] {
@@ -533,18 +530,18 @@ impl Blending {
 
     /// Replaces the codes of texels that have several words, where a mask holds.
     #[inline(always)]
-    fn select_words(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES], new: &[Codes; 4]) {
+    fn select_words<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: Mask,
+        new: &[Codes; 4],
+    ) {
         for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
-            select(lanes(planes, c * AREA + at), mask, codes);
+            select(simd, lanes(planes, c * AREA + at), mask, codes);
         }
     }
-}
-
-/// Returns the lanes at a place of planes.
-#[inline(always)]
-fn lanes(planes: &mut [u32], at: usize) -> &mut [u32; LANES] {
-    let (lanes, _) = planes[at..at + LANES].as_chunks_mut();
-    &mut lanes[0]
 }
 
 impl Kernel {
@@ -561,69 +558,82 @@ impl Kernel {
         matches!(self, Self::Keep)
     }
 
-    /// Applies the function to the texels that a mask holds, at a place of a sample's planes.
+    /// Applies the function to fragments of a sample's planes.
     #[inline(always)]
     pub(crate) fn masked<S: Simd>(
         &self,
         simd: S,
         planes: &mut [u32],
-        at: usize,
-        mask: &[Lane; LANES],
+        fragments: &Fragments,
         sources: &Sources<'_>,
     ) {
+        let texels = bytemuck::cast_slice_mut::<_, Texel>;
         match self {
-            Self::Copy => return select(lanes(planes, at), mask, &sources.words()),
-            Self::Varying(blending) => return blending.varied(simd, planes, at, mask, sources),
-            Self::Replace(stored) => {
-                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
-                    let plane = lanes(planes, word * AREA + at);
-                    select(plane, mask, &[stored.values[word]; LANES]);
+            Self::Keep => {}
+            Self::Store(value) => {
+                for (at, mask) in fragments.groups() {
+                    select(simd, lanes(planes, at), mask, &[word(*value); LANES]);
                 }
-                return;
             }
-            Self::Affine(affine) => return affine.masked(simd, planes, at, mask),
-            Self::Wide(blending) => return blending.wide(simd, planes, at, mask),
-            _ => {}
-        }
-        let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
-        match self {
-            Self::Keep
-            | Self::Replace(_)
-            | Self::Affine(_)
-            | Self::Wide(_)
-            | Self::Copy
-            | Self::Varying(_) => {}
-            Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
             Self::Bits { and, xor } => {
-                let new = bits_of(texels, *and, *xor);
-                select_texels(texels, mask, &new);
+                for (at, mask) in fragments.groups() {
+                    let stored = lanes(planes, at);
+                    select(simd, stored, mask, &bits_of(stored, *and, *xor));
+                }
             }
             Self::Linear(linear) => {
-                let mut new = *texels;
-                linear.apply(&mut new);
-                select_texels(texels, mask, &new);
+                fragments.replace(simd, planes, |new| {
+                    linear.apply(texels(new.as_flattened_mut()))
+                });
             }
             Self::Table(table) => {
-                for (texel, covered) in texels.iter_mut().zip(mask) {
-                    if *covered != 0 {
-                        *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
+                for (at, mask) in fragments.groups() {
+                    let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
+                    for (lane, texel) in texels.iter_mut().enumerate() {
+                        if mask & (1 << lane) != 0 {
+                            *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
+                        }
                     }
                 }
             }
             Self::Weighted(weights) => {
-                let mut new = [*texels];
-                weights.apply(simd, &mut new);
-                select_texels(texels, mask, &new[0]);
+                fragments.replace(simd, planes, |new| {
+                    weights.apply(simd, bytemuck::cast_slice_mut(new))
+                });
             }
             Self::Lanes(blending) => {
-                let new = blending.applied(simd, texels);
-                select_texels(texels, mask, &new);
+                for (at, mask) in fragments.groups() {
+                    let stored = lanes(planes, at);
+                    let new = blending.applied(simd, bytemuck::cast_ref(stored));
+                    select(simd, stored, mask, &bytemuck::cast(new));
+                }
             }
+            Self::Replace(stored) => {
+                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
+                    let plane = &mut planes[word * AREA..];
+                    for (at, mask) in fragments.groups() {
+                        select(simd, lanes(plane, at), mask, &[stored.values[word]; LANES]);
+                    }
+                }
+            }
+            Self::Affine(affine) => affine.masked(simd, planes, fragments),
+            Self::Wide(blending) => {
+                for (at, mask) in fragments.groups() {
+                    let new = blending.codes(simd, &blending.words(planes, at));
+                    blending.select_words(simd, planes, at, mask, &new);
+                }
+            }
+            Self::Copy => {
+                for (at, mask) in fragments.groups() {
+                    select(simd, lanes(planes, at), mask, &sources.words(at));
+                }
+            }
+            Self::Varying(blending) => blending.varied(simd, planes, fragments, sources),
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`]. Fetched
-    /// texels are 0.
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`], unless it
+    /// is one of fetched texels: those are drawn as fragments.
     #[inline(never)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         simd.vectorize(
@@ -643,34 +653,32 @@ impl Kernel {
                 return;
             }
             Self::Affine(affine) => return affine.whole(simd, planes, count),
-            Self::Copy | Self::Varying(_) => {
-                for at in (0..count).step_by(LANES) {
-                    self.masked(simd, planes, at, &ALL, &Sources::NONE);
-                }
-                return;
-            }
             Self::Wide(blending) => {
                 for at in (0..count).step_by(LANES) {
-                    blending.wide(simd, planes, at, &ALL);
+                    let new = blending.codes(simd, &blending.words(planes, at));
+                    blending.select_words(simd, planes, at, ALL, &new);
                 }
                 return;
             }
             _ => {}
         }
-        let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
+        let words = &mut planes[..count];
+        if let Self::Bits { and, xor } = self {
+            for chunk in words.as_chunks_mut::<LANES>().0 {
+                *chunk = bits_of(chunk, *and, *xor);
+            }
+            return;
+        }
+        let texels: &mut [Texel] = bytemuck::cast_slice_mut(words);
         match self {
             Self::Keep
+            | Self::Bits { .. }
             | Self::Store(_)
             | Self::Replace(_)
             | Self::Affine(_)
             | Self::Wide(_)
             | Self::Copy
             | Self::Varying(_) => {}
-            Self::Bits { and, xor } => {
-                for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = bits_of(chunk, *and, *xor);
-                }
-            }
             Self::Linear(linear) => linear.apply(texels),
             Self::Table(table) => {
                 for texel in texels {
@@ -705,7 +713,7 @@ fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
 
 /// Returns texels of which some bits are kept and some inverted.
 #[inline(always)]
-fn bits_of(texels: &[Texel; LANES], and: Texel, xor: Texel) -> [Texel; LANES] {
-    let [and, xor] = [and, xor].map(u32::from_ne_bytes);
-    texels.map(|t| (u32::from_ne_bytes(t) & and ^ xor).to_ne_bytes())
+fn bits_of(words: &Codes, and: Texel, xor: Texel) -> Codes {
+    let [and, xor] = [and, xor].map(word);
+    words.map(|w| w & and ^ xor)
 }

@@ -14,46 +14,38 @@ const UNORM: [ChannelEncoding; 4] = [ChannelEncoding::Unorm(8); 4];
 pub(crate) struct Sources<'a> {
     texels: Option<&'a Texels<'a>>,
     tile: usize,
-    at: usize,
 }
 
 impl<'a> Sources<'a> {
-    /// The sources of a shader that fetches nothing: zeros.
-    pub(crate) const NONE: Self = Self {
-        texels: None,
-        tile: 0,
-        at: 0,
-    };
-
-    /// Returns those at a place of a tile's plane, of the textures that there are.
+    /// Returns those of a tile, of the textures that there are.
     #[inline(always)]
-    pub(crate) fn new(texels: Option<&'a Texels<'a>>, tile: usize, at: usize) -> Self {
-        Self { texels, tile, at }
+    pub(crate) fn new(texels: Option<&'a Texels<'a>>, tile: usize) -> Self {
+        Self { texels, tile }
     }
 
-    /// Returns the words of the first texture's texels, if they have one.
+    /// Returns the words of the first texture's texels at a place of the tile's plane, if they have one.
     #[inline(always)]
-    pub(crate) fn words(&self) -> Codes {
+    pub(crate) fn words(&self, at: usize) -> Codes {
         match self.texels {
-            Some(texels) => texels.first.plane(self.tile, self.at, 0),
+            Some(texels) => texels.first.plane(self.tile, at, 0),
             None => [0; LANES],
         }
     }
 
-    /// Returns the values of the first texture's texels.
+    /// Returns the values of the first texture's texels at a place of the tile's plane.
     #[inline(always)]
-    pub(crate) fn first(&self) -> [Real; 4] {
+    pub(crate) fn first(&self, at: usize) -> [Real; 4] {
         match self.texels {
-            Some(texels) => texels.first.values(self.tile, self.at),
+            Some(texels) => texels.first.values(self.tile, at),
             None => [[0.0; LANES]; 4],
         }
     }
 
-    /// Returns the values of the second texture's texels, zeros if there is none.
+    /// The same of the second texture, zeros if there is none.
     #[inline(always)]
-    pub(crate) fn second(&self) -> [Real; 4] {
+    pub(crate) fn second(&self, at: usize) -> [Real; 4] {
         match self.texels.and_then(|t| t.second.as_ref()) {
-            Some(texture) => texture.values(self.tile, self.at),
+            Some(texture) => texture.values(self.tile, at),
             None => [[0.0; LANES]; 4],
         }
     }

@@ -3,12 +3,13 @@
 use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{
-    ANY, ANY_STENCIL, Decided, compared, decided, hull, keeps, operate, operated, stencil_decided,
-    stencil_passes,
+    ANY, ANY_STENCIL, Decided, decided, hull, keeps, operate, operate_groups, operated,
+    stencil_decided,
 };
 use super::edges::Edges;
+use super::fragments::{Fragments, MOST};
 use super::image::AREA;
-use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
+use super::lanes::{ALL, Mask, columns, lanes, select};
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
@@ -18,7 +19,7 @@ use super::texels::Sources;
 use super::texture::Coordinates;
 use super::triangle::{Shape, Triangle};
 use super::work::Work;
-use crate::lanes::{Codes, LANES};
+use crate::lanes::LANES;
 use etalon_pipeline::shader::cost;
 use etalon_scene::{StencilFace, StencilOperation};
 use fearless_simd::Simd;
@@ -66,13 +67,6 @@ impl<T: Copy> Layer<'_, T> {
     fn sample(&mut self, sample: usize) -> &mut [T] {
         let one = self.words * AREA;
         &mut self.planes[sample * one..(sample + 1) * one]
-    }
-
-    /// Returns the lanes that start at a place, of one plane for each sample.
-    #[inline(always)]
-    fn lanes(&mut self, at: usize) -> &mut [T; LANES] {
-        let (lanes, _) = self.planes[at..at + LANES].as_chunks_mut();
-        &mut lanes[0]
     }
 }
 
@@ -173,6 +167,7 @@ pub(crate) fn draw<S: Simd>(
         stencils: (tile.stencil.clear).map_or(ANY_STENCIL, |[value, ..]| [value; 2]),
         tile,
     };
+    let mut fragments = Fragments::new();
     for part in parts {
         let mut last: Option<Store> = None;
         let mut entries = part.bins[index].as_slice();
@@ -182,7 +177,7 @@ pub(crate) fn draw<S: Simd>(
             let whole = entry.is_whole();
             // The planes are ready for another triangle of the same draw and paint.
             if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
-                last = drawing.triangle(simd, triangle, input, part, whole);
+                last = drawing.triangle(simd, triangle, input, part, whole, &mut fragments);
             }
             entries = match &last {
                 Some(store) if triangle.shape == Shape::Small => {
@@ -210,6 +205,7 @@ impl Drawing<'_, '_> {
         input: &Input<'_>,
         part: &Part,
         whole: bool,
+        fragments: &mut Fragments,
     ) -> Option<Store> {
         let paint = &part.paints[triangle.paint as usize];
         let plan = input.plan;
@@ -270,7 +266,7 @@ impl Drawing<'_, '_> {
             }),
             texels: input.texels,
         };
-        self.samples(simd, &work, whole, outcome);
+        self.samples(simd, &work, whole, outcome, fragments);
         let all = all && work.is_constant();
         if !fails {
             self.widen(triangle, plan, all && outcome == Some(Outcome::Passes));
@@ -351,6 +347,7 @@ impl Drawing<'_, '_> {
         work: &Work<'_>,
         whole: bool,
         outcome: Option<Outcome>,
+        fragments: &mut Fragments,
     ) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
@@ -365,7 +362,7 @@ impl Drawing<'_, '_> {
             }
             match decided {
                 Some(outcome) => self.decided(simd, work, sample, outcome),
-                None => self.scan(simd, work, sample, whole),
+                None => self.scan(simd, work, sample, whole, fragments),
             }
         }
     }
@@ -482,131 +479,168 @@ impl Drawing<'_, '_> {
         others
     }
 
-    /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
+    /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile. A function of
+    /// its own: it is large.
+    #[inline(never)]
+    fn scan<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        sample: usize,
+        whole: bool,
+        fragments: &mut Fragments,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.scan_of(simd, work, sample, whole, fragments),
+        );
+    }
+
     #[inline(always)]
-    fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
+    fn scan_of<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        sample: usize,
+        whole: bool,
+        fragments: &mut Fragments,
+    ) {
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
         let around = match whole {
             true => [left, top, right - 1, bottom - 1],
             false => triangle.around.map(i32::from),
         };
-        let lanes = LANES as i32;
-        let first = around[0].max(left) / lanes * lanes;
+        let wide = LANES as i32;
+        let first = around[0].max(left) / wide * wide;
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
         let edges = Edges::new(triangle);
-        let rows = edges.rows(first, y_first, self.pass.positions[sample]);
+        let sample_at = self.pass.positions[sample];
+        let rows = match triangle.is_near() {
+            true => edges.near(first, y_first, sample_at),
+            false => edges.rows(first, y_first, sample_at),
+        };
+        let mut row = rows.lanes(simd);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;
         for y in y_first..=y_last {
-            let row = rows.behind(y - y_first);
-            for chunk in 0..=(last - first) / lanes {
-                let x = first + chunk * lanes;
-                let covered = if whole {
-                    Some(ALL)
-                } else {
-                    row.covered(simd, x - first)
-                };
-                let Some(mut mask) = covered else {
-                    continue;
-                };
-                if cut {
-                    if y < rect[1] || y >= rect[3] {
-                        continue;
-                    }
-                    for (lane, covered) in mask.iter_mut().enumerate() {
-                        let x = x + lane as i32;
-                        *covered &= -Lane::from(x >= rect[0] && x < rect[2]);
-                    }
-                }
-                self.fragments(simd, work, sample, [x, y], mask);
+            let mut here = row;
+            row.grow(rows.down, 1);
+            if cut && (y < rect[1] || y >= rect[3]) {
+                continue;
             }
+            for chunk in 0..=(last - first) / wide {
+                let x = first + chunk * wide;
+                let mut mask = if whole { ALL } else { here.covered(simd) };
+                here.grow(rows.across, wide);
+                if cut {
+                    mask &= columns(x, [rect[0], rect[2]]);
+                }
+                let place = (y - top) as usize * TILE + (x - left) as usize;
+                if fragments.push(place, mask) {
+                    self.fragments(simd, work, sample, fragments);
+                    fragments.clear();
+                }
+            }
+        }
+        if !fragments.is_empty() {
+            self.fragments(simd, work, sample, fragments);
+            fragments.clear();
         }
     }
 
-    /// Tests, blends and stores the fragments of one sample of neighbouring texels.
-    #[inline(always)]
+    /// Tests, blends and stores fragments of one sample. A function of its own: it is large.
+    #[inline(never)]
     fn fragments<S: Simd>(
         &mut self,
         simd: S,
         work: &Work<'_>,
         sample: usize,
-        at: [i32; 2],
-        mut mask: [Lane; LANES],
+        fragments: &mut Fragments,
     ) {
-        let [x, y] = at;
+        simd.vectorize(
+            #[inline(always)]
+            || self.fragments_of(simd, work, sample, fragments),
+        );
+    }
+
+    #[inline(always)]
+    fn fragments_of<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        sample: usize,
+        fragments: &mut Fragments,
+    ) {
         let [left, top, ..] = self.texels;
-        let place = sample * AREA + (y - top) as usize * TILE + (x - left) as usize;
-        let mut texels: Codes = [0; LANES];
-        if let (
-            Some((texture, coordinates)),
-            Shading::Texture {
-                address, discarded, ..
-            },
-        ) = (&work.texture, &work.plan.shading)
-        {
-            texels = texture.nearest(*address, coordinates.at(x, y));
-            for (lane, texel) in mask.iter_mut().zip(texels) {
-                let [.., alpha] = texel.to_ne_bytes();
-                let bit = discarded[usize::from(alpha >> 5)] >> (alpha & 31) & 1;
-                *lane &= bit as Lane - 1;
-            }
-        }
-        let mut passed = mask;
-        if let Some(face) = work.face {
-            passed = and(
-                &passed,
-                &stencil_passes(face, self.tile.stencil.lanes(place)),
-            );
-        }
-        let tested = passed;
-        if let Some(state) = &work.plan.depth {
-            let codes: Codes = match &work.depths {
-                None => [work.triangle.code; LANES],
-                Some(depths) => depths.codes(x, y, self.pass.positions[sample]),
-            };
-            let stored = self.tile.depth.lanes(place);
-            passed = and(&passed, &compared(state.compare, &codes, stored));
-            if state.write {
-                select(stored, &passed, &codes);
-            }
-        }
-        if let Some(face) = work.face {
-            let stored = self.tile.stencil.lanes(place);
-            let old = *stored;
-            let mut update = |operation: StencilOperation, mask: &[Lane; LANES]| {
-                if operation != StencilOperation::Keep {
-                    let mut new = old;
-                    operate(face, operation, &mut new);
-                    select_bytes(stored, mask, &new);
+        let at = |place: usize| [left + (place % TILE) as i32, top + (place / TILE) as i32];
+        let fetched = match (&work.texture, &work.plan.shading) {
+            (
+                Some((texture, coordinates)),
+                Shading::Texture {
+                    address, discarded, ..
+                },
+            ) => {
+                let mut fetched = [[0; LANES]; MOST];
+                for ((place, mask), texels) in fragments.groups_mut().zip(&mut fetched) {
+                    let [x, y] = at(place);
+                    *texels = texture.nearest(*address, coordinates.at(x, y));
+                    for (lane, texel) in texels.iter().enumerate() {
+                        let [.., alpha] = texel.to_ne_bytes();
+                        let discard = discarded[usize::from(alpha >> 5)] >> (alpha & 31) & 1;
+                        *mask &= !((discard as Mask) << lane);
+                    }
                 }
-            };
-            update(face.fail_op, &and_not(&mask, &tested));
-            update(face.depth_fail_op, &and_not(&tested, &passed));
-            update(face.pass_op, &passed);
+                Some(fetched)
+            }
+            _ => None,
+        };
+        let mut failed = fragments.masks();
+        if let Some(face) = work.face {
+            fragments.test_stencil(simd, face, self.tile.stencil.sample(sample));
+            failed = fragments.lost(failed);
         }
-        if let Shading::Expensive(steps) = work.plan.shading
-            && any(&passed)
-        {
-            work_off(steps, at);
+        let tested = fragments.masks();
+        if let Some(state) = &work.plan.depth {
+            let position = self.pass.positions[sample];
+            let plane = self.tile.depth.sample(sample);
+            match &work.depths {
+                None => fragments.test_depth(simd, state, plane, |_| [work.triangle.code; LANES]),
+                Some(depths) => fragments.test_depth(simd, state, plane, |place| {
+                    let [x, y] = at(place);
+                    depths.codes(x, y, position)
+                }),
+            }
         }
-        if work.texture.is_some() {
-            select(self.tile.color.lanes(place), &passed, &texels);
+        if let Some(face) = work.face {
+            let behind = fragments.lost(tested);
+            for (operation, masks) in [
+                (face.fail_op, failed),
+                (face.depth_fail_op, behind),
+                (face.pass_op, fragments.masks()),
+            ] {
+                let plane = self.tile.stencil.sample(sample);
+                operate_groups(simd, face, operation, plane, fragments.with(&masks));
+            }
+        }
+        if let Shading::Expensive(steps) = work.plan.shading {
+            for (place, mask) in fragments.groups() {
+                if mask != 0 {
+                    work_off(steps, at(place));
+                }
+            }
+        }
+        if let Some(fetched) = &fetched {
+            let plane = self.tile.color.sample(sample);
+            for ((place, mask), texels) in fragments.groups().zip(fetched) {
+                select(simd, lanes(plane, place), mask, texels);
+            }
             return;
         }
-        let at = place % AREA;
-        let sources = Sources::new(work.texels.as_ref(), self.index, at);
-        if !work.paint.kernel.keeps() {
-            let colors = self.tile.color.sample(sample);
-            work.paint
-                .kernel
-                .masked(simd, colors, at, &passed, &sources);
-        }
-        for (layer, kernel) in self.tile.others.iter_mut().zip(&work.paint.others) {
-            if !kernel.keeps() {
-                kernel.masked(simd, layer.sample(sample), at, &passed, &sources);
-            }
+        let sources = Sources::new(work.texels.as_ref(), self.index);
+        for (layer, kernel) in self.tile.drawn(work.paint) {
+            kernel.masked(simd, layer.sample(sample), fragments, &sources);
         }
     }
 

@@ -1,0 +1,161 @@
+//! Fragments of one sample of a tile, in groups of neighbouring texels.
+//!
+//! Groups are collected and then taken through the tests and the blend step by step, so that a draw's state is matched
+//! once for all of them.
+
+use super::depth_stencil::passing;
+use super::lanes::{Mask, lanes, select};
+use crate::lanes::{Codes, LANES};
+use etalon_scene::{CompareFunction, DepthState, StencilFace};
+use fearless_simd::prelude::*;
+use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
+
+/// The most groups that are collected.
+pub(crate) const MOST: usize = 32;
+
+/// A mask for each group.
+type Masks = [Mask; MOST];
+
+/// Groups of fragments: their places in a sample's plane and the lanes that are drawn.
+#[derive(Debug)]
+pub(crate) struct Fragments {
+    masks: Masks,
+    places: [u16; MOST],
+    count: usize,
+}
+
+impl Fragments {
+    /// Returns no groups.
+    pub(crate) fn new() -> Self {
+        Self {
+            masks: [0; MOST],
+            places: [0; MOST],
+            count: 0,
+        }
+    }
+
+    /// Adds a group if it has lanes. Returns true if there is no room for another.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, place: usize, mask: Mask) -> bool {
+        self.places[self.count] = place as u16;
+        self.masks[self.count] = mask;
+        // Without a branch: which groups are empty is not foreseen.
+        self.count += usize::from(mask != 0);
+        self.count == MOST
+    }
+
+    /// Removes all groups.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// True if there are none.
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Returns the groups' places with their masks.
+    #[inline(always)]
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, Mask)> {
+        self.with(&self.masks)
+    }
+
+    /// Returns the groups' places with other masks.
+    #[inline(always)]
+    pub(crate) fn with(&self, masks: &Masks) -> impl Iterator<Item = (usize, Mask)> {
+        let places = self.places[..self.count].iter().map(|p| usize::from(*p));
+        places.zip(masks.iter().copied())
+    }
+
+    /// The groups, with masks that may be changed.
+    #[inline(always)]
+    pub(crate) fn groups_mut(&mut self) -> impl Iterator<Item = (usize, &mut Mask)> {
+        let places = self.places[..self.count].iter().map(|p| usize::from(*p));
+        places.zip(&mut self.masks)
+    }
+
+    /// Returns the masks of all groups.
+    #[inline(always)]
+    pub(crate) fn masks(&self) -> Masks {
+        self.masks
+    }
+
+    /// Returns the lanes of former masks that are not drawn any more.
+    #[inline(always)]
+    pub(crate) fn lost(&self, mut masks: Masks) -> Masks {
+        for (lost, mask) in masks.iter_mut().zip(&self.masks) {
+            *lost &= !mask;
+        }
+        masks
+    }
+
+    /// Keeps the lanes that pass the stencil test of a face, against a sample's plane.
+    #[inline(always)]
+    pub(crate) fn test_stencil<S: Simd>(&mut self, simd: S, face: &StencilFace, plane: &mut [u8]) {
+        let answers = answers(face.compare).map(|answer| mask8x16::splat(simd, answer));
+        let [less, equal, greater] = answers;
+        let seen = u8x16::splat(simd, face.read_mask);
+        let reference = u8x16::splat(simd, face.reference & face.read_mask);
+        for (place, mask) in self.groups_mut() {
+            let stored = u8x16::from_slice(simd, lanes(plane, place)) & seen;
+            let below = reference.simd_lt(stored) & less;
+            let same = reference.simd_eq(stored) & equal;
+            *mask &= (greater ^ below ^ same).to_bitmask() as Mask;
+        }
+    }
+
+    /// Keeps the lanes whose codes pass the depth test against a sample's plane, and writes them if they are to be.
+    /// Codes are given by the group's place.
+    #[inline(always)]
+    pub(crate) fn test_depth<S: Simd>(
+        &mut self,
+        simd: S,
+        state: &DepthState,
+        plane: &mut [u32],
+        codes: impl Fn(usize) -> Codes,
+    ) {
+        let answers = answers(state.compare).map(|answer| mask32x16::splat(simd, answer));
+        let [less, equal, greater] = answers;
+        for (place, mask) in self.groups_mut() {
+            let stored = lanes(plane, place);
+            let old = u32x16::from_slice(simd, stored);
+            let codes = u32x16::from_slice(simd, &codes(place));
+            let below = codes.simd_lt(old) & less;
+            let same = codes.simd_eq(old) & equal;
+            let covered = mask32x16::from_bitmask(simd, u64::from(*mask));
+            let passed = covered & (greater ^ below ^ same);
+            *mask = passed.to_bitmask() as Mask;
+            if state.write {
+                passed.select(codes, old).store_slice(stored);
+            }
+        }
+    }
+
+    /// Replaces the words of a plane by those that a function makes of all groups.
+    #[inline(always)]
+    pub(crate) fn replace<S: Simd>(
+        &self,
+        simd: S,
+        plane: &mut [u32],
+        function: impl FnOnce(&mut [Codes]),
+    ) {
+        let mut new = [[0; LANES]; MOST];
+        for (new, (place, _)) in new.iter_mut().zip(self.groups()) {
+            *new = *lanes(plane, place);
+        }
+        function(&mut new[..self.count]);
+        for (new, (place, mask)) in new.iter().zip(self.groups()) {
+            select(simd, lanes(plane, place), mask, new);
+        }
+    }
+}
+
+/// Returns what gives the answer of a comparison from less and equal, which exclude one another: whether they differ
+/// from greater, and the answer to that.
+#[inline(always)]
+fn answers(compare: CompareFunction) -> [bool; 3] {
+    let [less, equal, greater] = passing(compare);
+    [less ^ greater, equal ^ greater, greater]
+}
