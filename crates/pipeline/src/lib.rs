@@ -17,6 +17,7 @@ mod logic;
 mod plain;
 mod sampling;
 pub mod shader;
+mod srgb;
 mod stencil;
 mod viewport;
 

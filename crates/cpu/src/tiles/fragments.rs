@@ -56,6 +56,12 @@ impl Fragments {
         self.count == 0
     }
 
+    /// Returns the places of groups and the masks.
+    #[inline(always)]
+    pub(crate) fn parts(&self) -> (&[u16], &[Mask]) {
+        (&self.places[..self.count], &self.masks[..self.count])
+    }
+
     /// Returns the groups' places with their masks.
     #[inline(always)]
     pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, Mask)> {

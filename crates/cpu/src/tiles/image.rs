@@ -1,7 +1,6 @@
 //! Attachments in memory, tile by tile.
 
 use super::TILE;
-use crate::lanes::{Codes, LANES};
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -83,7 +82,7 @@ pub(crate) fn word(texel: Texel) -> u32 {
 
 /// Returns the codes of one channel of words that hold the bytes of all.
 #[inline(always)]
-pub(crate) fn channel(words: &Codes, channel: usize) -> Codes {
+pub(crate) fn channel<const N: usize>(words: &[u32; N], channel: usize) -> [u32; N] {
     let mut codes = *words;
     for code in &mut codes {
         *code = u32::from_le(*code) >> (8 * channel) & 0xff;
@@ -93,8 +92,8 @@ pub(crate) fn channel(words: &Codes, channel: usize) -> Codes {
 
 /// Returns the words that hold the bytes of all channels.
 #[inline(always)]
-pub(crate) fn joined(codes: &[Codes; 4]) -> Codes {
-    let mut words = [0; LANES];
+pub(crate) fn joined<const N: usize>(codes: &[[u32; N]; 4]) -> [u32; N] {
+    let mut words = [0; N];
     for (lane, word) in words.iter_mut().enumerate() {
         let bytes =
             codes[0][lane] | codes[1][lane] << 8 | codes[2][lane] << 16 | codes[3][lane] << 24;

@@ -26,6 +26,7 @@ mod texels;
 mod texture;
 mod tile;
 mod triangle;
+mod varying;
 mod weights;
 mod work;
 

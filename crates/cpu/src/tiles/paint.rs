@@ -12,6 +12,7 @@ use super::lanes::{ALL, Mask, lanes, select};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
 use super::texels::Sources;
+use super::varying::Varying;
 use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
@@ -65,7 +66,7 @@ pub(crate) enum Kernel {
     /// Replaces them by the words of fetched texels.
     Copy,
     /// Any function of them and of fetched texels.
-    Varying(Box<Blending>),
+    Varying(Box<Varying>),
 }
 
 /// The words that replace a texel's.
@@ -231,7 +232,13 @@ impl Blending {
         let same = fetched == UNORM.0 && *self.channels == UNORM.0;
         match replaces && all && same && !self.alpha_to_one {
             true => Kernel::Copy,
-            false => Kernel::Varying(Box::new(self)),
+            false => Kernel::Varying(Box::new(Varying {
+                target: self.target,
+                constant: self.constant,
+                logic: self.logic.filter(|_| self.obeys),
+                opaque: [self.alpha_to_one, self.second_alpha],
+                channels: self.channels,
+            })),
         }
     }
 
@@ -440,54 +447,6 @@ impl Blending {
         }
     }
 
-    /// Applies the function to fragments of a sample's planes, with sources of their own.
-    #[inline(never)]
-    fn varied<S: Simd>(
-        &self,
-        simd: S,
-        planes: &mut [u32],
-        fragments: &Fragments,
-        sources: &Sources<'_>,
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                for (at, mask) in fragments.groups() {
-                    self.varied_of(simd, planes, at, mask, sources);
-                }
-            },
-        );
-    }
-
-    #[inline(always)]
-    fn varied_of<S: Simd>(
-        &self,
-        simd: S,
-        planes: &mut [u32],
-        at: usize,
-        mask: Mask,
-        sources: &Sources<'_>,
-    ) {
-        let mut input = BlendInput {
-            src: sources.first(at),
-            src1: sources.second(at),
-            ..self.input()
-        };
-        if self.alpha_to_one {
-            input.src[3] = [1.0; LANES];
-        }
-        if self.second_alpha {
-            input.src1[3] = [1.0; LANES];
-        }
-        if !are_bytes(self.channels) {
-            let new = self.codes_from(&self.words(planes, at), input);
-            return self.select_words(simd, planes, at, mask, &new);
-        }
-        let word = lanes(planes, at);
-        let old = std::array::from_fn(|c| channel(word, c));
-        select(simd, word, mask, &joined(&self.codes_from(&old, input)));
-    }
-
     #[inline(always)]
     fn codes_of(
         &self,
@@ -628,7 +587,7 @@ impl Kernel {
                     select(simd, lanes(planes, at), mask, &sources.words(at));
                 }
             }
-            Self::Varying(blending) => blending.varied(simd, planes, fragments, sources),
+            Self::Varying(varying) => varying.apply(simd, planes, fragments, sources),
         }
     }
 

@@ -2,12 +2,9 @@
 
 use super::image::{AREA, Image, are_bytes, channel};
 use super::plan::Fetched;
-use crate::lanes::{Codes, LANES, Real};
+use super::varying::{CodePlane, Plane, decode};
+use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::{Arithmetic, Plain};
-
-/// The commonest channels.
-const UNORM: [ChannelEncoding; 4] = [ChannelEncoding::Unorm(8); 4];
 
 /// Where a shader fetches its sources.
 #[derive(Clone, Copy, Debug)]
@@ -32,21 +29,29 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// Returns the values of the first texture's texels at a place of the tile's plane.
+    /// Returns whether values of the first and of the second texture may lie below 0 or above 1.
     #[inline(always)]
-    pub(crate) fn first(&self, at: usize) -> [Real; 4] {
-        match self.texels {
-            Some(texels) => texels.first.values(self.tile, at),
-            None => [[0.0; LANES]; 4],
+    pub(crate) fn exceed_unit(&self) -> [bool; 2] {
+        let texels = self.texels;
+        [
+            texels.is_some_and(|t| t.first.exceeds_unit()),
+            texels.is_some_and(|t| t.second.as_ref().is_some_and(Texture::exceeds_unit)),
+        ]
+    }
+
+    /// Gives the values of the first texture's texels at places of the tile's plane, channel by channel.
+    #[inline(always)]
+    pub(crate) fn first(&self, places: &[u16], values: &mut [Plane; 4]) {
+        if let Some(texels) = self.texels {
+            texels.first.values(self.tile, places, values);
         }
     }
 
-    /// The same of the second texture, zeros if there is none.
+    /// The same of the second texture, if there is one.
     #[inline(always)]
-    pub(crate) fn second(&self, at: usize) -> [Real; 4] {
-        match self.texels.and_then(|t| t.second.as_ref()) {
-            Some(texture) => texture.values(self.tile, at),
-            None => [[0.0; LANES]; 4],
+    pub(crate) fn second(&self, places: &[u16], values: &mut [Plane; 4]) {
+        if let Some(texture) = self.texels.and_then(|t| t.second.as_ref()) {
+            texture.values(self.tile, places, values);
         }
     }
 }
@@ -79,6 +84,13 @@ impl<'a> Texels<'a> {
 }
 
 impl Texture<'_> {
+    /// True if values may lie below 0 or above 1.
+    #[inline(always)]
+    fn exceeds_unit(&self) -> bool {
+        use ChannelEncoding::{Srgb8, Unorm};
+        !self.channels.iter().all(|e| matches!(e, Unorm(_) | Srgb8))
+    }
+
     /// Returns a word of texels at a place of a tile's plane.
     #[inline(always)]
     fn plane(&self, tile: usize, at: usize, word: usize) -> Codes {
@@ -90,26 +102,26 @@ impl Texture<'_> {
         lanes[0]
     }
 
-    /// Returns the values of texels at a place of a tile's plane; an alpha that the format lacks is 1.
+    /// Gives the values of texels at places of a tile's plane; those of channels that the format lacks are 0, and 1 of
+    /// alpha.
     #[inline(always)]
-    fn values(&self, tile: usize, at: usize) -> [Real; 4] {
-        let mut values = [[0.0; LANES], [0.0; LANES], [0.0; LANES], [1.0; LANES]];
-        let words = self.plane(tile, at, 0);
-        // The commonest encoding is known to the compiler.
-        if *self.channels == UNORM {
-            for (c, value) in values.iter_mut().enumerate() {
-                *value = Plain::<LANES>.decode(UNORM[0], channel(&words, c));
-            }
-            return values;
-        }
+    fn values(&self, tile: usize, places: &[u16], values: &mut [Plane; 4]) {
+        let mut words: CodePlane = [0; _];
         let bytes = are_bytes(self.channels);
-        for (c, (value, encoding)) in values.iter_mut().zip(self.channels).enumerate() {
-            let codes = match bytes {
-                true => channel(&words, c),
-                false => self.plane(tile, at, c),
-            };
-            *value = Plain::<LANES>.decode(*encoding, codes);
+        let count = places.len() * LANES;
+        for (c, values) in values.iter_mut().enumerate() {
+            if c == 0 || !bytes && c < self.channels.len() {
+                for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
+                    *words = self.plane(tile, usize::from(*at), c);
+                }
+            }
+            match self.channels.get(c) {
+                Some(encoding) if bytes => {
+                    decode(*encoding, &channel(&words, c)[..count], values);
+                }
+                Some(encoding) => decode(*encoding, &words[..count], values),
+                None => values.fill(if c == 3 { 1.0 } else { 0.0 }),
+            }
         }
-        values
     }
 }

@@ -1,0 +1,475 @@
+//! Blends of fetched texels: channel by channel of several groups, so that encodings, factors and operations are matched
+//! once for all of them.
+//!
+//! The steps and their order are those of the pipeline's plain arithmetic. Planes are flat, since loops over groups of
+//! lanes become gathers and scatters.
+
+use super::fragments::Fragments;
+use super::image::{AREA, are_bytes, channel, joined};
+use super::lanes::{Mask, lanes, select};
+use super::texels::Sources;
+use crate::lanes::LANES;
+use crate::steps::{Faithful, Steps};
+use etalon_frame::ChannelEncoding;
+use etalon_pipeline::{Arithmetic, Plain};
+use etalon_scene::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
+};
+use fearless_simd::Simd;
+
+/// The groups that are blended at once.
+pub(crate) const GROUPS: usize = 8;
+
+/// The texels of the groups.
+const TEXELS: usize = GROUPS * LANES;
+
+/// The values of one channel.
+pub(crate) type Plane = [f32; TEXELS];
+
+/// The codes of one channel, or words.
+pub(crate) type CodePlane = [u32; TEXELS];
+
+/// A function of a texel's codes and of fetched texels.
+#[derive(Debug)]
+pub(crate) struct Varying {
+    pub(crate) target: ColorTarget,
+    pub(crate) constant: [f32; 4],
+    /// The operation that takes the place of blending.
+    pub(crate) logic: Option<LogicOperation>,
+    /// Whether the alphas of both sources are 1.
+    pub(crate) opaque: [bool; 2],
+    pub(crate) channels: &'static [ChannelEncoding],
+}
+
+/// The inputs of a blend: source, second source and destination, channel by channel.
+struct Inputs {
+    source: [Plane; 4],
+    second: [Plane; 4],
+    stored: [Plane; 4],
+}
+
+/// A factor before it is multiplied.
+enum Factor<'a> {
+    Zero,
+    One,
+    Value(&'a [f32]),
+    /// 1 less this.
+    Complement(&'a [f32]),
+}
+
+impl Varying {
+    /// Applies the function to fragments of a sample's planes.
+    #[inline(never)]
+    pub(crate) fn apply<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        fragments: &Fragments,
+        sources: &Sources<'_>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let zeros = [[0.0; TEXELS]; 4];
+                let mut inputs = Inputs {
+                    source: zeros,
+                    second: zeros,
+                    stored: zeros,
+                };
+                let (places, masks) = fragments.parts();
+                for (places, masks) in places.chunks(GROUPS).zip(masks.chunks(GROUPS)) {
+                    self.groups(simd, planes, places, masks, sources, &mut inputs);
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn groups<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        places: &[u16],
+        masks: &[Mask],
+        sources: &Sources<'_>,
+        inputs: &mut Inputs,
+    ) {
+        let count = places.len() * LANES;
+        let channels = self.channels.len();
+        let bytes = are_bytes(self.channels);
+        sources.first(places, &mut inputs.source);
+        if self.opaque[0] {
+            inputs.source[3].fill(1.0);
+        }
+        let mut old = [[0; TEXELS]; 4];
+        for (word, old) in (0..if bytes { 1 } else { channels }).zip(&mut old) {
+            for (old, at) in old.as_chunks_mut().0.iter_mut().zip(places) {
+                *old = *lanes(planes, word * AREA + usize::from(*at));
+            }
+        }
+        if bytes {
+            let words = old[0];
+            for (c, old) in old.iter_mut().enumerate() {
+                *old = channel(&words, c);
+            }
+        }
+        if let Some(state) = &self.target.blend {
+            sources.second(places, &mut inputs.second);
+            if self.opaque[1] {
+                inputs.second[3].fill(1.0);
+            }
+            inputs.stored[3].fill(Faithful.missing_alpha(state));
+            let stored = inputs.stored.iter_mut().zip(&old);
+            for ((stored, codes), encoding) in stored.zip(self.channels) {
+                decode(*encoding, &codes[..count], stored);
+            }
+            self.hold(sources, inputs, count);
+        }
+        let mut new = old;
+        for (c, encoding) in self.channels.iter().enumerate() {
+            if self.target.write_mask & (1 << c) == 0 {
+                continue;
+            }
+            match &self.target.blend {
+                None => encode(*encoding, &inputs.source[c][..count], &mut new[c]),
+                Some(state) if self.in_unit(sources, state, c) => {
+                    self.blended_in_unit(state, c, inputs, &mut new[c][..count]);
+                }
+                Some(state) => {
+                    let mut values = [0.0; TEXELS];
+                    self.blended(state, c, inputs, &mut values[..count]);
+                    encode(*encoding, &values[..count], &mut new[c]);
+                }
+            }
+            if let Some(operation) = self.logic {
+                for (new, old) in new[c][..count].iter_mut().zip(&old[c]) {
+                    [*new] = Plain::<1>.logic(*encoding, operation, [*new], [*old]);
+                }
+            }
+        }
+        let mut words = channels;
+        if bytes {
+            (new[0], words) = (joined(&new), 1);
+        }
+        for (word, new) in new.iter().enumerate().take(words) {
+            let groups = new.as_chunks().0.iter().zip(places.iter().zip(masks));
+            for (new, (at, mask)) in groups {
+                let stored = lanes(planes, word * AREA + usize::from(*at));
+                select(simd, stored, *mask, new);
+            }
+        }
+    }
+
+    /// Returns the encoding of a channel; the last one's of those that the format lacks.
+    #[inline(always)]
+    fn encoding(&self, c: usize) -> ChannelEncoding {
+        self.channels[c.min(self.channels.len() - 1)]
+    }
+
+    /// Takes the operands at blending precision: those of normalized channels, unless they are in range already.
+    #[inline(always)]
+    fn hold(&self, sources: &Sources<'_>, inputs: &mut Inputs, count: usize) {
+        let wide = sources.exceed_unit();
+        for c in 0..4 {
+            let encoding = self.encoding(c);
+            if encoding.normalized_range().is_none() {
+                continue;
+            }
+            for (plane, wide) in [&mut inputs.source[c], &mut inputs.second[c]]
+                .into_iter()
+                .zip(wide)
+            {
+                if wide {
+                    for value in &mut plane[..count] {
+                        [*value] = Plain::<1>.blend_operand(encoding, [*value]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// True if all operands of a channel lie from 0 to 1, and its blend is a sum of products.
+    #[inline(always)]
+    fn in_unit(&self, sources: &Sources<'_>, state: &BlendState, c: usize) -> bool {
+        use ChannelEncoding::{Srgb8, Unorm};
+        let part = if c == 3 { state.alpha } else { state.color };
+        let sum = !matches!(part.operation, BlendOperation::Min | BlendOperation::Max);
+        let simple = |factor| {
+            use BlendFactor as F;
+            !matches!(
+                factor,
+                F::SrcAlphaSaturated
+                    | F::Constant
+                    | F::OneMinusConstant
+                    | F::ConstantAlpha
+                    | F::OneMinusConstantAlpha
+            )
+        };
+        let factors = simple(part.src_factor) && simple(part.dst_factor);
+        let target = self.channels.iter().all(|e| matches!(e, Unorm(_) | Srgb8));
+        sum && factors && target && sources.exceed_unit() == [false; 2]
+    }
+
+    /// Gives the codes of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple of an
+    /// operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
+    #[inline(always)]
+    fn blended_in_unit(&self, state: &BlendState, c: usize, inputs: &Inputs, codes: &mut [u32]) {
+        use ChannelEncoding::{Srgb8, Unorm};
+        let BlendComponent {
+            operation,
+            src_factor,
+            dst_factor,
+        } = if c == 3 { state.alpha } else { state.color };
+        let mut own = [[0.0; TEXELS]; 2];
+        let [first, second] = &mut own;
+        let (s, d) = (&inputs.source[c], &inputs.stored[c]);
+        let [(a, b, x), (e, f, y)] = [
+            (self.factor(src_factor, c, inputs, first), s),
+            (self.factor(dst_factor, c, inputs, second), d),
+        ]
+        .map(|(factor, any)| match factor {
+            Factor::Zero => (0.0, 0.0, &any[..]),
+            Factor::One => (1.0, 0.0, &any[..]),
+            Factor::Value(factors) => (0.0, 1.0, factors),
+            Factor::Complement(factors) => (1.0, -1.0, factors),
+        });
+        let (plus, minus) = match operation {
+            BlendOperation::Subtract => (1.0, -1.0),
+            BlendOperation::ReverseSubtract => (-1.0, 1.0),
+            _ => (1.0, 1.0),
+        };
+        let operands = s.iter().zip(x).zip(d.iter().zip(y));
+        macro_rules! run {
+            ($encoding:expr) => {
+                for (code, ((s, x), (d, y))) in codes.iter_mut().zip(operands) {
+                    let value = plus * (s * (a + b * x)) + minus * (d * (e + f * y));
+                    [*code] = Plain::<1>.encode($encoding, [value]);
+                }
+            };
+        }
+        match self.channels[c] {
+            Unorm(8) => run!(Unorm(8)),
+            Srgb8 => run!(Srgb8),
+            Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
+            other => run!(other),
+        }
+    }
+
+    /// Gives the blended values of a channel.
+    #[inline(always)]
+    fn blended(&self, state: &BlendState, c: usize, inputs: &Inputs, values: &mut [f32]) {
+        let BlendComponent {
+            operation,
+            src_factor,
+            dst_factor,
+        } = if c == 3 { state.alpha } else { state.color };
+        let encoding = self.encoding(c);
+        let count = values.len();
+        let (source, stored) = (&inputs.source[c][..count], &inputs.stored[c][..count]);
+        let mut plain = Plain::<1>;
+        macro_rules! run {
+            ($pairs:expr, |$s:ident, $d:ident| $result:expr) => {
+                for (value, ($s, $d)) in values.iter_mut().zip($pairs) {
+                    let ($s, $d) = ([*$s], [*$d]);
+                    [*value] = $result;
+                }
+            };
+        }
+        let pairs = source.iter().zip(stored);
+        match operation {
+            BlendOperation::Min => return run!(pairs, |s, d| plain.min(s, d)),
+            BlendOperation::Max => return run!(pairs, |s, d| plain.max(s, d)),
+            BlendOperation::Add | BlendOperation::Subtract | BlendOperation::ReverseSubtract => {}
+        }
+        let mut own = [[0.0; TEXELS]; 2];
+        let [first, second] = &mut own;
+        let factors = (
+            self.factor(src_factor, c, inputs, first),
+            self.factor(dst_factor, c, inputs, second),
+        );
+        // Complements of numbers below 0 are out of a normalized range.
+        let held = matches!(encoding, ChannelEncoding::Snorm(_));
+        let (same, rest) = (|x: f32| x, |x: f32| 1.0 - x);
+        match factors {
+            (Factor::Value(x), Factor::Value(y)) => {
+                summed(operation, values, (source, x, same), (stored, y, same));
+            }
+            (Factor::Value(x), Factor::Complement(y)) if !held => {
+                summed(operation, values, (source, x, same), (stored, y, rest));
+            }
+            (Factor::Complement(x), Factor::Value(y)) if !held => {
+                summed(operation, values, (source, x, rest), (stored, y, same));
+            }
+            (Factor::Complement(x), Factor::Complement(y)) if !held => {
+                summed(operation, values, (source, x, rest), (stored, y, rest));
+            }
+            (x, y) => {
+                let mut sides = [[0.0; TEXELS]; 2];
+                let [s, d] = &mut sides;
+                self.product(x, encoding, source, &mut s[..count]);
+                self.product(y, encoding, stored, &mut d[..count]);
+                let ones = [1.0; TEXELS];
+                summed(operation, values, (s, &ones, same), (d, &ones, same));
+            }
+        }
+    }
+
+    /// Gives the products of one side of the equation.
+    #[inline(always)]
+    fn product(
+        &self,
+        factor: Factor<'_>,
+        encoding: ChannelEncoding,
+        operands: &[f32],
+        products: &mut [f32],
+    ) {
+        let mut plain = Plain::<1>;
+        match factor {
+            Factor::Zero => products.fill(0.0),
+            Factor::One => products.copy_from_slice(operands),
+            Factor::Value(factors) => {
+                let pairs = operands.iter().zip(factors);
+                for (product, (operand, factor)) in products.iter_mut().zip(pairs) {
+                    [*product] = plain.blend_product(encoding, [*operand], [*factor]);
+                }
+            }
+            Factor::Complement(factors) => {
+                let pairs = operands.iter().zip(factors);
+                for (product, (operand, factor)) in products.iter_mut().zip(pairs) {
+                    let factor = plain.blend_complement(encoding, [*factor]);
+                    let factor = plain.blend_factor(encoding, factor);
+                    [*product] = plain.blend_product(encoding, [*operand], factor);
+                }
+            }
+        }
+    }
+
+    /// Returns a factor of a channel. What is no input is put into a plane of its own.
+    #[inline(always)]
+    fn factor<'a>(
+        &self,
+        factor: BlendFactor,
+        c: usize,
+        inputs: &'a Inputs,
+        own: &'a mut Plane,
+    ) -> Factor<'a> {
+        use BlendFactor as F;
+        let Inputs {
+            source,
+            second,
+            stored,
+        } = inputs;
+        let constant = |channel: usize| {
+            let encoding = self.encoding(channel);
+            Plain::<1>.blend_operand(encoding, [self.constant[channel]])[0]
+        };
+        match factor {
+            F::Zero => Factor::Zero,
+            F::One => Factor::One,
+            F::SrcAlphaSaturated if c == 3 => Factor::One,
+            F::SrcAlphaSaturated => {
+                let mut plain = Plain::<1>;
+                let encoding = self.encoding(c);
+                for ((own, source), stored) in own.iter_mut().zip(&source[3]).zip(&stored[3]) {
+                    let rest = plain.blend_complement(encoding, [*stored]);
+                    let least = plain.min([*source], rest);
+                    [*own] = plain.blend_factor(encoding, least);
+                }
+                Factor::Value(own)
+            }
+            F::Src => Factor::Value(&source[c]),
+            F::OneMinusSrc => Factor::Complement(&source[c]),
+            F::SrcAlpha => Factor::Value(&source[3]),
+            F::OneMinusSrcAlpha => Factor::Complement(&source[3]),
+            F::Dst => Factor::Value(&stored[c]),
+            F::OneMinusDst => Factor::Complement(&stored[c]),
+            F::DstAlpha => Factor::Value(&stored[3]),
+            F::OneMinusDstAlpha => Factor::Complement(&stored[3]),
+            F::Src1 => Factor::Value(&second[c]),
+            F::OneMinusSrc1 => Factor::Complement(&second[c]),
+            F::Src1Alpha => Factor::Value(&second[3]),
+            F::OneMinusSrc1Alpha => Factor::Complement(&second[3]),
+            F::Constant | F::OneMinusConstant => {
+                own.fill(constant(c));
+                match factor {
+                    F::Constant => Factor::Value(own),
+                    _ => Factor::Complement(own),
+                }
+            }
+            F::ConstantAlpha | F::OneMinusConstantAlpha => {
+                own.fill(constant(3));
+                match factor {
+                    F::ConstantAlpha => Factor::Value(own),
+                    _ => Factor::Complement(own),
+                }
+            }
+        }
+    }
+}
+
+/// Gives the sum or the difference of two sides: operands, and factors before a function of them.
+#[inline(always)]
+fn summed(
+    operation: BlendOperation,
+    values: &mut [f32],
+    (source, x, of_x): (&[f32], &[f32], impl Fn(f32) -> f32),
+    (stored, y, of_y): (&[f32], &[f32], impl Fn(f32) -> f32),
+) {
+    let operands = source.iter().zip(x).zip(stored.iter().zip(y));
+    macro_rules! run {
+        (|$s:ident, $d:ident| $result:expr) => {
+            for (value, ((s, x), (d, y))) in values.iter_mut().zip(operands) {
+                let ($s, $d) = (s * of_x(*x), d * of_y(*y));
+                *value = $result;
+            }
+        };
+    }
+    match operation {
+        BlendOperation::Subtract => run!(|s, d| s - d),
+        BlendOperation::ReverseSubtract => run!(|s, d| d - s),
+        _ => run!(|s, d| s + d),
+    }
+}
+
+/// Gives the values of codes.
+#[inline(always)]
+pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
+    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
+    // Known to the compiler.
+    macro_rules! run {
+        ($encoding:expr) => {
+            for (value, code) in values.iter_mut().zip(codes) {
+                [*value] = Plain::<1>.decode($encoding, [*code]);
+            }
+        };
+    }
+    match encoding {
+        Unorm(8) => run!(Unorm(8)),
+        Float16 => run!(Float16),
+        Float32 => run!(Float32),
+        Srgb8 => run!(Srgb8),
+        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
+        other => run!(other),
+    }
+}
+
+/// Gives the codes of values.
+#[inline(always)]
+fn encode(encoding: ChannelEncoding, values: &[f32], codes: &mut CodePlane) {
+    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
+    macro_rules! run {
+        ($encoding:expr) => {
+            for (code, value) in codes.iter_mut().zip(values) {
+                [*code] = Plain::<1>.encode($encoding, [*value]);
+            }
+        };
+    }
+    match encoding {
+        Unorm(8) => run!(Unorm(8)),
+        Float16 => run!(Float16),
+        Float32 => run!(Float32),
+        Srgb8 => run!(Srgb8),
+        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
+        other => run!(other),
+    }
+}
