@@ -214,6 +214,15 @@ impl Image {
         let step = self.samples * channels;
         let place = plane * AREA + within;
         match aspect {
+            Aspect::Color if !self.bytes && step == 4 && channels == 4 => {
+                let plane = |word: usize| &self.color[(plane * 4 + word) * AREA + within..][..TILE];
+                let (pairs, others) =
+                    (plane(0).iter().zip(plane(1)), plane(2).iter().zip(plane(3)));
+                let (texels, _) = codes.as_chunks_mut::<4>();
+                for (codes, ((r, g), (b, a))) in texels.iter_mut().zip(pairs.zip(others)) {
+                    *codes = [*r, *g, *b, *a];
+                }
+            }
             Aspect::Color if !self.bytes => {
                 for word in 0..channels {
                     let start = (plane * self.words + word) * AREA + within;
