@@ -15,6 +15,9 @@ pub(crate) fn held(draw: &Draw, depth: f32, bias: f64) -> f32 {
     Faithful.held_to_range(depth, draw.viewport.depth)
 }
 
+/// The doubles of a vector: loops over more of them are not turned into vectors well.
+const EIGHT: usize = 8;
+
 /// The depths of a triangle over the window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Depths {
@@ -64,29 +67,34 @@ impl Depths {
             && self.ends[1] <= high
     }
 
-    /// Returns the depths in the row of the origin at the columns from one on.
+    /// Gives the depths in the row of the origin at columns from one on, whose number is a multiple of [`EIGHT`].
     #[inline(always)]
-    pub(crate) fn columns(&self, x: i32, sample: [i32; 2]) -> [f64; LANES] {
+    pub(crate) fn columns(&self, x: i32, sample: [i32; 2], columns: &mut [f64]) {
         let units = UNITS as i32;
-        let first = x * units + sample[0] - self.origin[0];
-        let mut columns = [0.0; LANES];
-        for (lane, column) in columns.iter_mut().enumerate() {
-            *column = self.z + f64::from(first + lane as i32 * units) * self.across;
+        let mut first = x * units + sample[0] - self.origin[0];
+        for columns in columns.as_chunks_mut::<EIGHT>().0 {
+            for (lane, column) in columns.iter_mut().enumerate() {
+                *column = self.z + f64::from(first + lane as i32 * units) * self.across;
+            }
+            first += EIGHT as i32 * units;
         }
-        columns
     }
 
-    /// Gives the codes in a row of float depths that are in the range of all corners' depths.
+    /// Gives the codes in a row of float depths that are in the range of all corners' depths. Columns are a multiple of
+    /// [`EIGHT`].
     #[inline(always)]
     pub(crate) fn floats(&self, columns: &[f64], y: i32, sample: [i32; 2], codes: &mut [u32]) {
         let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
         let [low, high] = self.ends;
-        for (code, column) in codes.iter_mut().zip(columns) {
-            let depth = (column + down) as f32;
-            let depth = if depth < low { low } else { depth };
-            let depth = if depth > high { high } else { depth };
-            // Adding 0 removes the sign of a negative zero.
-            *code = (depth + 0.0).to_bits();
+        let pairs = codes.as_chunks_mut::<EIGHT>().0.iter_mut();
+        for (codes, columns) in pairs.zip(columns.as_chunks::<EIGHT>().0) {
+            for (code, column) in codes.iter_mut().zip(columns) {
+                let depth = (column + down) as f32;
+                let depth = if depth < low { low } else { depth };
+                let depth = if depth > high { high } else { depth };
+                // Adding 0 removes the sign of a negative zero.
+                *code = (depth + 0.0).to_bits();
+            }
         }
     }
 
@@ -101,10 +109,13 @@ impl Depths {
             let v = if v < low { low } else { v };
             if v > high { high } else { v }
         };
-        for (lane, depth) in depths.iter_mut().enumerate() {
-            let across = f64::from(first + lane as i32 * units) * self.across;
-            let value = held((self.z + across + down) as f32, self.ends);
-            *depth = held((f64::from(value) + self.bias) as f32, self.range);
+        for (part, depths) in depths.as_chunks_mut::<EIGHT>().0.iter_mut().enumerate() {
+            let first = first + (part * EIGHT) as i32 * units;
+            for (lane, depth) in depths.iter_mut().enumerate() {
+                let across = f64::from(first + lane as i32 * units) * self.across;
+                let value = held((self.z + across + down) as f32, self.ends);
+                *depth = held((f64::from(value) + self.bias) as f32, self.range);
+            }
         }
         Faithful.depth_codes(self.encoding, depths)
     }

@@ -267,7 +267,8 @@ impl Source for Floats<'_> {
         [x, y]: [i32; 2],
     ) -> U {
         if chunk != self.chunk {
-            self.columns = self.depths.columns(x, self.position);
+            let columns = &mut self.columns[..U::LEN];
+            self.depths.columns(x, self.position, columns);
             self.chunk = chunk;
         }
         let mut codes = [0; LANES];
@@ -337,12 +338,14 @@ impl Opaque<'_> {
                 self.scan::<S, I, U, Flat, true>(simd, planes, area, source);
             }
             Some(depths) if depths.are_floats() => {
-                let source = Floats {
+                let mut source = Floats {
                     depths,
                     position,
-                    columns: depths.columns(area.first, position),
+                    columns: [0.0; LANES],
                     chunk: 0,
                 };
+                let columns = &mut source.columns[..U::LEN];
+                depths.columns(area.first, position, columns);
                 self.scan::<S, I, U, Floats<'_>, true>(simd, planes, area, source);
             }
             Some(depths) => {
