@@ -1,8 +1,8 @@
 //! Failing scenes in groups: those of one group leave the same states and the same violation when they are reduced.
 //!
 //! A reduction takes hundreds of drawings, and a driver's commonest bug is in every tenth scene. So a scene that
-//! has all states of a group and its violation is counted there, unless the group is young or the number of its
-//! scenes is a power of two: those are reduced, and show what hides behind.
+//! has all states of a group and its violation is counted there, unless the number of its scenes is a power of
+//! four: those are reduced, and show what hides behind.
 
 use crate::failure::Failure;
 use crate::known_bugs::{KnownBugs, Match};
@@ -17,11 +17,10 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The scenes of a group that are reduced before others are counted by their states.
-const YOUNG: u64 = 3;
 /// One way to fail.
 pub(crate) struct Group {
     adapter: String,
@@ -99,10 +98,37 @@ impl Groups {
         self.all.len()
     }
 
-    /// Confirms the last groups, and compares all with the known bugs. An error leaves groups that were not compared.
+    /// Draws what is left of each group in a process of its own, so many at the same time, and notes which groups fail
+    /// there. When the search is being stopped, groups are left as they are.
+    pub(crate) fn confirm(&mut self, jobs: usize, stop: &AtomicBool) {
+        let Self {
+            all,
+            launch,
+            timeout,
+            ..
+        } = self;
+        let unconfirmed = all.iter_mut().filter_map(|group| {
+            let case = group.unconfirmed.take()?;
+            Some((group, case))
+        });
+        let queue = Mutex::new(unconfirmed);
+        let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+        thread::scope(|scope| {
+            for _ in 0..jobs {
+                scope.spawn(|| {
+                    while !stop.load(Ordering::Relaxed)
+                        && let Some((group, case)) = next()
+                    {
+                        let confirmed = confirm(launch, &case, &group.symptom, *timeout);
+                        group.steady = confirmed.is_ok();
+                    }
+                });
+            }
+        });
+    }
+
+    /// Compares all groups with the known bugs. An error leaves groups that were not compared.
     pub(crate) fn compare(&mut self, bugs: &mut KnownBugs<'_>) -> Result<(), Failure> {
-        let found = Confirmations::of(self).confirm();
-        self.note(found);
         for group in &mut self.all {
             // Of a scene that was not reduced, nearly everything is left.
             let whole = group.key.1.is_some() || !group.verdict.is_violation();
@@ -120,32 +146,14 @@ impl Groups {
         self.all
     }
 
-    /// Adds failing scenes, while the groups that were found before are confirmed: new processes take longer to start
-    /// than scenes to reduce. When the search is being stopped, scenes are kept as they are.
+    /// Adds failing scenes. When the search is being stopped, scenes are kept as they are.
     pub(crate) fn add(
         &mut self,
         failing: Vec<(RandomScene, Record)>,
         stop: &AtomicBool,
     ) -> Result<(), Failure> {
-        let unconfirmed = Confirmations::of(self);
-        let (found, added) = thread::scope(|scope| {
-            let confirming = scope.spawn(|| unconfirmed.confirm());
-            let mut all = failing.into_iter();
-            let added = all.try_for_each(|(scene, record)| self.add_one(scene, record, stop));
-            match confirming.join() {
-                Ok(found) => (found, added),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        });
-        self.note(found);
-        added
-    }
-
-    /// Notes which groups fail by themselves.
-    fn note(&mut self, found: Vec<(usize, bool)>) {
-        for (at, steady) in found {
-            self.all[at].steady = steady;
-        }
+        let mut all = failing.into_iter();
+        all.try_for_each(|(scene, record)| self.add_one(scene, record, stop))
     }
 
     /// Adds a failing scene.
@@ -183,9 +191,9 @@ impl Groups {
             let ends = !symptom.verdict.is_violation();
             symptom.covers(&group.symptom) && (ends || signature.is_some_and(|s| s.is_in(document)))
         })?;
-        let old = alike.reduced >= YOUNG || !symptom.verdict.is_violation();
-        let due = (alike.count + 1).is_power_of_two();
-        (stopped || (old && !due)).then_some(alike)
+        let count = alike.count + 1;
+        let due = count.is_power_of_two() && count.trailing_zeros().is_multiple_of(2);
+        (stopped || !due).then_some(alike)
     }
 
     /// Reduces a scene, where it fails by itself.
@@ -295,40 +303,6 @@ impl Groups {
             known: None,
         });
         Ok(())
-    }
-}
-
-/// Groups that are to be confirmed.
-struct Confirmations {
-    launch: Launch,
-    timeout: Duration,
-    /// Number, case and symptom of each.
-    all: Vec<(usize, Case, Symptom)>,
-}
-
-impl Confirmations {
-    /// Those of which nothing is known yet.
-    fn of(groups: &mut Groups) -> Self {
-        let each = groups.all.iter_mut().enumerate();
-        let unconfirmed = each.filter_map(|(at, group)| {
-            let case = group.unconfirmed.take()?;
-            Some((at, case, group.symptom.clone()))
-        });
-        Self {
-            all: unconfirmed.collect(),
-            launch: groups.launch.clone(),
-            timeout: groups.timeout,
-        }
-    }
-
-    /// Draws each in a new process. Returns which of them fail there.
-    fn confirm(&self) -> Vec<(usize, bool)> {
-        let each = self.all.iter();
-        each.map(|(at, case, symptom)| {
-            let confirmed = confirm(&self.launch, case, symptom, self.timeout);
-            (*at, confirmed.is_ok())
-        })
-        .collect()
     }
 }
 

@@ -54,7 +54,8 @@ pub(crate) struct Arguments {
     /// Number of scenes for each adapter [default: 1000, without --time]
     #[arg(long, value_name = "N", conflicts_with = "time")]
     pub(crate) count: Option<u64>,
-    /// Time for each adapter, in seconds or as `10m` or `2h`; comparing what was found with the findings comes on top
+    /// Time for each adapter, in seconds or as `10m` or `2h`; drawing what was found in processes of its own and comparing
+    /// it with the findings comes on top
     #[arg(long, value_name = "T", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
     /// Folder for fuzz.jsonl and the scenes that fail, in `found`, those of known bugs in `known`; `--cases` takes both
@@ -104,7 +105,7 @@ struct Tally {
     pairs: usize,
     states: usize,
     seconds: f64,
-    /// The time of the comparison with findings, in seconds.
+    /// The time of the drawings in processes of their own and of the comparison with findings, in seconds.
     comparing: f64,
     groups: Vec<Group>,
 }
@@ -284,6 +285,7 @@ fn fuzz(
     tally.seconds = begun.elapsed().as_secs_f64();
     if groups.len() > 0 && !stop.load(Ordering::Relaxed) {
         bar.set_message(format!("{}: comparing with findings", tally.adapter));
+        groups.confirm(jobs, stop);
         let mut bugs = KnownBugs::new(expectations, &adapter, library, launch, timeout, stop);
         let compared = groups.compare(&mut bugs);
         if let Err(failure) = compared {
