@@ -1,7 +1,7 @@
 //! `etalon fuzz`.
 //!
-//! Scenes are made, drawn and judged in batches. What fails is looked at batch by batch and in the order of the scenes,
-//! so that the groups do not depend on the number of workers.
+//! Scenes are made, drawn and judged in batches. What fails is looked at in the order of the scenes, so that the groups do
+//! not depend on the number of workers.
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::library;
@@ -21,17 +21,20 @@ use clap::Args;
 use etalon_case::{Case, Library};
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
-use etalon_record::{AdapterRecord, Expectations, FolderLock, Verdict};
+use etalon_record::{AdapterRecord, Expectations, FolderLock, Record, Verdict};
 use etalon_runner::{Batches, Launch, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
 /// The scenes of a batch.
 const BATCH: usize = 128;
+/// The most batches whose failing scenes wait to be reduced.
+const WAITING: usize = 8;
 /// The scenes of each adapter where neither their number nor a time is given.
 const COUNT: u64 = 1000;
 /// The file of groups.
@@ -248,40 +251,62 @@ fn fuzz(
     };
     let mut left = count;
     let mut next = make(&mut fuzzer, &limits, &mut left);
-    let mut failing = Vec::new();
-    while !next.is_empty() && !stop.load(Ordering::Relaxed) {
-        let scenes = std::mem::take(&mut next);
-        let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
-        let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
-        (tally.pairs, tally.states) = (fuzzer.pairs(), fuzzer.states());
-        let seen = std::mem::take(&mut failing);
-        // While these are drawn, the next scenes are made, and what failed before is reduced.
-        let (drawn, added) = thread::scope(|scope| {
-            let made = scope.spawn(|| match late {
-                true => Vec::new(),
-                false => make(&mut fuzzer, &limits, &mut left),
-            });
-            let added = scope.spawn(|| groups.add(seen, stop));
-            let drawn = batches.draw(&cases, stop);
-            next = joined(made);
-            (drawn, joined(added))
-        });
-        added?;
-        let drawn = drawn.map_err(Failure::incomplete)?;
-        for (scene, record) in scenes.into_iter().zip(drawn) {
-            let Some(record) = record else { continue };
-            tally.scenes += 1;
-            bar.inc(1);
-            if record.verdict == Verdict::NotSupported {
-                tally.not_supported += 1;
-            } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
-                tally.failing += 1;
-                failing.push((scene, record));
+    let found = AtomicUsize::new(0);
+    let (failing, received) = mpsc::sync_channel::<Vec<(RandomScene, Record)>>(WAITING);
+    thread::scope(|scope| {
+        // What failed is reduced one after the other, in the order of the scenes, while others are drawn.
+        let added = scope.spawn(|| {
+            for scenes in received {
+                groups.add(scenes, stop)?;
+                found.store(groups.len(), Ordering::Relaxed);
             }
+            Ok::<_, Failure>(())
+        });
+        let mut drawn = Ok(());
+        while !next.is_empty() && !stop.load(Ordering::Relaxed) && !added.is_finished() {
+            let scenes = std::mem::take(&mut next);
+            let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
+            let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
+            (tally.pairs, tally.states) = (fuzzer.pairs(), fuzzer.states());
+            // While these are drawn, the next scenes are made.
+            let records = thread::scope(|scope| {
+                let made = scope.spawn(|| match late {
+                    true => Vec::new(),
+                    false => make(&mut fuzzer, &limits, &mut left),
+                });
+                let records = batches.draw(&cases, stop);
+                next = joined(made);
+                records
+            });
+            let records = match records {
+                Ok(records) => records,
+                Err(error) => {
+                    drawn = Err(Failure::incomplete(error));
+                    break;
+                }
+            };
+            let mut bad = Vec::new();
+            for (scene, record) in scenes.into_iter().zip(records) {
+                let Some(record) = record else { continue };
+                tally.scenes += 1;
+                bar.inc(1);
+                if record.verdict == Verdict::NotSupported {
+                    tally.not_supported += 1;
+                } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
+                    tally.failing += 1;
+                    bad.push((scene, record));
+                }
+            }
+            // Fails where the other thread ended with an error, which it returns.
+            if failing.send(bad).is_err() {
+                break;
+            }
+            let count = found.load(Ordering::Relaxed);
+            bar.set_message(format!("{}: {count} groups", tally.adapter));
         }
-        bar.set_message(format!("{}: {} groups", tally.adapter, groups.len()));
-    }
-    groups.add(failing, stop)?;
+        drop(failing);
+        joined(added).and(drawn)
+    })?;
     tally.seconds = begun.elapsed().as_secs_f64();
     if groups.len() > 0 && !stop.load(Ordering::Relaxed) {
         bar.set_message(format!("{}: comparing with findings", tally.adapter));
