@@ -46,6 +46,8 @@ pub(crate) struct Group {
     file: PathBuf,
     /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
+    /// The states that other scenes of the group have too: a reduction replaces formats of depth and stencil.
+    common: Option<Signature>,
     symptom: Symptom,
     /// The finding that explains it, or that it is like.
     known: Option<Match>,
@@ -184,12 +186,13 @@ impl Groups {
         symptom: &Symptom,
         stopped: bool,
     ) -> Option<&mut Group> {
-        let document = &scene.candidate.document;
+        let states = Signature::of(&scene.candidate.document);
+        // Each reduction of a scene that ends its worker costs processes: its states are not asked for.
+        let ends = !symptom.verdict.is_violation();
         let alike = self.all.iter_mut().find(|group| {
-            let signature = group.key.1.as_ref().filter(|_| group.steady);
-            // Each reduction of a scene that ends its worker costs processes: its states are not asked for.
-            let ends = !symptom.verdict.is_violation();
-            symptom.covers(&group.symptom) && (ends || signature.is_some_and(|s| s.is_in(document)))
+            let left = group.common.as_ref().filter(|_| group.steady);
+            symptom.covers_elsewhere(&group.symptom)
+                && (ends || left.is_some_and(|left| left.is_within(&states)))
         })?;
         let count = alike.count + 1;
         let due = count.is_power_of_two() && count.trailing_zeros().is_multiple_of(2);
@@ -298,6 +301,7 @@ impl Groups {
             steady: seen.steady,
             unconfirmed: seen.steady.then_some(seen.scene.case),
             file: path,
+            common: seen.key.1.as_ref().map(Signature::without_depth_formats),
             key: seen.key,
             symptom: seen.symptom,
             known: None,

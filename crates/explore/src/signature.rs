@@ -129,15 +129,21 @@ impl Signature {
     /// for formats of depth and stencil, of which a bug mostly needs none in particular.
     #[must_use]
     pub fn coarse(&self) -> Self {
-        let other = |key: &&String| {
-            let format = key.strip_prefix("format=").unwrap_or_default();
-            !format.starts_with("depth") && !format.starts_with("stencil")
-        };
         let group = |key: &String| match (key.contains('='), key.split_once('.')) {
             (false, Some((group, _))) => group.to_owned(),
             _ => key.clone(),
         };
-        Self(self.0.iter().filter(other).map(group).collect())
+        Self(self.without_depth_formats().0.iter().map(group).collect())
+    }
+
+    /// Returns the signature without formats of depth and stencil.
+    #[must_use]
+    pub fn without_depth_formats(&self) -> Self {
+        let other = |key: &&String| {
+            let format = key.strip_prefix("format=").unwrap_or_default();
+            !format.starts_with("depth") && !format.starts_with("stencil")
+        };
+        Self(self.0.iter().filter(other).cloned().collect())
     }
 
     /// Returns the signature without what attachments are made of and hold.

@@ -161,9 +161,12 @@ impl Symptom {
 
     /// True if a smaller case that fails like `other` fails like this one.
     pub fn covers(&self, other: &Self) -> bool {
-        let same = self.verdict == other.verdict
-            && self.subject == other.subject
-            && self.attachment == other.attachment;
+        self.attachment == other.attachment && self.covers_elsewhere(other)
+    }
+
+    /// The same, whatever the attachments are called.
+    pub fn covers_elsewhere(&self, other: &Self) -> bool {
+        let same = self.verdict == other.verdict && self.subject == other.subject;
         let counter = matches!(self.subject, Subject::Counter(_));
         same && (!counter || self.direction == other.direction)
             && other.operations.iter().all(|o| self.operations.contains(o))
