@@ -102,11 +102,21 @@ impl<'a> DriverOracle<'a> {
 
     /// Reduces the case.
     pub(crate) fn reduce(&mut self, failing: Candidate, limits: &Limits) -> Reduction {
+        self.reduce_by(failing, limits, MOST_DRAWS)
+    }
+
+    /// Reduces the case with so many draws at most.
+    pub(crate) fn reduce_by(
+        &mut self,
+        failing: Candidate,
+        limits: &Limits,
+        most: usize,
+    ) -> Reduction {
         let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
         let most = if self.until.is_some() {
             MOST_LOST
         } else {
-            MOST_DRAWS
+            most
         };
         let reduction = reduce(failing, most, &can_draw, self);
         Reduction {

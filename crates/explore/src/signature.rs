@@ -114,13 +114,8 @@ impl Signature {
         Self(all)
     }
 
-    /// True if a scene has all keys of this signature, and so may show the same. A signature without keys is in
-    /// none: everything would show it.
-    pub fn is_in(&self, document: &Value) -> bool {
-        self.is_within(&Self::of(document))
-    }
-
-    /// True if another signature has all keys of this one; false where it has none.
+    /// True if another signature has all keys of this one, so that its scene may show the same. A signature without keys
+    /// is in none: everything would show it.
     pub fn is_within(&self, other: &Self) -> bool {
         !self.0.is_empty() && self.0.is_subset(&other.0)
     }
@@ -278,12 +273,12 @@ mod tests {
         let large = document(json!({
             "shader": "texel_color", "depth": { "compare": "never", "write": true }, "cull": "back"
         }));
-        assert!(Signature::of(&small).is_in(&large));
-        assert!(!Signature::of(&large).is_in(&small));
+        assert!(Signature::of(&small).is_within(&Signature::of(&large)));
+        assert!(!Signature::of(&large).is_within(&Signature::of(&small)));
         let other = document(json!({ "shader": "front_facing", "depth": { "compare": "less" } }));
-        assert!(!Signature::of(&other).is_in(&large));
+        assert!(!Signature::of(&other).is_within(&Signature::of(&large)));
         let nothing = document(json!({ "shader": "uniform_color" }));
-        assert!(!Signature::of(&nothing).is_in(&large));
+        assert!(!Signature::of(&nothing).is_within(&Signature::of(&large)));
     }
 
     #[test]
