@@ -15,6 +15,7 @@ mod depth;
 mod half_float;
 mod logic;
 mod plain;
+mod rounding;
 mod sampling;
 pub mod shader;
 mod srgb;

@@ -3,6 +3,7 @@
 use crate::arithmetic::Arithmetic;
 use crate::half_float::{narrowed, widened};
 use crate::logic::logic_operation;
+use crate::rounding::{unit, whole};
 use crate::srgb;
 use etalon_frame::ChannelEncoding;
 use etalon_scene::LogicOperation;
@@ -20,24 +21,6 @@ fn each<const N: usize, T: Copy, U: Copy + Default>(values: [T; N], f: impl Fn(T
         *result = f(value);
     }
     result
-}
-
-/// Returns a number held to 0 and 1; 0 for NaN.
-#[inline(always)]
-pub(crate) fn unit(v: f32) -> f32 {
-    let v = if v > 0.0 { v } else { 0.0 };
-    if v < 1.0 { v } else { 1.0 }
-}
-
-/// Returns the whole part of a number from 0 to below 2²². `as` is not turned into vector instructions, since it
-/// saturates.
-#[inline(always)]
-pub(crate) fn whole(v: f32) -> u32 {
-    // From here on floats are whole numbers, so that the sum is rounded to one, and its low bits are that number.
-    const WHOLE: f32 = 8_388_608.0;
-    let sum = v + WHOLE;
-    let up = sum - WHOLE > v;
-    (sum.to_bits() & 0x007f_ffff) - u32::from(up)
 }
 
 #[inline(always)]
@@ -315,20 +298,6 @@ fn of_byte(code: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn whole_parts_are_those_of_conversions() {
-        for i in 0..2_000_000_u32 {
-            // Halves, their neighbours, and what lies between.
-            let v = i as f32 / 2.0;
-            for v in [v, v.next_up(), v.next_down().max(0.0), v * 0.37] {
-                assert_eq!(whole(v), v as u32, "{v}");
-            }
-        }
-        let values = [-1.0, -0.0, 0.25, 1.0, 2.0, f32::INFINITY, f32::NEG_INFINITY];
-        assert_eq!(values.map(unit), values.map(|v| v.clamp(0.0, 1.0) + 0.0));
-        assert_eq!(unit(f32::NAN), 0.0);
-    }
 
     #[test]
     fn lanes_store_the_nearest_code() {

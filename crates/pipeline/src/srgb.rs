@@ -1,6 +1,6 @@
 //! sRGB codes of 8 bits by tables, equal to the functions that they are made of.
 
-use crate::plain::{unit, whole};
+use crate::rounding::{unit, whole};
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
 use std::sync::LazyLock;
 

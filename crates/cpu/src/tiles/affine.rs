@@ -5,7 +5,7 @@
 
 use super::fragments::Fragments;
 use super::image::AREA;
-use crate::lanes::{Codes, LANES};
+use crate::lanes::Codes;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
@@ -96,22 +96,21 @@ impl Term {
 
     #[inline(always)]
     fn each(&self, encoding: ChannelEncoding, join: Join, codes: &mut [Codes]) {
-        let mut plain = Plain::<LANES>;
+        let mut plain = Plain::<1>;
         let read = if self.reads { u32::MAX } else { 0 };
         let Self { factor, source, .. } = *self;
-        for codes in codes {
-            let value = plain.decode(encoding, *codes);
-            let mut value = plain.blend_operand(encoding, value);
-            for value in &mut value {
-                let stored = f32::from_bits(value.to_bits() & read);
-                *value = match join {
-                    Join::Sum => source + stored * factor,
-                    Join::Least if source < stored => source,
-                    Join::Most if source > stored => source,
-                    Join::Least | Join::Most => stored,
-                };
-            }
-            *codes = plain.encode(encoding, value);
+        // One by one: loops over groups of lanes become gathers and scatters.
+        for code in codes.as_flattened_mut() {
+            let value = plain.decode(encoding, [*code]);
+            let [value] = plain.blend_operand(encoding, value);
+            let stored = f32::from_bits(value.to_bits() & read);
+            let value = match join {
+                Join::Sum => source + stored * factor,
+                Join::Least if source < stored => source,
+                Join::Most if source > stored => source,
+                Join::Least | Join::Most => stored,
+            };
+            [*code] = plain.encode(encoding, [value]);
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Linear functions of codes of 8 bits, in integers.
 
 use super::image::Texel;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, u8x16, u8x32, u16x16};
 
 /// The number of codes of a channel.
 pub(crate) const CODES: usize = 256;
@@ -53,29 +55,23 @@ impl Linear {
         })
     }
 
-    /// Returns the function of neighbouring texels' bytes.
+    /// Applies the function to texels, whose bytes are a multiple of twice [`BYTES`].
     #[inline(always)]
-    pub(crate) fn applied(&self, bytes: &[u8; BYTES]) -> [u8; BYTES] {
-        let mut result = [0; BYTES];
-        for i in 0..BYTES {
-            let code = u16::from(bytes[i] ^ self.invert[i]);
+    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [Texel]) {
+        // By value, so that they stay in registers.
+        let [upper, lower, plus, minus] = [&self.upper, &self.lower, &self.plus, &self.minus]
+            .map(|part| u16x16::from_slice(simd, part));
+        let invert = u8x16::from_slice(simd, &self.invert);
+        let invert = invert.combine(invert);
+        let of = |code: u16x16<S>| {
             // 256 times the code times the fraction, in two parts that 16 bits hold.
-            let product = code * self.upper[i] + ((code * self.lower[i]) >> 8);
-            let sum = product
-                .saturating_add(self.plus[i])
-                .saturating_sub(self.minus[i]);
-            result[i] = (sum >> 8) as u8;
-        }
-        result
-    }
-
-    /// Applies the function to texels, whose bytes are a multiple of [`BYTES`].
-    #[inline(always)]
-    pub(crate) fn apply(&self, texels: &mut [Texel]) {
-        // By value, so that it stays in registers.
-        let function = *self;
-        for bytes in texels.as_flattened_mut().as_chunks_mut::<BYTES>().0 {
-            *bytes = function.applied(bytes);
+            let product = code * upper + ((code * lower) >> 8);
+            product.saturating_add(plus).saturating_sub(minus) >> 8
+        };
+        let bytes = texels.as_flattened_mut();
+        for bytes in bytes.as_chunks_mut::<{ 2 * BYTES }>().0 {
+            let (low, high) = (u8x32::from_slice(simd, bytes) ^ invert).widen();
+            of(low).narrow(of(high)).store_slice(bytes);
         }
     }
 }
@@ -148,6 +144,7 @@ fn product(code: u8, factor: u16) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
 
     #[test]
     fn a_function_is_that_of_its_tables() {
@@ -159,9 +156,12 @@ mod tests {
         ];
         let function = Linear::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).expect("they are linear");
         for code in 0..=255_u8 {
-            let bytes = function.applied(&[code; BYTES]);
-            for (i, byte) in bytes.into_iter().enumerate() {
-                assert_eq!(byte, tables[i % 4][usize::from(code)], "{code}");
+            let mut texels = [[code; 4]; 8];
+            dispatch!(Level::new(), simd => function.apply(simd, &mut texels));
+            for texel in texels {
+                for (c, byte) in texel.into_iter().enumerate() {
+                    assert_eq!(byte, tables[c][usize::from(code)], "{code}");
+                }
             }
         }
     }

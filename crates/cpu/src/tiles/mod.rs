@@ -19,6 +19,7 @@ mod listing;
 mod opaque;
 mod paint;
 mod plan;
+mod planes;
 mod resolve;
 mod scene;
 mod setup;

@@ -542,7 +542,7 @@ impl Kernel {
             }
             Self::Linear(linear) => {
                 fragments.replace(simd, planes, |new| {
-                    linear.apply(texels(new.as_flattened_mut()))
+                    linear.apply(simd, texels(new.as_flattened_mut()))
                 });
             }
             Self::Table(table) => {
@@ -623,8 +623,9 @@ impl Kernel {
         }
         let words = &mut planes[..count];
         if let Self::Bits { and, xor } = self {
-            for chunk in words.as_chunks_mut::<LANES>().0 {
-                *chunk = bits_of(chunk, *and, *xor);
+            let [and, xor] = [*and, *xor].map(word);
+            for word in words {
+                *word = *word & and ^ xor;
             }
             return;
         }
@@ -638,7 +639,7 @@ impl Kernel {
             | Self::Wide(_)
             | Self::Copy
             | Self::Varying(_) => {}
-            Self::Linear(linear) => linear.apply(texels),
+            Self::Linear(linear) => linear.apply(simd, texels),
             Self::Table(table) => {
                 for texel in texels {
                     *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);

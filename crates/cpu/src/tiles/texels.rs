@@ -2,7 +2,7 @@
 
 use super::image::{AREA, Image, are_bytes, channel};
 use super::plan::Fetched;
-use super::varying::{CodePlane, Plane, decode};
+use super::planes::{CodePlane, Plane, decode};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 

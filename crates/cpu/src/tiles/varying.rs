@@ -7,6 +7,7 @@
 use super::fragments::Fragments;
 use super::image::{AREA, are_bytes, channel, joined};
 use super::lanes::{Mask, lanes, select};
+use super::planes::{GROUPS, Plane, TEXELS, decode, encode};
 use super::texels::Sources;
 use crate::lanes::LANES;
 use crate::steps::{Faithful, Steps};
@@ -16,18 +17,6 @@ use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
 };
 use fearless_simd::Simd;
-
-/// The groups that are blended at once.
-pub(crate) const GROUPS: usize = 8;
-
-/// The texels of the groups.
-const TEXELS: usize = GROUPS * LANES;
-
-/// The values of one channel.
-pub(crate) type Plane = [f32; TEXELS];
-
-/// The codes of one channel, or words.
-pub(crate) type CodePlane = [u32; TEXELS];
 
 /// A function of a texel's codes and of fetched texels.
 #[derive(Debug)]
@@ -428,48 +417,5 @@ fn summed(
         BlendOperation::Subtract => run!(|s, d| s - d),
         BlendOperation::ReverseSubtract => run!(|s, d| d - s),
         _ => run!(|s, d| s + d),
-    }
-}
-
-/// Gives the values of codes.
-#[inline(always)]
-pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
-    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
-    // Known to the compiler.
-    macro_rules! run {
-        ($encoding:expr) => {
-            for (value, code) in values.iter_mut().zip(codes) {
-                [*value] = Plain::<1>.decode($encoding, [*code]);
-            }
-        };
-    }
-    match encoding {
-        Unorm(8) => run!(Unorm(8)),
-        Float16 => run!(Float16),
-        Float32 => run!(Float32),
-        Srgb8 => run!(Srgb8),
-        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
-        other => run!(other),
-    }
-}
-
-/// Gives the codes of values.
-#[inline(always)]
-fn encode(encoding: ChannelEncoding, values: &[f32], codes: &mut CodePlane) {
-    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
-    macro_rules! run {
-        ($encoding:expr) => {
-            for (code, value) in codes.iter_mut().zip(values) {
-                [*code] = Plain::<1>.encode($encoding, [*value]);
-            }
-        };
-    }
-    match encoding {
-        Unorm(8) => run!(Unorm(8)),
-        Float16 => run!(Float16),
-        Float32 => run!(Float32),
-        Srgb8 => run!(Srgb8),
-        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
-        other => run!(other),
     }
 }
