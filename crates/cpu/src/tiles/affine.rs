@@ -81,6 +81,7 @@ impl Term {
             Float32 => self.joined(Float32, codes),
             Unorm(10) => self.joined(Unorm(10), codes),
             Unorm(16) => self.joined(Unorm(16), codes),
+            Unorm(bits) if bits <= 16 => self.joined(Unorm(bits), codes),
             other => self.joined(other, codes),
         }
     }
