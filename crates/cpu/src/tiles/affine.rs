@@ -50,7 +50,7 @@ impl Affine {
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`](crate::lanes::LANES).
     #[inline(always)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         for (channel, term) in self.terms.iter().enumerate() {
