@@ -5,6 +5,7 @@
 
 use super::fragments::Fragments;
 use super::image::AREA;
+use super::planes::with_encoding;
 use crate::lanes::Codes;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
@@ -50,7 +51,8 @@ impl Affine {
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`](crate::lanes::LANES).
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of
+    /// [`LANES`](crate::lanes::LANES).
     #[inline(always)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         for (channel, term) in self.terms.iter().enumerate() {
@@ -74,16 +76,7 @@ impl Term {
 
     #[inline(always)]
     fn encoded(&self, codes: &mut [Codes]) {
-        use ChannelEncoding::{Float16, Float32, Unorm};
-        // Known to the compiler.
-        match self.encoding {
-            Float16 => self.joined(Float16, codes),
-            Float32 => self.joined(Float32, codes),
-            Unorm(10) => self.joined(Unorm(10), codes),
-            Unorm(16) => self.joined(Unorm(16), codes),
-            Unorm(bits) if bits <= 16 => self.joined(Unorm(bits), codes),
-            other => self.joined(other, codes),
-        }
+        with_encoding!(self.encoding, |known| self.joined(known, codes));
     }
 
     #[inline(always)]

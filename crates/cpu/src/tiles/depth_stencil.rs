@@ -55,6 +55,13 @@ pub(crate) fn passing(compare: CompareFunction) -> [bool; 3] {
     }
 }
 
+/// Returns what gives the answer of a comparison from less and equal, which exclude one another: whether they differ
+/// from greater, and the answer to that.
+#[inline(always)]
+pub(crate) fn answers([less, equal, greater]: [bool; 3]) -> [bool; 3] {
+    [less != greater, equal != greater, greater]
+}
+
 /// Returns the answer of a stencil test of stored values of a range, if it is one.
 pub(crate) fn stencil_decided(face: &StencilFace, [low, high]: [u8; 2]) -> Option<Decided> {
     let mask = face.read_mask;

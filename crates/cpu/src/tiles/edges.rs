@@ -145,6 +145,16 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
+    /// Returns the rows of a triangle, beginning from a texel of a tile that it touches.
+    #[inline(always)]
+    pub(crate) fn new(triangle: &Triangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
+        let edges = Edges::new(triangle);
+        match triangle.is_near() {
+            true => edges.near(x, y, sample),
+            false => edges.rows(x, y, sample),
+        }
+    }
+
     /// Returns the numbers at the row's first texels.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, simd: S) -> Numbers<S> {

@@ -3,10 +3,10 @@
 //! Groups are collected and then taken through the tests and the blend step by step, so that a draw's state is matched
 //! once for all of them.
 
-use super::depth_stencil::passing;
+use super::depth_stencil::{answers, passing};
 use super::lanes::{Mask, lanes, select};
 use crate::lanes::{Codes, LANES};
-use etalon_scene::{CompareFunction, DepthState, StencilFace};
+use etalon_scene::{DepthState, StencilFace};
 use fearless_simd::prelude::*;
 use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
 
@@ -100,7 +100,7 @@ impl Fragments {
     /// Keeps the lanes that pass the stencil test of a face, against a sample's plane.
     #[inline(always)]
     pub(crate) fn test_stencil<S: Simd>(&mut self, simd: S, face: &StencilFace, plane: &mut [u8]) {
-        let answers = answers(face.compare).map(|answer| mask8x16::splat(simd, answer));
+        let answers = answers(passing(face.compare)).map(|answer| mask8x16::splat(simd, answer));
         let [less, equal, greater] = answers;
         let seen = u8x16::splat(simd, face.read_mask);
         let reference = u8x16::splat(simd, face.reference & face.read_mask);
@@ -122,7 +122,7 @@ impl Fragments {
         plane: &mut [u32],
         codes: impl Fn(usize) -> Codes,
     ) {
-        let answers = answers(state.compare).map(|answer| mask32x16::splat(simd, answer));
+        let answers = answers(passing(state.compare)).map(|answer| mask32x16::splat(simd, answer));
         let [less, equal, greater] = answers;
         for (place, mask) in self.groups_mut() {
             let stored = lanes(plane, place);
@@ -156,12 +156,4 @@ impl Fragments {
             select(simd, lanes(plane, place), mask, new);
         }
     }
-}
-
-/// Returns what gives the answer of a comparison from less and equal, which exclude one another: whether they differ
-/// from greater, and the answer to that.
-#[inline(always)]
-fn answers(compare: CompareFunction) -> [bool; 3] {
-    let [less, equal, greater] = passing(compare);
-    [less ^ greater, equal ^ greater, greater]
 }

@@ -2,7 +2,7 @@
 
 use super::TILE;
 use super::depth::Depths;
-use super::depth_stencil::passing;
+use super::depth_stencil::{answers, passing};
 use super::edges::{Edges, Rows};
 use super::image::word;
 use super::lanes::NUMBERS;
@@ -137,12 +137,7 @@ impl Store {
     /// other codes get, and where the two differ from it.
     #[inline(always)]
     fn answers<S: Simd, I: SimdInt<S>>(&self, simd: S) -> [I::Mask; 3] {
-        let [less, equal, greater] = self.passes.unwrap_or_default();
-        [
-            I::Mask::splat(simd, less != greater),
-            I::Mask::splat(simd, equal != greater),
-            I::Mask::splat(simd, greater),
-        ]
+        answers(self.passes.unwrap_or_default()).map(|answer| I::Mask::splat(simd, answer))
     }
 
     /// Returns the covered lanes that pass the depth test, after their codes are written if they are to be.
@@ -380,11 +375,7 @@ impl Opaque<'_> {
         let (lanes, zero) = (U::LEN as i32, I::splat(simd, 0));
         let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
         let [first, last] = area.rows;
-        let edges = Edges::new(self.triangle);
-        let Rows { at, across, down } = match self.triangle.is_near() {
-            true => edges.near(area.first, first, position),
-            false => edges.rows(area.first, first, position),
-        };
+        let Rows { at, across, down } = Rows::new(self.triangle, area.first, first, position);
         // Operations in closures would not be inlined.
         let mut values = [
             numbers * across[0] + at[0],

@@ -262,7 +262,7 @@ impl Blending {
     #[inline(always)]
     fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
         let blended = |code: u32| {
-            self.values(self.channels(), &[[code; LANES]; 4], self.input())
+            self.values(self.channels(), &[[code; LANES]; 4])
                 .map(|v| v[0])
         };
         let (low, high) = (blended(0), blended(255));
@@ -402,12 +402,8 @@ impl Blending {
 
     /// Returns blended colours before they are stored, of the destination's codes channel by channel.
     #[inline(always)]
-    fn values(
-        &self,
-        (encodings, count): Channels,
-        codes: &[Codes; 4],
-        mut input: BlendInput<Real>,
-    ) -> [Real; 4] {
+    fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
+        let mut input = self.input();
         let Some(state) = &self.target.blend else {
             return input.src;
         };
@@ -432,29 +428,20 @@ impl Blending {
     fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
         simd.vectorize(
             #[inline(always)]
-            || self.codes_from(old, self.input()),
+            || {
+                // The same for all channels, and known to the compiler.
+                if *self.channels == UNORM.0 {
+                    self.codes_of(UNORM, old)
+                } else {
+                    self.codes_of(self.channels(), old)
+                }
+            },
         )
     }
 
-    /// Returns the codes after the function, of sources given with it.
     #[inline(always)]
-    fn codes_from(&self, old: &[Codes; 4], input: BlendInput<Real>) -> [Codes; 4] {
-        // The same for all channels, and known to the compiler.
-        if *self.channels == UNORM.0 {
-            self.codes_of(UNORM, old, input)
-        } else {
-            self.codes_of(self.channels(), old, input)
-        }
-    }
-
-    #[inline(always)]
-    fn codes_of(
-        &self,
-        (encodings, count): Channels,
-        old: &[Codes; 4],
-        input: BlendInput<Real>,
-    ) -> [Codes; 4] {
-        let value = self.values((encodings, count), old, input);
+    fn codes_of(&self, (encodings, count): Channels, old: &[Codes; 4]) -> [Codes; 4] {
+        let value = self.values((encodings, count), old);
         let mut result = *old;
         for c in 0..count {
             if self.target.write_mask & (1 << c) == 0 {
@@ -477,6 +464,15 @@ impl Blending {
         bytemuck::cast(joined(&self.codes(simd, &old)))
     }
 
+    /// Applies the function to lanes of a sample's planes of several words, where a mask holds.
+    #[inline(always)]
+    fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: Mask) {
+        let new = self.codes(simd, &self.words(planes, at));
+        for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
+            select(simd, lanes(planes, c * AREA + at), mask, codes);
+        }
+    }
+
     /// Returns the codes of texels that have several words.
     #[inline(always)]
     fn words(&self, planes: &mut [u32], at: usize) -> [Codes; 4] {
@@ -485,21 +481,6 @@ impl Blending {
             *codes = *lanes(planes, c * AREA + at);
         }
         codes
-    }
-
-    /// Replaces the codes of texels that have several words, where a mask holds.
-    #[inline(always)]
-    fn select_words<S: Simd>(
-        &self,
-        simd: S,
-        planes: &mut [u32],
-        at: usize,
-        mask: Mask,
-        new: &[Codes; 4],
-    ) {
-        for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
-            select(simd, lanes(planes, c * AREA + at), mask, codes);
-        }
     }
 }
 
@@ -535,10 +516,9 @@ impl Kernel {
                 }
             }
             Self::Bits { and, xor } => {
-                for (at, mask) in fragments.groups() {
-                    let stored = lanes(planes, at);
-                    select(simd, stored, mask, &bits_of(stored, *and, *xor));
-                }
+                fragments.replace(simd, planes, |new| {
+                    apply_bits(new.as_flattened_mut(), *and, *xor)
+                });
             }
             Self::Linear(linear) => {
                 fragments.replace(simd, planes, |new| {
@@ -578,8 +558,7 @@ impl Kernel {
             Self::Affine(affine) => affine.masked(simd, planes, fragments),
             Self::Wide(blending) => {
                 for (at, mask) in fragments.groups() {
-                    let new = blending.codes(simd, &blending.words(planes, at));
-                    blending.select_words(simd, planes, at, mask, &new);
+                    blending.wide(simd, planes, at, mask);
                 }
             }
             Self::Copy => {
@@ -611,25 +590,17 @@ impl Kernel {
                 }
                 return;
             }
+            Self::Bits { and, xor } => return apply_bits(&mut planes[..count], *and, *xor),
             Self::Affine(affine) => return affine.whole(simd, planes, count),
             Self::Wide(blending) => {
                 for at in (0..count).step_by(LANES) {
-                    let new = blending.codes(simd, &blending.words(planes, at));
-                    blending.select_words(simd, planes, at, ALL, &new);
+                    blending.wide(simd, planes, at, ALL);
                 }
                 return;
             }
             _ => {}
         }
-        let words = &mut planes[..count];
-        if let Self::Bits { and, xor } = self {
-            let [and, xor] = [*and, *xor].map(word);
-            for word in words {
-                *word = *word & and ^ xor;
-            }
-            return;
-        }
-        let texels: &mut [Texel] = bytemuck::cast_slice_mut(words);
+        let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
         match self {
             Self::Keep
             | Self::Bits { .. }
@@ -671,9 +642,11 @@ fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
     (0..4).all(equal).then(|| Kernel::of_bits(and, xor))
 }
 
-/// Returns texels of which some bits are kept and some inverted.
+/// Keeps some bits of words, and inverts some.
 #[inline(always)]
-fn bits_of(words: &Codes, and: Texel, xor: Texel) -> Codes {
+fn apply_bits(words: &mut [u32], and: Texel, xor: Texel) {
     let [and, xor] = [and, xor].map(word);
-    words.map(|w| w & and ^ xor)
+    for word in words {
+        *word = *word & and ^ xor;
+    }
 }

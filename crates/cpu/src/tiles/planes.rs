@@ -16,45 +16,45 @@ pub(crate) type Plane = [f32; TEXELS];
 /// The codes of one channel, or words.
 pub(crate) type CodePlane = [u32; TEXELS];
 
+/// Runs code once with an encoding, in a branch of its own where it is common, so that the compiler knows it. Branches are
+/// patterns: of what comparisons exclude the compiler makes nothing.
+macro_rules! with_encoding {
+    ($encoding:expr, |$known:ident| $run:expr) => {{
+        use etalon_frame::ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
+        with_encoding!($encoding, |$known| $run; [Unorm(8)] [Unorm(10)] [Unorm(16)] [Srgb8] [Float16] [Float32])
+    }};
+    ($encoding:expr, |$known:ident| $run:expr; $([$($common:tt)*])*) => {
+        match $encoding {
+            $($($common)* => {
+                let $known = $($common)*;
+                $run
+            })*
+            Unorm(bits) if bits <= 16 => {
+                let $known = Unorm(bits);
+                $run
+            }
+            $known => $run,
+        }
+    };
+}
+pub(crate) use with_encoding;
+
 /// Gives the values of codes.
 #[inline(always)]
 pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
-    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
-    // Known to the compiler.
-    macro_rules! run {
-        ($encoding:expr) => {
-            for (value, code) in values.iter_mut().zip(codes) {
-                [*value] = Plain::<1>.decode($encoding, [*code]);
-            }
-        };
-    }
-    match encoding {
-        Unorm(8) => run!(Unorm(8)),
-        Float16 => run!(Float16),
-        Float32 => run!(Float32),
-        Srgb8 => run!(Srgb8),
-        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
-        other => run!(other),
-    }
+    with_encoding!(encoding, |known| {
+        for (value, code) in values.iter_mut().zip(codes) {
+            [*value] = Plain::<1>.decode(known, [*code]);
+        }
+    });
 }
 
 /// Gives the codes of values.
 #[inline(always)]
 pub(crate) fn encode(encoding: ChannelEncoding, values: &[f32], codes: &mut CodePlane) {
-    use ChannelEncoding::{Float16, Float32, Srgb8, Unorm};
-    macro_rules! run {
-        ($encoding:expr) => {
-            for (code, value) in codes.iter_mut().zip(values) {
-                [*code] = Plain::<1>.encode($encoding, [*value]);
-            }
-        };
-    }
-    match encoding {
-        Unorm(8) => run!(Unorm(8)),
-        Float16 => run!(Float16),
-        Float32 => run!(Float32),
-        Srgb8 => run!(Srgb8),
-        Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
-        other => run!(other),
-    }
+    with_encoding!(encoding, |known| {
+        for (code, value) in codes.iter_mut().zip(values) {
+            [*code] = Plain::<1>.encode(known, [*value]);
+        }
+    });
 }

@@ -6,7 +6,7 @@ use super::depth_stencil::{
     ANY, ANY_STENCIL, Decided, decided, hull, keeps, operate, operate_groups, operated,
     stencil_decided,
 };
-use super::edges::Edges;
+use super::edges::Rows;
 use super::fragments::{Fragments, MOST};
 use super::image::AREA;
 use super::lanes::{ALL, Mask, columns, lanes, select};
@@ -167,7 +167,6 @@ pub(crate) fn draw<S: Simd>(
         stencils: (tile.stencil.clear).map_or(ANY_STENCIL, |[value, ..]| [value; 2]),
         tile,
     };
-    let mut fragments = Fragments::new();
     for part in parts {
         let mut last: Option<Store> = None;
         let mut entries = part.bins[index].as_slice();
@@ -177,7 +176,7 @@ pub(crate) fn draw<S: Simd>(
             let whole = entry.is_whole();
             // The planes are ready for another triangle of the same draw and paint.
             if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
-                last = drawing.triangle(simd, triangle, input, part, whole, &mut fragments);
+                last = drawing.triangle(simd, triangle, input, part, whole);
             }
             entries = match &last {
                 Some(store) if triangle.shape == Shape::Small => {
@@ -205,7 +204,6 @@ impl Drawing<'_, '_> {
         input: &Input<'_>,
         part: &Part,
         whole: bool,
-        fragments: &mut Fragments,
     ) -> Option<Store> {
         let paint = &part.paints[triangle.paint as usize];
         let plan = input.plan;
@@ -266,7 +264,7 @@ impl Drawing<'_, '_> {
             }),
             texels: input.texels,
         };
-        self.samples(simd, &work, whole, outcome, fragments);
+        self.samples(simd, &work, whole, outcome);
         let all = all && work.is_constant();
         if !fails {
             self.widen(triangle, plan, all && outcome == Some(Outcome::Passes));
@@ -347,7 +345,6 @@ impl Drawing<'_, '_> {
         work: &Work<'_>,
         whole: bool,
         outcome: Option<Outcome>,
-        fragments: &mut Fragments,
     ) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
@@ -362,7 +359,7 @@ impl Drawing<'_, '_> {
             }
             match decided {
                 Some(outcome) => self.decided(simd, work, sample, outcome),
-                None => self.scan(simd, work, sample, whole, fragments),
+                None => self.scan(simd, work, sample, whole),
             }
         }
     }
@@ -482,29 +479,16 @@ impl Drawing<'_, '_> {
     /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile. A function of
     /// its own: it is large.
     #[inline(never)]
-    fn scan<S: Simd>(
-        &mut self,
-        simd: S,
-        work: &Work<'_>,
-        sample: usize,
-        whole: bool,
-        fragments: &mut Fragments,
-    ) {
+    fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
         simd.vectorize(
             #[inline(always)]
-            || self.scan_of(simd, work, sample, whole, fragments),
+            || self.scan_of(simd, work, sample, whole),
         );
     }
 
     #[inline(always)]
-    fn scan_of<S: Simd>(
-        &mut self,
-        simd: S,
-        work: &Work<'_>,
-        sample: usize,
-        whole: bool,
-        fragments: &mut Fragments,
-    ) {
+    fn scan_of<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
+        let mut fragments = Fragments::new();
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
         let around = match whole {
@@ -515,12 +499,7 @@ impl Drawing<'_, '_> {
         let first = around[0].max(left) / wide * wide;
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
-        let edges = Edges::new(triangle);
-        let sample_at = self.pass.positions[sample];
-        let rows = match triangle.is_near() {
-            true => edges.near(first, y_first, sample_at),
-            false => edges.rows(first, y_first, sample_at),
-        };
+        let rows = Rows::new(triangle, first, y_first, self.pass.positions[sample]);
         let mut row = rows.lanes(simd);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;
@@ -539,14 +518,13 @@ impl Drawing<'_, '_> {
                 }
                 let place = (y - top) as usize * TILE + (x - left) as usize;
                 if fragments.push(place, mask) {
-                    self.fragments(simd, work, sample, fragments);
+                    self.fragments(simd, work, sample, &mut fragments);
                     fragments.clear();
                 }
             }
         }
         if !fragments.is_empty() {
-            self.fragments(simd, work, sample, fragments);
-            fragments.clear();
+            self.fragments(simd, work, sample, &mut fragments);
         }
     }
 

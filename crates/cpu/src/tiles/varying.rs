@@ -7,7 +7,7 @@
 use super::fragments::Fragments;
 use super::image::{AREA, are_bytes, channel, joined};
 use super::lanes::{Mask, lanes, select};
-use super::planes::{GROUPS, Plane, TEXELS, decode, encode};
+use super::planes::{GROUPS, Plane, TEXELS, decode, encode, with_encoding};
 use super::texels::Sources;
 use crate::lanes::LANES;
 use crate::steps::{Faithful, Steps};
@@ -181,7 +181,7 @@ impl Varying {
     #[inline(always)]
     fn in_unit(&self, sources: &Sources<'_>, state: &BlendState, c: usize) -> bool {
         use ChannelEncoding::{Srgb8, Unorm};
-        let part = if c == 3 { state.alpha } else { state.color };
+        let part = component(state, c);
         let sum = !matches!(part.operation, BlendOperation::Min | BlendOperation::Max);
         let simple = |factor| {
             use BlendFactor as F;
@@ -203,12 +203,11 @@ impl Varying {
     /// operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
     #[inline(always)]
     fn blended_in_unit(&self, state: &BlendState, c: usize, inputs: &Inputs, codes: &mut [u32]) {
-        use ChannelEncoding::{Srgb8, Unorm};
         let BlendComponent {
             operation,
             src_factor,
             dst_factor,
-        } = if c == 3 { state.alpha } else { state.color };
+        } = component(state, c);
         let mut own = [[0.0; TEXELS]; 2];
         let [first, second] = &mut own;
         let (s, d) = (&inputs.source[c], &inputs.stored[c]);
@@ -228,20 +227,12 @@ impl Varying {
             _ => (1.0, 1.0),
         };
         let operands = s.iter().zip(x).zip(d.iter().zip(y));
-        macro_rules! run {
-            ($encoding:expr) => {
-                for (code, ((s, x), (d, y))) in codes.iter_mut().zip(operands) {
-                    let value = plus * (s * (a + b * x)) + minus * (d * (e + f * y));
-                    [*code] = Plain::<1>.encode($encoding, [value]);
-                }
-            };
-        }
-        match self.channels[c] {
-            Unorm(8) => run!(Unorm(8)),
-            Srgb8 => run!(Srgb8),
-            Unorm(bits) if bits <= 16 => run!(Unorm(bits)),
-            other => run!(other),
-        }
+        with_encoding!(self.channels[c], |known| {
+            for (code, ((s, x), (d, y))) in codes.iter_mut().zip(operands) {
+                let value = plus * (s * (a + b * x)) + minus * (d * (e + f * y));
+                [*code] = Plain::<1>.encode(known, [value]);
+            }
+        });
     }
 
     /// Gives the blended values of a channel.
@@ -251,7 +242,7 @@ impl Varying {
             operation,
             src_factor,
             dst_factor,
-        } = if c == 3 { state.alpha } else { state.color };
+        } = component(state, c);
         let encoding = self.encoding(c);
         let count = values.len();
         let (source, stored) = (&inputs.source[c][..count], &inputs.stored[c][..count]);
@@ -394,6 +385,12 @@ impl Varying {
             }
         }
     }
+}
+
+/// Returns the component of a state that a channel is blended by.
+#[inline(always)]
+fn component(state: &BlendState, c: usize) -> BlendComponent {
+    if c == 3 { state.alpha } else { state.color }
 }
 
 /// Gives the sum or the difference of two sides: operands, and factors before a function of them.
