@@ -21,8 +21,8 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what was drawn
-/// before.
+/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
+/// was drawn before.
 const DRAWS: usize = 400;
 
 /// One way to fail.

@@ -263,7 +263,7 @@ fn fuzz(
             Ok::<_, Failure>(())
         });
         let mut drawn = Ok(());
-        while !next.is_empty() && !stop.load(Ordering::Relaxed) && !added.is_finished() {
+        while !next.is_empty() && !stop.load(Ordering::Relaxed) {
             let scenes = std::mem::take(&mut next);
             let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
             let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
