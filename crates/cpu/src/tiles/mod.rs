@@ -25,6 +25,7 @@ mod scene;
 mod setup;
 mod texels;
 mod texture;
+mod threads;
 mod tile;
 mod triangle;
 mod varying;

@@ -4,6 +4,7 @@ use super::TILE;
 use super::image::{AREA, Image, texel, words};
 use super::plan::{PassPlan, Plan};
 use super::setup::{Input, Part, place};
+use super::threads::{available, on_threads};
 use super::tile::{self, Layer, Tile};
 use super::triangle::Placed;
 use crate::pass::DISCARDED;
@@ -14,7 +15,6 @@ use etalon_frame::{Aspect, ChannelEncoding, Frame, ReadPath};
 use etalon_scene::{LoadOperation, Pass, Scene};
 use fearless_simd::{Level, dispatch};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 use std::time::Instant;
 
 /// The least vertices or primitives that are shared between threads.
@@ -35,7 +35,7 @@ impl Machine {
     pub(crate) fn whole() -> Self {
         Self {
             level: Level::new(),
-            threads: thread::available_parallelism().map_or(1, usize::from),
+            threads: available(),
         }
     }
 }
@@ -271,22 +271,6 @@ fn draw_tiles(
     on_threads((0..threads).collect(), &|_: usize| {
         while let Some(tile) = next() {
             dispatch!(machine.level, simd => tile::draw(simd, tile, pass, inputs, parts));
-        }
-    });
-}
-
-/// Does each job on a thread of its own, the first on this one.
-///
-/// `run` is called through a pointer, so that kernels are compiled once for the first job and the others.
-fn on_threads<J: Send>(jobs: Vec<J>, run: &(dyn Fn(J) + Sync)) {
-    let mut jobs = jobs.into_iter();
-    let first = jobs.next();
-    thread::scope(|scope| {
-        for job in jobs {
-            scope.spawn(move || run(job));
-        }
-        if let Some(job) = first {
-            run(job);
         }
     });
 }
