@@ -1,6 +1,7 @@
 //! Attachments in memory, tile by tile.
 
 use super::TILE;
+use super::threads::on_threads;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -15,6 +16,9 @@ pub(crate) type Words = [u32; 4];
 
 /// The texels of a tile.
 pub(crate) const AREA: usize = TILE * TILE;
+
+/// The least codes that are read by several threads.
+const SHARED: usize = 1 << 16;
 
 /// An attachment. Each aspect holds tile after tile, in rows of tiles; a tile holds plane after plane, one for each
 /// word of each sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
@@ -191,22 +195,34 @@ impl Image {
         (tile * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`].
-    pub(crate) fn codes(&self, aspect: Aspect, channels: usize) -> Vec<u32> {
-        let texel = self.samples * channels;
-        let mut codes = vec![0; self.width * self.height * texel];
-        let rows = codes.chunks_exact_mut((self.width * texel).max(1));
-        for (y, row) in rows.enumerate() {
-            for (column, part) in row.chunks_mut(TILE * texel).enumerate() {
-                let tile = y / TILE * self.across + column;
-                for sample in 0..self.samples {
-                    let plane = tile * self.samples + sample;
-                    let rest = &mut part[sample * channels..];
-                    self.row(aspect, channels, [plane, y % TILE * TILE], rest);
-                }
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`], read by so many threads.
+    pub(crate) fn codes(&self, aspect: Aspect, channels: usize, threads: usize) -> Vec<u32> {
+        let row = (self.width * self.samples * channels).max(1);
+        let mut codes = vec![0; self.height * row];
+        let rows = match codes.len() < SHARED {
+            true => self.height,
+            false => self.height.div_ceil(threads),
+        };
+        let jobs: Vec<_> = codes.chunks_mut((rows * row).max(1)).enumerate().collect();
+        on_threads(jobs, &|(number, part)| {
+            for (y, codes) in part.chunks_exact_mut(row).enumerate() {
+                self.tiles_row(aspect, channels, number * rows + y, codes);
+            }
+        });
+        codes
+    }
+
+    /// Writes the codes of a row of texels.
+    fn tiles_row(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
+        let parts = codes.chunks_mut(TILE * self.samples * channels);
+        for (column, part) in parts.enumerate() {
+            let tile = y / TILE * self.across + column;
+            for sample in 0..self.samples {
+                let plane = tile * self.samples + sample;
+                let rest = &mut part[sample * channels..];
+                self.row(aspect, channels, [plane, y % TILE * TILE], rest);
             }
         }
-        codes
     }
 
     /// Writes the codes of one sample of a tile's row, given its plane and the row's place in it.

@@ -317,7 +317,7 @@ impl Prepared for TiledScene {
                     size: attachment.size,
                     samples: attachment.samples,
                     read: ReadPath::Copy,
-                    codes: self.images[*index].codes(*aspect, channels.len()),
+                    codes: self.images[*index].codes(*aspect, channels.len(), self.machine.threads),
                     channels,
                 });
             }
