@@ -1,4 +1,5 @@
-//! Conversions of 16-bit floats without a branch, which the compiler turns into vector instructions.
+//! Conversions of 16-bit floats, and of floats that lack their sign and their lowest bits, without a branch, which the
+//! compiler turns into vector instructions.
 
 /// Returns the value of a 16-bit float (IEEE 754 binary16). NaN is quiet.
 #[inline(always)]
@@ -36,10 +37,105 @@ pub(crate) fn narrowed(value: f32) -> u32 {
     result | bits >> 16 & 0x8000
 }
 
+/// Returns the value of a float of 5 bits of exponent, so many of mantissa, and no sign. NaN is quiet.
+#[inline(always)]
+pub(crate) fn lengthened(code: u32, mantissa: u8) -> f32 {
+    widened(code << (10 - u32::from(mantissa)))
+}
+
+/// Returns the float of 5 bits of exponent, so many of mantissa, and no sign that is nearest to a number, of two the
+/// even one: 0 for what is below, the largest for what is above all finite ones (Vulkan: Unsigned 11-Bit Floating-Point
+/// Numbers). NaN is quiet.
+#[inline(always)]
+pub(crate) fn shortened(value: f32, mantissa: u8) -> u32 {
+    /// The bits of the least number that is normal.
+    const NORMAL: u32 = (127 - 14) << 23;
+    const INFINITE: u32 = 0x7f80_0000;
+    let (bits, mantissa) = (value.to_bits(), u32::from(mantissa));
+    let magnitude = bits & 0x7fff_ffff;
+    // The lowest bits, which are lost.
+    let shift = 23 - mantissa;
+    let odd = magnitude >> shift & 1;
+    let half = (1 << (shift - 1)) - 1;
+    let normal = magnitude.wrapping_sub(112 << 23).wrapping_add(half + odd) >> shift;
+    // From here on a step of 32-bit floats is the least step of these.
+    let step = f32::from_bits((127 + 9 - mantissa) << 23);
+    let sum = f32::from_bits(if magnitude < NORMAL { magnitude } else { 0 }) + step;
+    let small = sum.to_bits().wrapping_sub(step.to_bits());
+    let infinite = 31 << mantissa;
+    let nan = infinite | 1 << (mantissa - 1);
+    let large = if magnitude > INFINITE { nan } else { infinite };
+    // Exponents beyond those of the encoding make numbers beyond its codes.
+    let normal = if normal < infinite {
+        normal
+    } else {
+        infinite - 1
+    };
+    let finite = if magnitude < NORMAL { small } else { normal };
+    let result = if magnitude >= INFINITE { large } else { finite };
+    // Of negative numbers NaN alone is kept.
+    let kept = bits >> 31 == 0 || magnitude > INFINITE;
+    if kept { result } else { 0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::ChannelEncoding;
     use half::f16;
+
+    #[test]
+    fn all_short_floats_have_their_value() {
+        for mantissa in [5, 6] {
+            let encoding = ChannelEncoding::Ufloat(mantissa);
+            for code in 0..32 << mantissa {
+                let (value, due) = (
+                    f64::from(lengthened(code, mantissa)),
+                    encoding.value_of_order(code.into()),
+                );
+                assert!(
+                    value == due || value.is_nan() && due.is_nan(),
+                    "{code:#x}: {value} {due}"
+                );
+                let again = shortened(value as f32, mantissa);
+                assert!(again == code || value.is_nan() && encoding.is_nan(again));
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_become_the_nearest_short_float() {
+        for mantissa in [5, 6] {
+            let encoding = ChannelEncoding::Ufloat(mantissa);
+            // Halves of steps, their neighbours and some between, of each exponent of 16-bit floats and of some others.
+            let step = 1 << (22 - mantissa);
+            for exponent in (90..150).chain([0, 1, 50, 200, 254]) {
+                for bits in (0..1_u32 << 23).step_by(step) {
+                    for near in [0, 1, 2, 1000, step as u32 - 1] {
+                        let value = f32::from_bits(exponent << 23 | bits | near);
+                        let code = shortened(value, mantissa);
+                        let due = encoding.nearest_code(value.into());
+                        let distance = |code: u32| {
+                            let nearest = encoding.value_of_order(code.into());
+                            (nearest - f64::from(value)).abs()
+                        };
+                        let equal = distance(code) == distance(due);
+                        assert!(
+                            code == due || equal && code.is_multiple_of(2),
+                            "{value}: {code} {due}"
+                        );
+                        assert_eq!(shortened(-value, mantissa), 0);
+                    }
+                }
+            }
+            let infinite = 31 << mantissa;
+            assert_eq!(shortened(f32::MAX, mantissa), infinite - 1);
+            assert_eq!(shortened(f32::INFINITY, mantissa), infinite);
+            assert_eq!(shortened(f32::NEG_INFINITY, mantissa), 0);
+            assert!(encoding.is_nan(shortened(f32::NAN, mantissa)));
+            assert!(encoding.is_nan(shortened(-f32::NAN, mantissa)));
+        }
+    }
 
     #[test]
     fn all_16_bit_floats_have_their_value() {

@@ -1,7 +1,7 @@
 //! The plain number system: 32-bit floats in lanes.
 
 use crate::arithmetic::Arithmetic;
-use crate::half_float::{narrowed, widened};
+use crate::half_float::{lengthened, narrowed, shortened, widened};
 use crate::logic::logic_operation;
 use crate::rounding::{unit, whole};
 use crate::srgb;
@@ -146,9 +146,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
             ChannelEncoding::Uint(_) => each(code, |c| c as f32),
             ChannelEncoding::Float16 => each(code, widened),
             ChannelEncoding::Float32 => each(code, f32::from_bits),
-            ChannelEncoding::Ufloat(_) => {
-                each(code, |c| encoding.value_of_order(i64::from(c)) as f32)
-            }
+            ChannelEncoding::Ufloat(mantissa) => each(code, |c| lengthened(c, mantissa)),
         }
     }
 
@@ -184,7 +182,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
             }
             ChannelEncoding::Float16 => each(value, narrowed),
             ChannelEncoding::Float32 => each(value, f32::to_bits),
-            ChannelEncoding::Ufloat(_) => each(value, |v| encoding.nearest_code(f64::from(v))),
+            ChannelEncoding::Ufloat(mantissa) => each(value, |v| shortened(v, mantissa)),
         }
     }
 
