@@ -66,27 +66,13 @@ impl ReadFault {
                     let inside = |v: usize| (v as u32).wrapping_sub(BLOCK) < 2;
                     if inside(x) && inside(y) {
                         for (code, encoding) in texel.iter_mut().zip(channels.iter().cycle()) {
-                            *code ^= mask(*encoding);
+                            *code ^= encoding.mask();
                         }
                     }
                 }
             }
         }
     }
-}
-
-/// Returns all bits of a code.
-fn mask(encoding: ChannelEncoding) -> u32 {
-    let bits = match encoding {
-        ChannelEncoding::Unorm(bits)
-        | ChannelEncoding::Snorm(bits)
-        | ChannelEncoding::Uint(bits) => u32::from(bits),
-        ChannelEncoding::Srgb8 => 8,
-        ChannelEncoding::Float16 => 16,
-        ChannelEncoding::Float32 => 32,
-        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
-    };
-    u32::MAX >> (32 - bits.clamp(1, 32))
 }
 
 #[cfg(test)]

@@ -123,14 +123,14 @@ fn place(
         * u64::from(plane.texel);
     let (order, width) = match (plane.form, channel.encoding) {
         (Form::Float | Form::Fraction, _) => (Order::Value, 32),
-        (Form::Byte, encoding) => match width(encoding) {
+        (Form::Byte, encoding) => match encoding.bits() {
             8 => (Order::Unsigned, 8),
             width => (Order::Widened, width),
         },
         (Form::Code, ChannelEncoding::Snorm(bits)) => (Order::Signed, u32::from(bits)),
         (Form::Code, ChannelEncoding::Float16) => (Order::Half, 16),
         (Form::Code, ChannelEncoding::Float32) => (Order::Single, 32),
-        (Form::Code, encoding) => (Order::Unsigned, width(encoding)),
+        (Form::Code, encoding) => (Order::Unsigned, encoding.bits()),
     };
     Ok(Channel {
         name: channel.name(),
@@ -141,19 +141,6 @@ fn place(
         order,
         width,
     })
-}
-
-/// Returns the width of a code in bits.
-fn width(encoding: ChannelEncoding) -> u32 {
-    match encoding {
-        ChannelEncoding::Unorm(bits)
-        | ChannelEncoding::Snorm(bits)
-        | ChannelEncoding::Uint(bits) => u32::from(bits),
-        ChannelEncoding::Srgb8 => 8,
-        ChannelEncoding::Float16 => 16,
-        ChannelEncoding::Float32 => 32,
-        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
-    }
 }
 
 /// Returns the bounds of a range of orders, as the numbers that the program compares. Of a value that came back as a

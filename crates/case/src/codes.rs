@@ -77,16 +77,7 @@ mod tests {
             assert_eq!(all.len(), (SIZE[0] * SIZE[1]) as usize * channels.len());
             for (c, encoding) in channels.iter().enumerate() {
                 let own = || all.iter().skip(c).step_by(channels.len()).copied();
-                let bits = match *encoding {
-                    ChannelEncoding::Unorm(bits)
-                    | ChannelEncoding::Uint(bits)
-                    | ChannelEncoding::Snorm(bits) => bits,
-                    ChannelEncoding::Srgb8 => 8,
-                    ChannelEncoding::Float16 => 16,
-                    ChannelEncoding::Float32 => 32,
-                    ChannelEncoding::Ufloat(mantissa) => mantissa + 5,
-                };
-                let due = u32::MAX >> (32 - bits);
+                let due = encoding.mask();
                 assert_eq!(own().fold(0, |a, b| a | b), due, "{format} {c}: ones");
                 assert_eq!(own().fold(due, |a, b| a & b), 0, "{format} {c}: zeros");
                 if encoding.is_float() {

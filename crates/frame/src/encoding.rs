@@ -30,6 +30,22 @@ pub enum ChannelEncoding {
 }
 
 impl ChannelEncoding {
+    /// The width of a code in bits.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Unorm(bits) | Self::Snorm(bits) | Self::Uint(bits) => u32::from(bits),
+            Self::Srgb8 => 8,
+            Self::Float16 => 16,
+            Self::Float32 => 32,
+            Self::Ufloat(mantissa) => u32::from(mantissa) + 5,
+        }
+    }
+
+    /// All bits of a code.
+    pub fn mask(self) -> u32 {
+        u32::MAX >> (32 - self.bits().clamp(1, 32))
+    }
+
     /// The number of codes that a distance of the whole range takes: from one end of a normalized or integer
     /// encoding to the other, from a power of two to the next one of a float.
     pub fn range(self) -> f64 {

@@ -1,6 +1,6 @@
 //! Colour codes in client memory.
 
-use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_frame::TextureFormat;
 
 /// The layout of a texel's channels in client memory.
 enum Layout {
@@ -41,7 +41,7 @@ pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
             .collect(),
         Layout::Packed(_, shifts) => channels
             .zip(shifts)
-            .map(|((_, e), s)| [*s, bits(*e)])
+            .map(|((_, e), s)| [*s, e.bits()])
             .collect(),
     }
 }
@@ -70,8 +70,7 @@ pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
     match layout(format) {
         Layout::Each(size) => bytes.chunks_exact(size).map(get).collect(),
         Layout::Packed(size, shifts) => {
-            let mask = |e: &ChannelEncoding| u32::MAX >> (32 - bits(*e));
-            let masks: Vec<u32> = format.color_channels().iter().map(mask).collect();
+            let masks: Vec<u32> = format.color_channels().iter().map(|e| e.mask()).collect();
             let texels = bytes.chunks_exact(size).map(get);
             texels
                 .flat_map(|word| shifts.iter().zip(&masks).map(move |(s, m)| word >> s & m))
@@ -98,19 +97,6 @@ fn get(bytes: &[u8]) -> u32 {
     }
 }
 
-/// Returns the width of a code in bits.
-pub(crate) fn bits(encoding: ChannelEncoding) -> u32 {
-    match encoding {
-        ChannelEncoding::Unorm(bits)
-        | ChannelEncoding::Snorm(bits)
-        | ChannelEncoding::Uint(bits) => u32::from(bits),
-        ChannelEncoding::Srgb8 => 8,
-        ChannelEncoding::Float16 => 16,
-        ChannelEncoding::Float32 => 32,
-        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,7 +108,7 @@ mod tests {
             let repeated = channels.iter().cycle().take(channels.len() * 3);
             let codes: Vec<u32> = (0..)
                 .zip(repeated)
-                .map(|(i, e)| 0x9e37_79b9_u32.rotate_left(i * 7) >> (32 - bits(*e)))
+                .map(|(i, e)| 0x9e37_79b9_u32.rotate_left(i * 7) >> (32 - e.bits()))
                 .collect();
             let bytes = pack(format, &codes);
             assert_eq!(bytes.len(), texel_bytes(format) * 3, "{format}");

@@ -7,11 +7,11 @@
 //! says is exact.
 
 use crate::context::Context;
+use crate::features;
 use crate::format::gl_format;
 use crate::program::translates;
 use crate::support::{ReadPlan, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind};
-use crate::{codes, features};
 use etalon_frame::{
     ChannelEncoding, Feature, FormatSupport, PathTarget, ReadPath, Requirement, TextureFormat,
 };
@@ -246,7 +246,7 @@ fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFo
     ];
     let channels = format.color_channels();
     let same = (0..).zip(sizes).all(|(i, name)| {
-        let expected = channels.get(i).map_or(0, |e| codes::bits(*e));
+        let expected = channels.get(i).map_or(0, |e| e.bits());
         u32::try_from(of_color(name)) == Ok(expected)
     });
     let expected = match channels.first() {

@@ -410,7 +410,7 @@ fn each(channels: u32, bits: u32) -> Vec<[u32; 2]> {
 
 /// Returns the code of at most 8 bits that was widened to a byte.
 fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
-    match codes::bits(encoding) {
+    match encoding.bits() {
         bits @ 1..8 => {
             let most = (1 << bits) - 1;
             (u32::from(byte) * most + 127) / 255

@@ -20,15 +20,9 @@ pub fn logic_operation(
     s: u32,
     d: u32,
 ) -> u32 {
-    let bits = match encoding {
-        ChannelEncoding::Unorm(bits)
-        | ChannelEncoding::Snorm(bits)
-        | ChannelEncoding::Uint(bits) => u32::from(bits),
-        ChannelEncoding::Srgb8
-        | ChannelEncoding::Float16
-        | ChannelEncoding::Float32
-        | ChannelEncoding::Ufloat(_) => return s,
-    };
+    if encoding.is_float() || encoding == ChannelEncoding::Srgb8 {
+        return s;
+    }
     let result = match operation {
         LogicOperation::Clear => 0,
         LogicOperation::And => s & d,
@@ -47,7 +41,7 @@ pub fn logic_operation(
         LogicOperation::Nand => !(s & d),
         LogicOperation::Set => u32::MAX,
     };
-    result & (u32::MAX >> (32 - bits))
+    result & encoding.mask()
 }
 
 #[cfg(test)]
