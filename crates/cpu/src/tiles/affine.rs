@@ -5,6 +5,7 @@
 
 use super::fragments::Fragments;
 use super::image::AREA;
+use super::layout::Field;
 use super::planes::with_encoding;
 use crate::lanes::Codes;
 use etalon_frame::ChannelEncoding;
@@ -20,6 +21,7 @@ pub(crate) struct Affine {
 /// The function of a channel that is written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
+    pub(crate) field: Field,
     pub(crate) encoding: ChannelEncoding,
     pub(crate) join: Join,
     /// False if 0 stands for the destination.
@@ -42,12 +44,9 @@ impl Affine {
     /// Applies the function to fragments of a sample's planes.
     #[inline(always)]
     pub(crate) fn masked<S: Simd>(&self, simd: S, planes: &mut [u32], fragments: &Fragments) {
-        for (channel, term) in self.terms.iter().enumerate() {
-            if let Some(term) = term {
-                fragments.replace(simd, &mut planes[channel * AREA..], |new| {
-                    term.apply(simd, new)
-                });
-            }
+        for term in self.terms.iter().flatten() {
+            let plane = &mut planes[term.field.word * AREA..];
+            fragments.replace(simd, plane, |new| term.apply(simd, new));
         }
     }
 
@@ -55,47 +54,50 @@ impl Affine {
     /// [`LANES`](crate::lanes::LANES).
     #[inline(always)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
-        for (channel, term) in self.terms.iter().enumerate() {
-            if let Some(term) = term {
-                let (lanes, _) = planes[channel * AREA..][..count].as_chunks_mut();
-                term.apply(simd, lanes);
-            }
+        for term in self.terms.iter().flatten() {
+            let (lanes, _) = planes[term.field.word * AREA..][..count].as_chunks_mut();
+            term.apply(simd, lanes);
         }
     }
 }
 
 impl Term {
-    /// Applies the function to codes. A function of its own: it is large.
+    /// Applies the function to words. A function of its own: it is large.
     #[inline(never)]
-    fn apply<S: Simd>(&self, simd: S, codes: &mut [Codes]) {
+    fn apply<S: Simd>(&self, simd: S, words: &mut [Codes]) {
         simd.vectorize(
             #[inline(always)]
-            || self.encoded(codes),
+            || self.encoded(words),
         );
     }
 
     #[inline(always)]
-    fn encoded(&self, codes: &mut [Codes]) {
-        with_encoding!(self.encoding, |known| self.joined(known, codes));
+    fn encoded(&self, words: &mut [Codes]) {
+        with_encoding!(self.encoding, |known| self.joined(known, words));
     }
 
     #[inline(always)]
-    fn joined(&self, encoding: ChannelEncoding, codes: &mut [Codes]) {
+    fn joined(&self, encoding: ChannelEncoding, words: &mut [Codes]) {
         match self.join {
-            Join::Sum => self.each(encoding, Join::Sum, codes),
-            Join::Least => self.each(encoding, Join::Least, codes),
-            Join::Most => self.each(encoding, Join::Most, codes),
+            Join::Sum => self.each(encoding, Join::Sum, words),
+            Join::Least => self.each(encoding, Join::Least, words),
+            Join::Most => self.each(encoding, Join::Most, words),
         }
     }
 
     #[inline(always)]
-    fn each(&self, encoding: ChannelEncoding, join: Join, codes: &mut [Codes]) {
+    fn each(&self, encoding: ChannelEncoding, join: Join, words: &mut [Codes]) {
         let mut plain = Plain::<1>;
         let read = if self.reads { u32::MAX } else { 0 };
-        let Self { factor, source, .. } = *self;
+        let Self {
+            field,
+            factor,
+            source,
+            ..
+        } = *self;
         // One by one: loops over groups of lanes become gathers and scatters.
-        for code in codes.as_flattened_mut() {
-            let value = plain.decode(encoding, [*code]);
+        for word in words.as_flattened_mut() {
+            let value = plain.decode(encoding, [field.code(*word)]);
             let [value] = plain.blend_operand(encoding, value);
             let stored = f32::from_bits(value.to_bits() & read);
             let value = match join {
@@ -104,7 +106,8 @@ impl Term {
                 Join::Most if source > stored => source,
                 Join::Least | Join::Most => stored,
             };
-            [*code] = plain.encode(encoding, [value]);
+            let [code] = plain.encode(encoding, [value]);
+            *word = field.replaced(*word, code);
         }
     }
 }

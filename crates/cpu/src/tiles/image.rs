@@ -1,18 +1,16 @@
 //! Attachments in memory, tile by tile.
 
 use super::TILE;
+use super::layout::{Field, Layout, Words};
 use super::threads::on_threads;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
-use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_frame::Aspect;
 use etalon_scene::{Attachment, Contents};
 
 /// The codes of a texel's colour channels of 8 bits; those that the format lacks are 0. In memory they are the bytes
 /// of a word.
 pub(crate) type Texel = [u8; 4];
-
-/// The words of a texel of colour: one of bytes, or the codes of all channels.
-pub(crate) type Words = [u32; 4];
 
 /// The texels of a tile.
 pub(crate) const AREA: usize = TILE * TILE;
@@ -22,7 +20,7 @@ const SHARED: usize = 1 << 16;
 
 /// An attachment. Each aspect holds tile after tile, in rows of tiles; a tile holds plane after plane, one for each
 /// word of each sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Image {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -30,9 +28,7 @@ pub(crate) struct Image {
     pub(crate) across: usize,
     pub(crate) samples: usize,
     /// The words of a texel of colour.
-    pub(crate) words: usize,
-    /// True if a word holds the bytes of all channels.
-    bytes: bool,
+    pub(crate) layout: Layout,
     pub(crate) color: Vec<u32>,
     pub(crate) depth: Vec<u32>,
     pub(crate) stencil: Vec<u8>,
@@ -48,66 +44,8 @@ pub(crate) struct Clears {
     pub(crate) stencil: Option<u8>,
 }
 
-/// True if each of these channels has 8 bits.
-pub(crate) fn are_bytes(encodings: &[ChannelEncoding]) -> bool {
-    use ChannelEncoding::{Snorm, Srgb8, Uint, Unorm};
-    let byte = |e: &ChannelEncoding| matches!(e, Unorm(8) | Snorm(8) | Uint(8) | Srgb8);
-    encodings.iter().all(byte)
-}
-
-/// Returns the number of words of a texel of these channels: one if each has 8 bits.
-pub(crate) fn words(encodings: &[ChannelEncoding]) -> usize {
-    match are_bytes(encodings) {
-        true => 1,
-        false => encodings.len(),
-    }
-}
-
-/// Returns the texel of these channels whose codes a function gives.
-pub(crate) fn texel(
-    encodings: &[ChannelEncoding],
-    code: impl Fn(usize, ChannelEncoding) -> u32,
-) -> Words {
-    let mut codes = [0; 4];
-    for (c, (slot, encoding)) in codes.iter_mut().zip(encodings).enumerate() {
-        *slot = code(c, *encoding);
-    }
-    match are_bytes(encodings) {
-        true => [word(codes.map(|c| c as u8)), 0, 0, 0],
-        false => codes,
-    }
-}
-
-/// Returns the word that a texel is in memory.
-#[inline(always)]
-pub(crate) fn word(texel: Texel) -> u32 {
-    u32::from_ne_bytes(texel)
-}
-
-/// Returns the codes of one channel of words that hold the bytes of all.
-#[inline(always)]
-pub(crate) fn channel<const N: usize>(words: &[u32; N], channel: usize) -> [u32; N] {
-    let mut codes = *words;
-    for code in &mut codes {
-        *code = u32::from_le(*code) >> (8 * channel) & 0xff;
-    }
-    codes
-}
-
-/// Returns the words that hold the bytes of all channels.
-#[inline(always)]
-pub(crate) fn joined<const N: usize>(codes: &[[u32; N]; 4]) -> [u32; N] {
-    let mut words = [0; N];
-    for (lane, word) in words.iter_mut().enumerate() {
-        let bytes =
-            codes[0][lane] | codes[1][lane] << 8 | codes[2][lane] << 16 | codes[3][lane] << 24;
-        *word = bytes.to_le();
-    }
-    words
-}
-
 /// Returns the words of a texel again and again.
-pub(crate) fn cycle(texel: Words, words: usize) -> impl Iterator<Item = u32> {
+fn cycle(texel: Words, words: usize) -> impl Iterator<Item = u32> {
     (0..words).cycle().map(move |word| texel[word])
 }
 
@@ -119,16 +57,15 @@ impl Image {
         let samples = attachment.samples as usize;
         let texels = across * down * samples * AREA;
         let format = attachment.format;
-        let words = words(format.color_channels());
+        let layout = Layout::new(format.color_channels());
         let count = |has: bool| if has { texels } else { 0 };
         Self {
             width,
             height,
             across,
             samples,
-            words,
-            bytes: are_bytes(format.color_channels()),
-            color: vec![0; words * count(format.is_color())],
+            layout,
+            color: vec![0; layout.words * count(format.is_color())],
             depth: vec![0; count(format.has_depth())],
             stencil: vec![0; count(format.has_stencil())],
             clear: Clears::default(),
@@ -141,8 +78,8 @@ impl Image {
         self.clear = Clears::default();
         match &attachment.contents {
             Contents::Color(value) => {
-                let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.clear.color = Some(texel(encodings, code));
+                let code = |c: usize| Faithful.clear_code(encodings[c], value[c]);
+                self.clear.color = Some(self.layout.texel(code));
             }
             Contents::DepthStencil { depth, stencil } => {
                 let encoding = depth_encoding(attachment.format);
@@ -152,8 +89,8 @@ impl Image {
             Contents::Texels(codes) => {
                 for (i, codes) in codes.chunks_exact(encodings.len()).enumerate() {
                     let (x, y) = (i % self.width, i / self.width);
-                    let texel = texel(encodings, |c, _| codes[c]);
-                    for (word, value) in texel.into_iter().enumerate().take(self.words) {
+                    let texel = self.layout.texel(|c| codes[c]);
+                    for (word, value) in texel.into_iter().enumerate().take(self.layout.words) {
                         let at = self.color_place(x, y, 0, word);
                         self.color[at] = value;
                     }
@@ -169,7 +106,7 @@ impl Image {
             for (plane, value) in self
                 .color
                 .chunks_exact_mut(AREA)
-                .zip(cycle(value, self.words))
+                .zip(cycle(value, self.layout.words))
             {
                 plane.fill(value);
             }
@@ -185,7 +122,7 @@ impl Image {
     /// Returns the place of a word of a texel's sample in colour's memory.
     pub(crate) fn color_place(&self, x: usize, y: usize, sample: usize, word: usize) -> usize {
         let tile = y / TILE * self.across + x / TILE;
-        let plane = (tile * self.samples + sample) * self.words + word;
+        let plane = (tile * self.samples + sample) * self.layout.words + word;
         plane * AREA + y % TILE * TILE + x % TILE
     }
 
@@ -230,34 +167,25 @@ impl Image {
         let step = self.samples * channels;
         let place = plane * AREA + within;
         match aspect {
-            Aspect::Color if !self.bytes && step == 4 && channels == 4 => {
-                let plane = |word: usize| &self.color[(plane * 4 + word) * AREA + within..][..TILE];
-                let (pairs, others) =
-                    (plane(0).iter().zip(plane(1)), plane(2).iter().zip(plane(3)));
-                let (texels, _) = codes.as_chunks_mut::<4>();
-                for (codes, ((r, g), (b, a))) in texels.iter_mut().zip(pairs.zip(others)) {
-                    *codes = [*r, *g, *b, *a];
-                }
-            }
-            Aspect::Color if !self.bytes => {
-                for word in 0..channels {
-                    let start = (plane * self.words + word) * AREA + within;
-                    let words = &self.color[start..][..TILE];
-                    spread(&mut codes[word..], step, words, |w| *w);
-                }
-            }
-            Aspect::Color if step == 4 && channels == 4 => {
-                let (texels, _) = codes.as_chunks_mut::<4>();
-                for (codes, texel) in texels.iter_mut().zip(&self.color[place..]) {
-                    *codes = texel.to_ne_bytes().map(u32::from);
-                }
-            }
             Aspect::Color => {
-                for c in 0..channels {
-                    let words = &self.color[place..][..TILE];
-                    spread(&mut codes[c..], step, words, |w| {
-                        u32::from(w.to_ne_bytes()[c])
-                    });
+                let words = |field: &Field| {
+                    let plane = plane * self.layout.words + field.word;
+                    &self.color[plane * AREA + within..][..TILE]
+                };
+                match (self.layout.fields(), self.samples) {
+                    ([r, g, b, a], 1) => {
+                        let pairs = words(r).iter().zip(words(g));
+                        let pairs = pairs.zip(words(b).iter().zip(words(a)));
+                        let (texels, _) = codes.as_chunks_mut::<4>();
+                        for (codes, ((x, y), (z, w))) in texels.iter_mut().zip(pairs) {
+                            *codes = [r.code(*x), g.code(*y), b.code(*z), a.code(*w)];
+                        }
+                    }
+                    (fields, _) => {
+                        for (c, field) in fields.iter().enumerate() {
+                            spread(&mut codes[c..], step, words(field), |w| field.code(*w));
+                        }
+                    }
                 }
             }
             Aspect::Depth => spread(codes, step, &self.depth[place..][..TILE], |code| *code),

@@ -1,5 +1,6 @@
 //! The kernels of a scene in words.
 
+use super::layout::Layout;
 use super::paint::{Kernel, Paint};
 use super::plan::{PassPlan, Plan, Shading};
 use etalon_scene::{Draw, Scene};
@@ -63,25 +64,16 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     ));
     match paint.kernel {
         Kernel::Keep => "not written",
-        Kernel::Store(_) | Kernel::Replace(_) => "stored",
-        Kernel::Bits { and, xor } if is_mask(and, xor) => "stored through a mask",
-        Kernel::Bits { .. } => "a function of each code's bits",
+        Kernel::Store(_) => "stored",
+        Kernel::Bits(bits) if bits.replaces() => "stored",
+        Kernel::Bits(bits) if bits.is_mask(&Layout::new(pass.channels)) => "stored through a mask",
+        Kernel::Bits(_) => "a function of each code's bits",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",
         Kernel::Weighted(_) => "factors of few channels",
         Kernel::Affine(_) => "a product and a sum in each channel",
         Kernel::Copy => "copied",
         Kernel::Varying(_) => "plain arithmetic on two operands",
-        Kernel::Lanes(_) => "plain arithmetic on bytes",
-        Kernel::Wide(_) => "plain arithmetic on codes",
+        Kernel::Lanes(_) => "plain arithmetic on codes",
     }
-}
-
-/// True if a function of bits replaces whole channels and keeps the others.
-fn is_mask(and: [u8; 4], xor: [u8; 4]) -> bool {
-    and.iter().zip(xor).all(|(and, xor)| match and {
-        0 => true,
-        0xff => xor == 0,
-        _ => false,
-    })
 }

@@ -8,12 +8,14 @@
 //! its triangles in their order, and no product is fused with a sum.
 
 mod affine;
+mod bits;
 mod depth;
 mod depth_stencil;
 mod edges;
 mod fragments;
 mod image;
 mod lanes;
+mod layout;
 mod linear;
 mod listing;
 mod opaque;

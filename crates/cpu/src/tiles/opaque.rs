@@ -4,7 +4,6 @@ use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{answers, passing};
 use super::edges::{Edges, Rows};
-use super::image::word;
 use super::lanes::NUMBERS;
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, Shading};
@@ -37,8 +36,7 @@ impl Store {
     pub(crate) fn new(triangle: &Triangle, plan: &DrawPlan, paint: &Paint) -> Option<Self> {
         let color = match &paint.kernel {
             Kernel::Keep => None,
-            Kernel::Store(value) => Some(word(*value)),
-            Kernel::Replace(stored) if stored.words == 1 => Some(stored.values[0]),
+            Kernel::Store(word) => Some(*word),
             _ => return None,
         };
         let shaded = matches!(

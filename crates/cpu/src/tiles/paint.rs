@@ -6,9 +6,11 @@
 //! [affine](Affine) functions and [weights](Weights) say them without a choice per texel.
 
 use super::affine::{Affine, Join, Term};
+use super::bits::Bits;
 use super::fragments::Fragments;
-use super::image::{AREA, Texel, Words, are_bytes, channel, joined, word};
+use super::image::{AREA, Texel};
 use super::lanes::{ALL, Mask, lanes, select};
+use super::layout::{Layout, are_bytes};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
 use super::texels::Sources;
@@ -45,38 +47,24 @@ pub(crate) struct Paint {
 pub(crate) enum Kernel {
     /// Leaves them.
     Keep,
-    /// Replaces them.
-    Store(Texel),
+    /// Replaces them by a word.
+    Store(u32),
     /// Keeps some bits, replaces the others, and inverts some of those that it keeps.
-    Bits { and: Texel, xor: Texel },
+    Bits(Bits),
     /// A product and a sum in each channel.
     Linear(Box<Linear>),
     /// A function of each channel's own code.
     Table(Box<[[u8; CODES]; 4]>),
     /// A sum of products of few channels.
     Weighted(Box<Weights>),
+    /// A product and a sum in each channel, or the least or greatest.
+    Affine(Box<Affine>),
     /// Any function.
     Lanes(Box<Blending>),
-    /// Replaces words of texels that have several.
-    Replace(Stored),
-    /// A product and a sum in each channel of texels that have several words, or the least or greatest.
-    Affine(Box<Affine>),
-    /// Any function of texels that have several words.
-    Wide(Box<Blending>),
     /// Replaces them by the words of fetched texels.
     Copy,
     /// Any function of them and of fetched texels.
     Varying(Box<Varying>),
-}
-
-/// The words that replace a texel's.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stored {
-    pub(crate) values: Words,
-    /// The number of words.
-    pub(crate) words: usize,
-    /// Bit `i` is set if word `i` is replaced.
-    pub(crate) written: u8,
 }
 
 /// The state that colours are blended and stored by, with the source.
@@ -89,6 +77,7 @@ pub(crate) struct Blending {
     obeys: bool,
     alpha_to_one: bool,
     channels: &'static [ChannelEncoding],
+    layout: Layout,
     /// The second source's alpha is 1.
     second_alpha: bool,
 }
@@ -119,7 +108,7 @@ impl Paint {
         let drawn = (0..samples)
             .filter(|s| covered(*s))
             .fold(0, |bits, s| bits | 1 << s);
-        let kernel = |target: &ColorTarget, channels, obeys| {
+        let kernel = |target: &ColorTarget, channels: &'static [ChannelEncoding], obeys| {
             let blending = Blending {
                 source,
                 target: *target,
@@ -128,6 +117,7 @@ impl Paint {
                 obeys,
                 alpha_to_one: draw.alpha_to_one(),
                 channels,
+                layout: Layout::new(channels),
                 second_alpha: state.alpha_to_one,
             };
             match shading {
@@ -166,30 +156,14 @@ impl Blending {
         if !(0..count).any(written) {
             return Kernel::Keep;
         }
-        let replaces = self.target.blend.is_none() && (self.logic.is_none() || !self.obeys);
-        if !are_bytes(self.channels) {
-            if !replaces {
-                return match self.affine() {
-                    Some(affine) => Kernel::Affine(Box::new(affine)),
-                    None => Kernel::Wide(Box::new(self)),
-                };
-            }
-            let mut values = [0; 4];
-            for (c, codes) in self.codes(simd, &[[0; LANES]; 4]).into_iter().enumerate() {
-                values[c] = codes[0];
-            }
-            return Kernel::Replace(Stored {
-                values,
-                words: self.channels.len(),
-                written: self.target.write_mask,
-            });
+        if self.target.blend.is_none() {
+            return Kernel::of_bits(self.bits(simd));
         }
-        if replaces {
-            let [value, ..] = self.applied(simd, &[[0; 4]; LANES]);
-            let keep: Texel =
-                std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
-            let replaced = std::array::from_fn(|c| value[c] & !keep[c]);
-            return Kernel::of_bits(keep, replaced);
+        if !are_bytes(self.channels) {
+            return match self.affine() {
+                Some(affine) => Kernel::Affine(Box::new(affine)),
+                None => Kernel::Lanes(Box::new(self)),
+            };
         }
         if quick || !self.is_separable() {
             return match self.weights() {
@@ -199,20 +173,17 @@ impl Blending {
         }
         let mut table = Box::new([[0; CODES]; 4]);
         for first in (0..CODES).step_by(LANES) {
-            let mut codes = [[0; 4]; LANES];
-            for (i, texel) in codes.iter_mut().enumerate() {
-                *texel = [(first + i) as u8; 4];
-            }
-            for (i, texel) in self.applied(simd, &codes).into_iter().enumerate() {
-                for (table, code) in table.iter_mut().zip(texel) {
-                    table[first + i] = code;
+            let old = std::array::from_fn(|i| (first + i) as u32);
+            for (table, codes) in table.iter_mut().zip(self.codes(simd, &[old; 4])) {
+                for (slot, code) in table[first..].iter_mut().zip(codes) {
+                    *slot = code as u8;
                 }
             }
         }
         // Bytes that no channel has are not read.
         table[count..].fill([0; CODES]);
-        if let Some(bits) = bits(&table) {
-            return bits;
+        if let Some(bits) = bits(&table, &self.layout) {
+            return Kernel::of_bits(bits);
         }
         let linear = simd.vectorize(
             #[inline(always)]
@@ -238,8 +209,18 @@ impl Blending {
                 logic: self.logic.filter(|_| self.obeys),
                 opaque: [self.alpha_to_one, self.second_alpha],
                 channels: self.channels,
+                layout: self.layout,
             })),
         }
+    }
+
+    /// Returns the function of bits that colours are stored by without blending, logic operations among them.
+    fn bits<S: Simd>(&self, simd: S) -> Bits {
+        let of = |code: u32| {
+            let new = self.codes(simd, &self.channels().0.map(|e| [code & e.mask(); LANES]));
+            self.layout.texel(|c| new[c][0])
+        };
+        Bits::new(&self.layout, of(0), of(u32::MAX))
     }
 
     /// Returns true if each channel's result depends on no other channel of the destination.
@@ -357,6 +338,7 @@ impl Blending {
         };
         let finite = source.is_finite() && factor.is_finite();
         finite.then_some(Term {
+            field: self.layout.fields()[c],
             encoding,
             join,
             reads,
@@ -456,40 +438,38 @@ impl Blending {
         result
     }
 
-    /// Returns texels of bytes after the function.
+    /// Applies the function to lanes of a sample's planes, where a mask holds.
     #[inline(always)]
-    fn applied<S: Simd>(&self, simd: S, texels: &[Texel; LANES]) -> [Texel; LANES] {
-        let words = bytemuck::cast(*texels);
-        let old = std::array::from_fn(|c| channel(&words, c));
-        bytemuck::cast(joined(&self.codes(simd, &old)))
-    }
-
-    /// Applies the function to lanes of a sample's planes of several words, where a mask holds.
-    #[inline(always)]
-    fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: Mask) {
-        let new = self.codes(simd, &self.words(planes, at));
-        for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
-            select(simd, lanes(planes, c * AREA + at), mask, codes);
+    fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: Mask) {
+        let fields = self.layout.fields();
+        let mut old = [[0; LANES]; 4];
+        for (old, field) in old.iter_mut().zip(fields) {
+            let words = lanes(planes, field.word * AREA + at);
+            for (code, word) in old.iter_mut().zip(words) {
+                *code = field.code(*word);
+            }
         }
-    }
-
-    /// Returns the codes of texels that have several words.
-    #[inline(always)]
-    fn words(&self, planes: &mut [u32], at: usize) -> [Codes; 4] {
-        let mut codes = [[0; LANES]; 4];
-        for (c, codes) in codes.iter_mut().enumerate().take(self.channels.len()) {
-            *codes = *lanes(planes, c * AREA + at);
+        let new = self.codes(simd, &old);
+        for word in 0..self.layout.words {
+            let stored = lanes(planes, word * AREA + at);
+            let mut words = *stored;
+            for (field, codes) in fields.iter().zip(&new) {
+                if field.word == word {
+                    for (word, code) in words.iter_mut().zip(codes) {
+                        *word = field.replaced(*word, *code);
+                    }
+                }
+            }
+            select(simd, stored, mask, &words);
         }
-        codes
     }
 }
 
 impl Kernel {
-    /// Returns the function that keeps the bits of the first, and then inverts those of the second.
-    fn of_bits(and: Texel, xor: Texel) -> Self {
-        match and {
-            [0, 0, 0, 0] => Self::Store(xor),
-            _ => Self::Bits { and, xor },
+    fn of_bits(bits: Bits) -> Self {
+        match bits.stored() {
+            Some(word) => Self::Store(word),
+            None => Self::Bits(bits),
         }
     }
 
@@ -510,16 +490,12 @@ impl Kernel {
         let texels = bytemuck::cast_slice_mut::<_, Texel>;
         match self {
             Self::Keep => {}
-            Self::Store(value) => {
+            Self::Store(word) => {
                 for (at, mask) in fragments.groups() {
-                    select(simd, lanes(planes, at), mask, &[word(*value); LANES]);
+                    select(simd, lanes(planes, at), mask, &[*word; LANES]);
                 }
             }
-            Self::Bits { and, xor } => {
-                fragments.replace(simd, planes, |new| {
-                    apply_bits(new.as_flattened_mut(), *and, *xor)
-                });
-            }
+            Self::Bits(bits) => bits.masked(simd, planes, fragments),
             Self::Linear(linear) => {
                 fragments.replace(simd, planes, |new| {
                     linear.apply(simd, texels(new.as_flattened_mut()))
@@ -542,25 +518,10 @@ impl Kernel {
             }
             Self::Lanes(blending) => {
                 for (at, mask) in fragments.groups() {
-                    let stored = lanes(planes, at);
-                    let new = blending.applied(simd, bytemuck::cast_ref(stored));
-                    select(simd, stored, mask, &bytemuck::cast(new));
-                }
-            }
-            Self::Replace(stored) => {
-                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
-                    let plane = &mut planes[word * AREA..];
-                    for (at, mask) in fragments.groups() {
-                        select(simd, lanes(plane, at), mask, &[stored.values[word]; LANES]);
-                    }
+                    blending.apply(simd, planes, at, mask);
                 }
             }
             Self::Affine(affine) => affine.masked(simd, planes, fragments),
-            Self::Wide(blending) => {
-                for (at, mask) in fragments.groups() {
-                    blending.wide(simd, planes, at, mask);
-                }
-            }
             Self::Copy => {
                 for (at, mask) in fragments.groups() {
                     select(simd, lanes(planes, at), mask, &sources.words(at));
@@ -583,18 +544,12 @@ impl Kernel {
     #[inline(always)]
     fn whole_of<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         match self {
-            Self::Store(value) => return planes[..count].fill(word(*value)),
-            Self::Replace(stored) => {
-                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
-                    planes[word * AREA..][..count].fill(stored.values[word]);
-                }
-                return;
-            }
-            Self::Bits { and, xor } => return apply_bits(&mut planes[..count], *and, *xor),
+            Self::Store(word) => return planes[..count].fill(*word),
+            Self::Bits(bits) => return bits.whole(planes, count),
             Self::Affine(affine) => return affine.whole(simd, planes, count),
-            Self::Wide(blending) => {
+            Self::Lanes(blending) => {
                 for at in (0..count).step_by(LANES) {
-                    blending.wide(simd, planes, at, ALL);
+                    blending.apply(simd, planes, at, ALL);
                 }
                 return;
             }
@@ -603,11 +558,10 @@ impl Kernel {
         let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
         match self {
             Self::Keep
-            | Self::Bits { .. }
+            | Self::Bits(_)
             | Self::Store(_)
-            | Self::Replace(_)
             | Self::Affine(_)
-            | Self::Wide(_)
+            | Self::Lanes(_)
             | Self::Copy
             | Self::Varying(_) => {}
             Self::Linear(linear) => linear.apply(simd, texels),
@@ -619,34 +573,17 @@ impl Kernel {
             Self::Weighted(weights) => {
                 weights.apply(simd, texels.as_chunks_mut::<LANES>().0);
             }
-            Self::Lanes(blending) => {
-                for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = blending.applied(simd, chunk);
-                }
-            }
         }
     }
 }
 
-/// Returns the function that keeps and inverts bits or replaces all, if it is equal to tables in all codes. Logic
-/// operations are such.
-fn bits(tables: &[[u8; CODES]; 4]) -> Option<Kernel> {
-    let (and, xor) = (
-        tables.each_ref().map(|t| t[0] ^ t[CODES - 1]),
-        tables.each_ref().map(|t| t[0]),
-    );
-    let equal = |c: usize| {
-        let mut codes = tables[c].iter().zip(0..=u8::MAX);
-        codes.all(|(new, old)| *new == old & and[c] ^ xor[c])
+/// Returns the function of bits that is equal to tables in all codes, if there is one.
+fn bits(tables: &[[u8; CODES]; 4], layout: &Layout) -> Option<Bits> {
+    let equal = |table: &[u8; CODES]| {
+        let (and, xor) = (table[0] ^ table[CODES - 1], table[0]);
+        let mut codes = table.iter().zip(0..=u8::MAX);
+        codes.all(|(new, old)| *new == old & and ^ xor)
     };
-    (0..4).all(equal).then(|| Kernel::of_bits(and, xor))
-}
-
-/// Keeps some bits of words, and inverts some.
-#[inline(always)]
-fn apply_bits(words: &mut [u32], and: Texel, xor: Texel) {
-    let [and, xor] = [and, xor].map(word);
-    for word in words {
-        *word = *word & and ^ xor;
-    }
+    let of = |code: usize| layout.texel(|c| tables[c][code].into());
+    (tables.iter().all(equal)).then(|| Bits::new(layout, of(0), of(CODES - 1)))
 }

@@ -1,5 +1,6 @@
 //! The choice of kernels: once per draw, when a scene is prepared.
 
+use super::resolve::Resolve;
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::bounds;
@@ -28,8 +29,8 @@ pub(crate) struct Plan {
 pub(crate) struct PassPlan {
     /// The colour attachment.
     pub(crate) color: Option<usize>,
-    /// The attachment that it is resolved to.
-    pub(crate) resolve: Option<usize>,
+    /// The attachment that it is resolved to, and how.
+    pub(crate) resolve: Option<(usize, Resolve)>,
     /// The attachment of depth and stencil.
     pub(crate) depth_stencil: Option<usize>,
     pub(crate) size: [usize; 2],
@@ -186,16 +187,18 @@ impl PassPlan {
             logic: takes_logic(format(index)),
         };
         let depth_stencil = pass.depth_stencil;
+        let channels = color.map_or(&[][..], |i| format(i).color_channels());
+        let resolve = pass.resolve.first().copied().flatten();
         let mut plan = Self {
             color,
-            resolve: pass.resolve.first().copied().flatten(),
+            resolve: resolve.map(|i| (i, Resolve::new(channels, positions.len()))),
             depth_stencil,
             size: size.map(|s| s as usize),
             positions: positions
                 .into_iter()
                 .map(|p| p.map(|v| i32::from(v) * UNITS as i32 / 256))
                 .collect(),
-            channels: color.map_or(&[], |i| format(i).color_channels()),
+            channels,
             logic: color.is_some_and(|i| takes_logic(format(i))),
             others: pass.color.iter().skip(1).map(|i| target(*i)).collect(),
             depth: depth_stencil.and_then(|i| depth_encoding(format(i))),

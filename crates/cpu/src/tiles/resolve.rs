@@ -1,22 +1,24 @@
 //! The resolve of colours: the average of a texel's samples.
 
-use super::image::{AREA, Texel, are_bytes};
+use super::image::AREA;
+use super::layout::Layout;
 use crate::lanes::{Codes, LANES};
-use etalon_frame::ChannelEncoding;
+use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
 
-/// Returns true if the average of equal samples is their code, for all codes.
+/// True if the average of equal samples is known to be their code, for all codes of these channels.
 fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
     let share = 1.0 / samples as f32;
-    let unorm = channels.iter().all(|e| *e == ChannelEncoding::Unorm(8));
-    unorm
-        && (0..=255).all(|code| {
-            let encoding = ChannelEncoding::Unorm(8);
-            let [value] = Plain::<1>.decode(encoding, [code]);
+    let small = |e: &ChannelEncoding| matches!(e, Unorm(..=10) | Srgb8);
+    let same = |e: &ChannelEncoding| {
+        (0..=e.mask()).all(|code| {
+            let [value] = Plain::<1>.decode(*e, [code]);
             let sum = (1..samples).fold(value, |sum, _| sum + value);
-            Plain::<1>.encode(encoding, [sum * share]) == [code]
+            Plain::<1>.encode(*e, [sum * share]) == [code]
         })
+    };
+    channels.iter().all(small) && channels.iter().all(same)
 }
 
 /// Returns the average of the samples of one channel, whose codes a function gives.
@@ -36,75 +38,68 @@ fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> C
     Plain::<LANES>.encode(encoding, average)
 }
 
-/// Resolves the planes of a tile. With `same` the first sample stands for all.
-#[inline(never)]
-pub(crate) fn resolve<S: Simd>(
-    simd: S,
-    channels: &[ChannelEncoding],
-    planes: &[u32],
+/// The resolve of a pass's colours.
+#[derive(Debug)]
+pub(crate) struct Resolve {
+    channels: &'static [ChannelEncoding],
+    layout: Layout,
     samples: usize,
-    same: bool,
-    resolved: &mut [u32],
-) {
-    simd.vectorize(
-        #[inline(always)]
-        || average_all(channels, planes, samples, same, resolved),
-    );
+    /// True if the average of equal samples is known to be their code.
+    known: bool,
 }
 
-#[inline(always)]
-fn average_all(
-    channels: &[ChannelEncoding],
-    planes: &[u32],
-    samples: usize,
-    same: bool,
-    resolved: &mut [u32],
-) {
-    let bytes = are_bytes(channels);
-    if !bytes {
-        let words = channels.len();
-        for (word, (encoding, target)) in channels
-            .iter()
-            .zip(resolved.chunks_exact_mut(AREA))
-            .enumerate()
-        {
-            for at in (0..AREA).step_by(LANES) {
-                let codes = |sample: usize| {
-                    let plane = word + if same { 0 } else { sample * words };
-                    let mut codes = [0; LANES];
-                    codes.copy_from_slice(&planes[plane * AREA + at..][..LANES]);
-                    codes
-                };
-                target[at..at + LANES].copy_from_slice(&average(*encoding, samples, codes));
-            }
+impl Resolve {
+    /// Returns the resolve of so many samples of these channels.
+    pub(crate) fn new(channels: &'static [ChannelEncoding], samples: usize) -> Self {
+        Self {
+            channels,
+            layout: Layout::new(channels),
+            samples,
+            known: averages_are_codes(channels, samples),
         }
-        return;
     }
-    let known = averages_are_codes(channels, samples);
-    let plane = |sample: usize| &planes[if same { 0 } else { sample * AREA }..][..AREA];
-    let (targets, _) = resolved.as_chunks_mut::<LANES>();
-    for (at, target) in targets.iter_mut().enumerate() {
-        let texels = |sample: usize| &plane(sample)[at * LANES..][..LANES];
-        let differ = (1..samples).fold(0, |bits, sample| {
-            let pairs = texels(0).iter().zip(texels(sample));
-            pairs.fold(bits, |bits, (a, b)| bits | (a ^ b))
-        });
-        if known && differ == 0 {
-            target.copy_from_slice(texels(0));
-            continue;
-        }
-        let target: &mut [Texel; LANES] = bytemuck::cast_mut(target);
-        for (c, encoding) in channels.iter().enumerate() {
-            let codes = |sample: usize| {
-                let mut codes = [0; LANES];
-                for (code, texel) in codes.iter_mut().zip(texels(sample)) {
-                    *code = u32::from(texel.to_ne_bytes()[c]);
-                }
-                codes
+
+    /// Resolves the planes of a tile. With `same` the first sample stands for all.
+    #[inline(never)]
+    pub(crate) fn tile<S: Simd>(&self, simd: S, planes: &[u32], same: bool, resolved: &mut [u32]) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.tile_of(planes, same, resolved),
+        );
+    }
+
+    #[inline(always)]
+    fn tile_of(&self, planes: &[u32], same: bool, resolved: &mut [u32]) {
+        for (word, target) in resolved.chunks_exact_mut(AREA).enumerate() {
+            let plane = |sample: usize| {
+                let first = if same { 0 } else { sample * self.layout.words };
+                &planes[(first + word) * AREA..][..AREA]
             };
-            let new = average(*encoding, samples, codes);
-            for (texel, code) in target.iter_mut().zip(new) {
-                texel[c] = code as u8;
+            let (targets, _) = target.as_chunks_mut::<LANES>();
+            for (at, target) in targets.iter_mut().enumerate() {
+                let words = |sample: usize| &plane(sample)[at * LANES..][..LANES];
+                let differ = (1..self.samples).fold(0, |bits, sample| {
+                    let pairs = words(0).iter().zip(words(sample));
+                    pairs.fold(bits, |bits, (a, b)| bits | (a ^ b))
+                });
+                if self.known && differ == 0 {
+                    target.copy_from_slice(words(0));
+                    continue;
+                }
+                let channels = self.layout.fields().iter().zip(self.channels);
+                for (field, encoding) in channels.filter(|(field, _)| field.word == word) {
+                    let codes = |sample: usize| {
+                        let mut codes = [0; LANES];
+                        for (code, word) in codes.iter_mut().zip(words(sample)) {
+                            *code = field.code(*word);
+                        }
+                        codes
+                    };
+                    let new = average(*encoding, self.samples, codes);
+                    for (word, code) in target.iter_mut().zip(new) {
+                        *word = field.replaced(*word, code);
+                    }
+                }
             }
         }
     }

@@ -1,7 +1,8 @@
 //! A scene that is drawn in tiles.
 
 use super::TILE;
-use super::image::{AREA, Image, texel, words};
+use super::image::{AREA, Image};
+use super::layout::Layout;
 use super::plan::{PassPlan, Plan};
 use super::setup::{Input, Part, place};
 use super::threads::{available, on_threads};
@@ -72,8 +73,9 @@ impl TiledScene {
         for (location, index) in pass.color.iter().enumerate() {
             if let LoadOperation::Clear(value) = pass.color_operations(location).load {
                 let encodings = self.scene.attachments[*index].format.color_channels();
-                let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.images[*index].clear.color = Some(texel(encodings, code));
+                let code = |c: usize| Faithful.clear_code(encodings[c], value[c]);
+                let image = &mut self.images[*index];
+                image.clear.color = Some(image.layout.texel(code));
             }
         }
         let Some(index) = pass.depth_stencil else {
@@ -97,11 +99,10 @@ impl TiledScene {
         for (index, aspect) in self.scene.passes[pass].discarded() {
             let format = self.scene.attachments[index].format;
             let code = |encoding: ChannelEncoding| encoding.nearest_code(DISCARDED);
-            let clear = &mut self.images[index].clear;
+            let Image { clear, layout, .. } = &mut self.images[index];
+            let encodings = format.color_channels();
             match aspect {
-                Aspect::Color => {
-                    clear.color = Some(texel(format.color_channels(), |_, e| code(e)));
-                }
+                Aspect::Color => clear.color = Some(layout.texel(|c| code(encodings[c]))),
                 Aspect::Depth => clear.depth = depth_encoding(format).map(code),
                 Aspect::Stencil => clear.stencil = format.has_stencil().then_some(0x99),
             }
@@ -114,7 +115,7 @@ impl TiledScene {
         let pass = &self.scene.passes[number];
         let mut take = |i: usize| (i, std::mem::take(&mut self.images[i].color));
         let color = plan.color.map(&mut take);
-        let resolved = plan.resolve.map(&mut take);
+        let resolved = plan.resolve.as_ref().map(|(i, _)| take(*i));
         let mut others: Vec<_> = plan.others.iter().map(|o| take(o.index)).collect();
         let depth_stencil = plan.depth_stencil.map(|i| {
             let image = &mut self.images[i];
@@ -133,13 +134,13 @@ impl TiledScene {
                 Some((_, depth, stencil)) => (depth.as_mut_slice(), stencil.as_mut_slice()),
                 None => (&mut [][..], &mut [][..]),
             };
-            let words = words(plan.channels);
+            let words = Layout::new(plan.channels).words;
             let mut colors = chunks(color.as_mut().map(|c| c.1.as_mut_slice()), samples * words);
             let mut targets = chunks(resolved.as_mut().map(|c| c.1.as_mut_slice()), words);
             let mut others: Vec<_> = others
                 .iter_mut()
                 .map(|(i, memory)| {
-                    let words = self.images[*i].words;
+                    let words = self.images[*i].layout.words;
                     let planes = chunks(Some(memory), samples * words);
                     (planes, words, self.images[*i].clear.color)
                 })

@@ -1,6 +1,6 @@
 //! Textures whose texels a shader fetches where it draws.
 
-use super::image::{AREA, Image, are_bytes, channel};
+use super::image::{AREA, Image};
 use super::plan::Fetched;
 use super::planes::{CodePlane, Plane, decode};
 use crate::lanes::{Codes, LANES};
@@ -97,7 +97,7 @@ impl Texture<'_> {
         if let Some(clear) = self.image.clear.color {
             return [clear[word]; LANES];
         }
-        let start = (tile * self.image.words + word) * AREA + at;
+        let start = (tile * self.image.layout.words + word) * AREA + at;
         let (lanes, _) = self.image.color[start..start + LANES].as_chunks();
         lanes[0]
     }
@@ -106,22 +106,24 @@ impl Texture<'_> {
     /// alpha.
     #[inline(always)]
     fn values(&self, tile: usize, places: &[u16], values: &mut [Plane; 4]) {
-        let mut words: CodePlane = [0; _];
-        let bytes = are_bytes(self.channels);
+        let (mut words, mut codes): (CodePlane, CodePlane) = ([0; _], [0; _]);
         let count = places.len() * LANES;
+        let fields = self.image.layout.fields();
+        let mut last = None;
         for (c, values) in values.iter_mut().enumerate() {
-            if c == 0 || !bytes && c < self.channels.len() {
+            let (Some(field), Some(encoding)) = (fields.get(c), self.channels.get(c)) else {
+                values.fill(if c == 3 { 1.0 } else { 0.0 });
+                continue;
+            };
+            if last.replace(field.word) != Some(field.word) {
                 for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
-                    *words = self.plane(tile, usize::from(*at), c);
+                    *words = self.plane(tile, usize::from(*at), field.word);
                 }
             }
-            match self.channels.get(c) {
-                Some(encoding) if bytes => {
-                    decode(*encoding, &channel(&words, c)[..count], values);
-                }
-                Some(encoding) => decode(*encoding, &words[..count], values),
-                None => values.fill(if c == 3 { 1.0 } else { 0.0 }),
+            for (code, word) in codes.iter_mut().zip(&words) {
+                *code = field.code(*word);
             }
+            decode(*encoding, &codes[..count], values);
         }
     }
 }

@@ -13,7 +13,6 @@ use super::lanes::{ALL, Mask, columns, lanes, select};
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
-use super::resolve::resolve;
 use super::setup::{Entry, Input, Part, tile_texels};
 use super::texels::Sources;
 use super::texture::Coordinates;
@@ -637,16 +636,8 @@ impl Drawing<'_, '_> {
         others.iter_mut().for_each(|o| o.touch(self.same));
         depth.touch(self.same);
         stencil.touch(self.same);
-        if !resolved.is_empty() {
-            let samples = self.pass.positions.len();
-            resolve(
-                simd,
-                self.pass.channels,
-                color.planes,
-                samples,
-                self.same,
-                resolved,
-            );
+        if let Some((_, resolve)) = &self.pass.resolve {
+            resolve.tile(simd, color.planes, self.same, resolved);
         }
         if self.same {
             self.expand();

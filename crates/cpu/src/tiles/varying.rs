@@ -5,8 +5,9 @@
 //! lanes become gathers and scatters.
 
 use super::fragments::Fragments;
-use super::image::{AREA, are_bytes, channel, joined};
+use super::image::AREA;
 use super::lanes::{Mask, lanes, select};
+use super::layout::Layout;
 use super::planes::{GROUPS, Plane, TEXELS, decode, encode, with_encoding};
 use super::texels::Sources;
 use crate::lanes::LANES;
@@ -28,6 +29,7 @@ pub(crate) struct Varying {
     /// Whether the alphas of both sources are 1.
     pub(crate) opaque: [bool; 2],
     pub(crate) channels: &'static [ChannelEncoding],
+    pub(crate) layout: Layout,
 }
 
 /// The inputs of a blend: source, second source and destination, channel by channel.
@@ -84,22 +86,21 @@ impl Varying {
         inputs: &mut Inputs,
     ) {
         let count = places.len() * LANES;
-        let channels = self.channels.len();
-        let bytes = are_bytes(self.channels);
+        let (layout, fields) = (&self.layout, self.layout.fields());
         sources.first(places, &mut inputs.source);
         if self.opaque[0] {
             inputs.source[3].fill(1.0);
         }
-        let mut old = [[0; TEXELS]; 4];
-        for (word, old) in (0..if bytes { 1 } else { channels }).zip(&mut old) {
-            for (old, at) in old.as_chunks_mut().0.iter_mut().zip(places) {
-                *old = *lanes(planes, word * AREA + usize::from(*at));
+        let mut words = [[0; TEXELS]; 4];
+        for (word, words) in words.iter_mut().enumerate().take(layout.words) {
+            for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
+                *words = *lanes(planes, word * AREA + usize::from(*at));
             }
         }
-        if bytes {
-            let words = old[0];
-            for (c, old) in old.iter_mut().enumerate() {
-                *old = channel(&words, c);
+        let mut old = [[0; TEXELS]; 4];
+        for (old, field) in old.iter_mut().zip(fields) {
+            for (old, word) in old.iter_mut().zip(&words[field.word]) {
+                *old = field.code(*word);
             }
         }
         if let Some(state) = &self.target.blend {
@@ -114,33 +115,33 @@ impl Varying {
             }
             self.hold(sources, inputs, count);
         }
-        let mut new = old;
+        let mut codes = [0; TEXELS];
         for (c, encoding) in self.channels.iter().enumerate() {
             if self.target.write_mask & (1 << c) == 0 {
                 continue;
             }
             match &self.target.blend {
-                None => encode(*encoding, &inputs.source[c][..count], &mut new[c]),
+                None => encode(*encoding, &inputs.source[c][..count], &mut codes),
                 Some(state) if self.in_unit(sources, state, c) => {
-                    self.blended_in_unit(state, c, inputs, &mut new[c][..count]);
+                    self.blended_in_unit(state, c, inputs, &mut codes[..count]);
                 }
                 Some(state) => {
                     let mut values = [0.0; TEXELS];
                     self.blended(state, c, inputs, &mut values[..count]);
-                    encode(*encoding, &values[..count], &mut new[c]);
+                    encode(*encoding, &values[..count], &mut codes);
                 }
             }
             if let Some(operation) = self.logic {
-                for (new, old) in new[c][..count].iter_mut().zip(&old[c]) {
+                for (new, old) in codes[..count].iter_mut().zip(&old[c]) {
                     [*new] = Plain::<1>.logic(*encoding, operation, [*new], [*old]);
                 }
             }
+            let field = fields[c];
+            for (word, code) in words[field.word].iter_mut().zip(&codes) {
+                *word = field.replaced(*word, *code);
+            }
         }
-        let mut words = channels;
-        if bytes {
-            (new[0], words) = (joined(&new), 1);
-        }
-        for (word, new) in new.iter().enumerate().take(words) {
+        for (word, new) in words.iter().enumerate().take(layout.words) {
             let groups = new.as_chunks().0.iter().zip(places.iter().zip(masks));
             for (new, (at, mask)) in groups {
                 let stored = lanes(planes, word * AREA + usize::from(*at));

@@ -1,0 +1,101 @@
+//! Functions of the bits of texels: masks, values that replace others, and logic operations.
+
+use super::fragments::Fragments;
+use super::image::AREA;
+use super::lanes::{lanes, select};
+use super::layout::{Layout, Words};
+use crate::lanes::LANES;
+use fearless_simd::Simd;
+
+/// A function that keeps some bits of a texel's words, replaces the others, and inverts some of those that it keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bits {
+    and: Words,
+    xor: Words,
+    words: usize,
+}
+
+impl Bits {
+    /// Returns the function that makes one texel of zeros and another of ones, where each channel is given by a function
+    /// of its own bits.
+    pub(crate) fn new(layout: &Layout, of_zeros: Words, of_ones: Words) -> Self {
+        let used = layout.texel(|_| u32::MAX);
+        let mut and = [0; 4];
+        for (word, and) in and.iter_mut().enumerate() {
+            *and = of_zeros[word] ^ of_ones[word];
+            // What no channel has may be kept.
+            if *and == used[word] {
+                *and = u32::MAX;
+            }
+        }
+        Self {
+            and,
+            xor: of_zeros,
+            words: layout.words,
+        }
+    }
+
+    /// Returns the word that replaces that of any texel, if it is one.
+    pub(crate) fn stored(&self) -> Option<u32> {
+        (self.words == 1 && self.and[0] == 0).then_some(self.xor[0])
+    }
+
+    /// True if each channel is replaced or kept.
+    pub(crate) fn is_mask(&self, layout: &Layout) -> bool {
+        layout.fields().iter().all(|field| {
+            let (and, xor) = (
+                field.code(self.and[field.word]),
+                field.code(self.xor[field.word]),
+            );
+            and == 0 || and == field.code(u32::MAX) && xor == 0
+        })
+    }
+
+    /// True if every texel is replaced.
+    pub(crate) fn replaces(&self) -> bool {
+        self.and[..self.words].iter().all(|and| *and == 0)
+    }
+
+    /// Returns the words that change, each with its number.
+    fn changed(&self) -> impl Iterator<Item = (usize, [u32; 2])> {
+        let all = self.and.into_iter().zip(self.xor).take(self.words);
+        let all = all.map(|(and, xor)| [and, xor]).enumerate();
+        all.filter(|(_, function)| *function != [u32::MAX, 0])
+    }
+
+    /// Applies the function to the first texels of a sample's planes.
+    #[inline(always)]
+    pub(crate) fn whole(&self, planes: &mut [u32], count: usize) {
+        for (word, [and, xor]) in self.changed() {
+            let words = &mut planes[word * AREA..][..count];
+            match and {
+                0 => words.fill(xor),
+                _ => apply(words, and, xor),
+            }
+        }
+    }
+
+    /// Applies the function to fragments of a sample's planes.
+    #[inline(always)]
+    pub(crate) fn masked<S: Simd>(&self, simd: S, planes: &mut [u32], fragments: &Fragments) {
+        for (word, [and, xor]) in self.changed() {
+            let plane = &mut planes[word * AREA..];
+            match and {
+                0 => {
+                    for (at, mask) in fragments.groups() {
+                        select(simd, lanes(plane, at), mask, &[xor; LANES]);
+                    }
+                }
+                _ => fragments.replace(simd, plane, |new| apply(new.as_flattened_mut(), and, xor)),
+            }
+        }
+    }
+}
+
+/// Keeps some bits of words, and inverts some.
+#[inline(always)]
+fn apply(words: &mut [u32], and: u32, xor: u32) {
+    for word in words {
+        *word = *word & and ^ xor;
+    }
+}

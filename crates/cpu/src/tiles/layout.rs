@@ -1,0 +1,128 @@
+//! The words of a texel of colour: its channels from the lowest bits on, as many in a word as have room.
+//!
+//! Words are little-endian in memory, so that channels of 8 bits are bytes in their order.
+
+use etalon_frame::ChannelEncoding;
+
+/// The words of a texel; those that it lacks are 0.
+pub(crate) type Words = [u32; 4];
+
+/// The words of a texel and the places of its channels in them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layout {
+    fields: [Field; 4],
+    channels: usize,
+    pub(crate) words: usize,
+}
+
+/// The place of a channel's codes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Field {
+    pub(crate) word: usize,
+    shift: u32,
+    mask: u32,
+}
+
+impl Layout {
+    /// Returns the layout of texels of these channels.
+    pub(crate) fn new(encodings: &[ChannelEncoding]) -> Self {
+        let mut fields = [Field::default(); 4];
+        let (mut words, mut room) = (0, 0);
+        for (field, encoding) in fields.iter_mut().zip(encodings) {
+            let bits = encoding.bits();
+            if bits > room {
+                (words, room) = (words + 1, 32);
+            }
+            *field = Field {
+                word: words - 1,
+                shift: 32 - room,
+                mask: encoding.mask(),
+            };
+            room -= bits;
+        }
+        Self {
+            fields,
+            channels: encodings.len(),
+            words,
+        }
+    }
+
+    /// Returns the places of all channels.
+    #[inline(always)]
+    pub(crate) fn fields(&self) -> &[Field] {
+        &self.fields[..self.channels]
+    }
+
+    /// Returns the texel whose codes a function gives.
+    pub(crate) fn texel(&self, code: impl Fn(usize) -> u32) -> Words {
+        let mut texel = [0; 4];
+        for (c, field) in self.fields().iter().enumerate() {
+            texel[field.word] |= field.word_of(code(c));
+        }
+        texel
+    }
+}
+
+impl Field {
+    /// Returns the code in a word.
+    #[inline(always)]
+    pub(crate) fn code(self, word: u32) -> u32 {
+        u32::from_le(word) >> self.shift & self.mask
+    }
+
+    /// Returns the word of a code beside zeros.
+    #[inline(always)]
+    pub(crate) fn word_of(self, code: u32) -> u32 {
+        ((code & self.mask) << self.shift).to_le()
+    }
+
+    /// Returns a word with another code.
+    #[inline(always)]
+    pub(crate) fn replaced(self, word: u32, code: u32) -> u32 {
+        word & !self.word_of(u32::MAX) | self.word_of(code)
+    }
+}
+
+/// True if each of these channels has 8 bits.
+pub(crate) fn are_bytes(encodings: &[ChannelEncoding]) -> bool {
+    encodings.iter().all(|e| e.bits() == 8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_frame::TextureFormat;
+
+    #[test]
+    fn channels_do_not_overlap_and_keep_their_codes() {
+        for format in TextureFormat::ALL {
+            let encodings = format.color_channels();
+            let layout = Layout::new(encodings);
+            let bits: u32 = encodings.iter().map(|e| e.bits()).sum();
+            assert_eq!(layout.words, bits.div_ceil(32) as usize, "{format}");
+            let code = |c: usize| 0x9e37_79b9_u32.rotate_left(c as u32 * 7) & encodings[c].mask();
+            let texel = layout.texel(code);
+            for (c, field) in layout.fields().iter().enumerate() {
+                assert_eq!(field.code(texel[field.word]), code(c), "{format} {c}");
+                let other = field.replaced(texel[field.word], !code(c));
+                for (d, rest) in layout.fields().iter().enumerate() {
+                    let due = if c == d {
+                        !code(c) & encodings[c].mask()
+                    } else {
+                        code(d)
+                    };
+                    if rest.word == field.word {
+                        assert_eq!(rest.code(other), due, "{format} {c} {d}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn channels_of_8_bits_are_bytes_in_memory() {
+        let layout = Layout::new(TextureFormat::Rgba8Unorm.color_channels());
+        let [word, ..] = layout.texel(|c| c as u32 + 1);
+        assert_eq!(word.to_ne_bytes(), [1, 2, 3, 4]);
+    }
+}
