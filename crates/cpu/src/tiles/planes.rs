@@ -43,6 +43,9 @@ pub(crate) use with_encoding;
 /// Gives the values of codes.
 #[inline(always)]
 pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
+    if encoding == ChannelEncoding::Srgb8 {
+        return decode_srgb(codes, values);
+    }
     with_encoding!(encoding, |known| {
         for (value, code) in values.iter_mut().zip(codes) {
             [*value] = Plain::<1>.decode(known, [*code]);
@@ -50,9 +53,29 @@ pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plan
     });
 }
 
+/// Gives the values of sRGB codes. A function of its own, so that it is compiled without gathers: they take longer than
+/// loads one by one.
+#[inline(never)]
+fn decode_srgb(codes: &[u32], values: &mut Plane) {
+    for (value, code) in values.iter_mut().zip(codes) {
+        [*value] = Plain::<1>.decode(ChannelEncoding::Srgb8, [*code]);
+    }
+}
+
+/// Gives the sRGB codes of values, like [`decode_srgb`].
+#[inline(never)]
+fn encode_srgb(values: &[f32], codes: &mut CodePlane) {
+    for (code, value) in codes.iter_mut().zip(values) {
+        [*code] = Plain::<1>.encode(ChannelEncoding::Srgb8, [*value]);
+    }
+}
+
 /// Gives the codes of values.
 #[inline(always)]
 pub(crate) fn encode(encoding: ChannelEncoding, values: &[f32], codes: &mut CodePlane) {
+    if encoding == ChannelEncoding::Srgb8 {
+        return encode_srgb(values, codes);
+    }
     with_encoding!(encoding, |known| {
         for (code, value) in codes.iter_mut().zip(values) {
             [*code] = Plain::<1>.encode(known, [*value]);

@@ -8,7 +8,7 @@ use super::fragments::Fragments;
 use super::image::AREA;
 use super::lanes::{Mask, lanes, select};
 use super::layout::Layout;
-use super::planes::{GROUPS, Plane, TEXELS, decode, encode, with_encoding};
+use super::planes::{CodePlane, GROUPS, Plane, TEXELS, decode, encode};
 use super::texels::Sources;
 use crate::lanes::LANES;
 use crate::steps::{Faithful, Steps};
@@ -39,6 +39,18 @@ struct Inputs {
     stored: [Plane; 4],
 }
 
+/// What is made of the inputs, in memory that is not cleared for each few groups.
+struct Buffers {
+    words: [CodePlane; 4],
+    /// The destination's codes.
+    old: [CodePlane; 4],
+    /// The blended values of a channel and their codes.
+    values: Plane,
+    codes: CodePlane,
+    /// The factors that are no inputs.
+    factors: [Plane; 2],
+}
+
 /// A factor before it is multiplied.
 enum Factor<'a> {
     Zero,
@@ -67,9 +79,16 @@ impl Varying {
                     second: zeros,
                     stored: zeros,
                 };
+                let mut buffers = Buffers {
+                    words: [[0; TEXELS]; 4],
+                    old: [[0; TEXELS]; 4],
+                    values: [0.0; TEXELS],
+                    codes: [0; TEXELS],
+                    factors: [[0.0; TEXELS]; 2],
+                };
                 let (places, masks) = fragments.parts();
-                for (places, masks) in places.chunks(GROUPS).zip(masks.chunks(GROUPS)) {
-                    self.groups(simd, planes, places, masks, sources, &mut inputs);
+                for groups in places.chunks(GROUPS).zip(masks.chunks(GROUPS)) {
+                    self.groups(simd, planes, groups, sources, &mut inputs, &mut buffers);
                 }
             },
         );
@@ -80,24 +99,29 @@ impl Varying {
         &self,
         simd: S,
         planes: &mut [u32],
-        places: &[u16],
-        masks: &[Mask],
+        (places, masks): (&[u16], &[Mask]),
         sources: &Sources<'_>,
         inputs: &mut Inputs,
+        buffers: &mut Buffers,
     ) {
+        let Buffers {
+            words,
+            old,
+            values,
+            codes,
+            factors,
+        } = buffers;
         let count = places.len() * LANES;
         let (layout, fields) = (&self.layout, self.layout.fields());
         sources.first(places, &mut inputs.source);
         if self.opaque[0] {
             inputs.source[3].fill(1.0);
         }
-        let mut words = [[0; TEXELS]; 4];
         for (word, words) in words.iter_mut().enumerate().take(layout.words) {
             for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
                 *words = *lanes(planes, word * AREA + usize::from(*at));
             }
         }
-        let mut old = [[0; TEXELS]; 4];
         for (old, field) in old.iter_mut().zip(fields) {
             for (old, word) in old.iter_mut().zip(&words[field.word]) {
                 *old = field.code(*word);
@@ -109,35 +133,35 @@ impl Varying {
                 inputs.second[3].fill(1.0);
             }
             inputs.stored[3].fill(Faithful.missing_alpha(state));
-            let stored = inputs.stored.iter_mut().zip(&old);
+            let stored = inputs.stored.iter_mut().zip(&*old);
             for ((stored, codes), encoding) in stored.zip(self.channels) {
                 decode(*encoding, &codes[..count], stored);
             }
             self.hold(sources, inputs, count);
         }
-        let mut codes = [0; TEXELS];
         for (c, encoding) in self.channels.iter().enumerate() {
             if self.target.write_mask & (1 << c) == 0 {
                 continue;
             }
-            match &self.target.blend {
-                None => encode(*encoding, &inputs.source[c][..count], &mut codes),
-                Some(state) if self.in_unit(sources, state, c) => {
-                    self.blended_in_unit(state, c, inputs, &mut codes[..count]);
-                }
+            let blended = match &self.target.blend {
+                None => &inputs.source[c][..count],
                 Some(state) => {
-                    let mut values = [0.0; TEXELS];
-                    self.blended(state, c, inputs, &mut values[..count]);
-                    encode(*encoding, &values[..count], &mut codes);
+                    let values = &mut values[..count];
+                    match self.in_unit(sources, state, c) {
+                        true => self.blended_in_unit(state, c, inputs, factors, values),
+                        false => self.blended(state, c, inputs, factors, values),
+                    }
+                    values
                 }
-            }
+            };
+            encode(*encoding, blended, codes);
             if let Some(operation) = self.logic {
                 for (new, old) in codes[..count].iter_mut().zip(&old[c]) {
                     [*new] = Plain::<1>.logic(*encoding, operation, [*new], [*old]);
                 }
             }
             let field = fields[c];
-            for (word, code) in words[field.word].iter_mut().zip(&codes) {
+            for (word, code) in words[field.word].iter_mut().zip(&*codes) {
                 *word = field.replaced(*word, *code);
             }
         }
@@ -200,17 +224,22 @@ impl Varying {
         sum && factors && target && sources.exceed_unit() == [false; 2]
     }
 
-    /// Gives the codes of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple of an
+    /// Gives the blended values of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple of an
     /// operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
     #[inline(always)]
-    fn blended_in_unit(&self, state: &BlendState, c: usize, inputs: &Inputs, codes: &mut [u32]) {
+    fn blended_in_unit(
+        &self,
+        state: &BlendState,
+        c: usize,
+        inputs: &Inputs,
+        [first, second]: &mut [Plane; 2],
+        values: &mut [f32],
+    ) {
         let BlendComponent {
             operation,
             src_factor,
             dst_factor,
         } = component(state, c);
-        let mut own = [[0.0; TEXELS]; 2];
-        let [first, second] = &mut own;
         let (s, d) = (&inputs.source[c], &inputs.stored[c]);
         let [(a, b, x), (e, f, y)] = [
             (self.factor(src_factor, c, inputs, first), s),
@@ -228,17 +257,21 @@ impl Varying {
             _ => (1.0, 1.0),
         };
         let operands = s.iter().zip(x).zip(d.iter().zip(y));
-        with_encoding!(self.channels[c], |known| {
-            for (code, ((s, x), (d, y))) in codes.iter_mut().zip(operands) {
-                let value = plus * (s * (a + b * x)) + minus * (d * (e + f * y));
-                [*code] = Plain::<1>.encode(known, [value]);
-            }
-        });
+        for (value, ((s, x), (d, y))) in values.iter_mut().zip(operands) {
+            *value = plus * (s * (a + b * x)) + minus * (d * (e + f * y));
+        }
     }
 
     /// Gives the blended values of a channel.
     #[inline(always)]
-    fn blended(&self, state: &BlendState, c: usize, inputs: &Inputs, values: &mut [f32]) {
+    fn blended(
+        &self,
+        state: &BlendState,
+        c: usize,
+        inputs: &Inputs,
+        [first, second]: &mut [Plane; 2],
+        values: &mut [f32],
+    ) {
         let BlendComponent {
             operation,
             src_factor,
@@ -262,8 +295,6 @@ impl Varying {
             BlendOperation::Max => return run!(pairs, |s, d| plain.max(s, d)),
             BlendOperation::Add | BlendOperation::Subtract | BlendOperation::ReverseSubtract => {}
         }
-        let mut own = [[0.0; TEXELS]; 2];
-        let [first, second] = &mut own;
         let factors = (
             self.factor(src_factor, c, inputs, first),
             self.factor(dst_factor, c, inputs, second),
