@@ -28,6 +28,17 @@ pub(crate) fn lanes<T>(planes: &mut [T], at: usize) -> &mut [T; LANES] {
     &mut lanes[0]
 }
 
+/// Returns the lanes of texels of bytes whose alpha is a code or more.
+#[inline(always)]
+pub(crate) fn alphas_from<S: Simd>(simd: S, texels: &Codes, least: u32) -> Mask {
+    let mut alphas = *texels;
+    for alpha in &mut alphas {
+        *alpha = u32::from_le(*alpha) >> 24;
+    }
+    let kept = u32x16::from_slice(simd, &alphas).simd_ge(least);
+    kept.to_bitmask() as Mask
+}
+
 /// Replaces the words of a mask.
 #[inline(always)]
 pub(crate) fn select<S: Simd>(simd: S, words: &mut Codes, mask: Mask, new: &Codes) {

@@ -133,8 +133,8 @@ pub(crate) enum Shading {
         /// The texture's attachment.
         index: usize,
         address: [AddressMode; 2],
-        /// Bit `i` of the words is set if alpha `i` is discarded.
-        discarded: [u32; 8],
+        /// The least alpha that is not discarded; 256 if all are.
+        kept: u32,
     },
 }
 
@@ -379,18 +379,15 @@ fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reaso
     {
         return Err("a texture that is filtered, blended or converted");
     }
-    let mut discarded = [0; 8];
-    for code in (0..256_usize).filter(|_| draw.shader.discards()) {
-        let [alpha] = Plain::<1>.decode(ChannelEncoding::Unorm(8), [code as u32]);
+    let is_kept = |code: &u32| {
+        let [alpha] = Plain::<1>.decode(ChannelEncoding::Unorm(8), [*code]);
         let kept = Kept::unless_below([alpha; LANES], [draw.params.color[3]; LANES]);
-        if !Faithful.kept(&kept)[0] {
-            discarded[code / 32] |= 1 << (code % 32);
-        }
-    }
+        !draw.shader.discards() || Faithful.kept(&kept)[0]
+    };
     Ok(Shading::Texture {
         index: *index,
         address: sampler.address,
-        discarded,
+        kept: (0..256).find(is_kept).unwrap_or(256),
     })
 }
 

@@ -40,6 +40,14 @@ impl Texture {
         let columns = positions(address[0], u, self.width);
         let rows = positions(address[1], v, self.height);
         let mut result = [0; LANES];
+        // Textures mostly stand upright.
+        if rows == [rows[0]; LANES] {
+            let row = &self.texels[rows[0] as usize * self.width..][..self.width];
+            for (texel, x) in result.iter_mut().zip(columns) {
+                *texel = row[x as usize];
+            }
+            return result;
+        }
         for ((texel, x), y) in result.iter_mut().zip(columns).zip(rows) {
             *texel = self.texels[y as usize * self.width + x as usize];
         }

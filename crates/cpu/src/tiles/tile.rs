@@ -9,7 +9,7 @@ use super::depth_stencil::{
 use super::edges::Rows;
 use super::fragments::{Fragments, MOST};
 use super::image::AREA;
-use super::lanes::{ALL, Mask, columns, lanes, select};
+use super::lanes::{ALL, alphas_from, columns, lanes, select};
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
@@ -553,21 +553,12 @@ impl Drawing<'_, '_> {
         let [left, top, ..] = self.texels;
         let at = |place: usize| [left + (place % TILE) as i32, top + (place / TILE) as i32];
         let fetched = match (&work.texture, &work.plan.shading) {
-            (
-                Some((texture, coordinates)),
-                Shading::Texture {
-                    address, discarded, ..
-                },
-            ) => {
+            (Some((texture, coordinates)), Shading::Texture { address, kept, .. }) => {
                 let mut fetched = [[0; LANES]; MOST];
                 for ((place, mask), texels) in fragments.groups_mut().zip(&mut fetched) {
                     let [x, y] = at(place);
                     *texels = texture.nearest(*address, coordinates.at(x, y));
-                    for (lane, texel) in texels.iter().enumerate() {
-                        let [.., alpha] = texel.to_ne_bytes();
-                        let discard = discarded[usize::from(alpha >> 5)] >> (alpha & 31) & 1;
-                        *mask &= !((discard as Mask) << lane);
-                    }
+                    *mask &= alphas_from(simd, texels, *kept);
                 }
                 Some(fetched)
             }
