@@ -1,4 +1,4 @@
-//! Blends in which all but the destination's own channel is constant, in texels of several words.
+//! Blends in which all but the destination's own channel is constant, of channels that are no bytes.
 //!
 //! A term is what the pipeline's plain arithmetic does, with its constants computed once; planes are gone through
 //! channel by channel, each with the code of its encoding.

@@ -1,9 +1,8 @@
 //! Edge functions, tile by tile and row by row.
 
-use super::lanes::{Mask, NUMBERS};
+use super::lanes::NUMBERS;
 use super::triangle::{Triangle, clockwise};
 use crate::linear::UNITS;
-use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
 
 /// The greatest magnitude of a row's first value. In a tile no edge function that is farther from 0 changes its sign,
@@ -157,31 +156,36 @@ impl Rows {
 
     /// Returns the numbers at the row's first texels.
     #[inline(always)]
-    pub(crate) fn lanes<S: Simd>(&self, simd: S) -> Numbers<S> {
-        let numbers = i32x16::from_slice(simd, &NUMBERS);
+    pub(crate) fn lanes<S: Simd, I: SimdInt<S, Element = i32>>(&self, simd: S) -> Numbers<S, I> {
+        let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
         // Operations in closures would not be inlined.
         let ([a, b, c], [d, e, f]) = (self.at, self.across);
-        Numbers([numbers * d + a, numbers * e + b, numbers * f + c])
+        Numbers {
+            simd,
+            edges: [numbers * d + a, numbers * e + b, numbers * f + c],
+        }
     }
 }
 
 /// The numbers of [`Rows`] at neighbouring texels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Numbers<S: Simd>([i32x16<S>; 3]);
+pub(crate) struct Numbers<S, I> {
+    simd: S,
+    edges: [I; 3],
+}
 
-impl<S: Simd> Numbers<S> {
+impl<S: Simd, I: SimdInt<S, Element = i32>> Numbers<S, I> {
     /// Returns the covered lanes.
     #[inline(always)]
-    pub(crate) fn covered(&self, simd: S) -> Mask {
-        let [a, b, c] = self.0;
-        let covered = (a | b | c).simd_ge(i32x16::splat(simd, 0));
-        covered.to_bitmask() as Mask
+    pub(crate) fn covered(&self) -> I::Mask {
+        let [a, b, c] = self.edges;
+        (a | b | c).simd_ge(I::splat(self.simd, 0))
     }
 
     /// Goes so many times on by a growth.
     #[inline(always)]
     pub(crate) fn grow(&mut self, growth: [i32; 3], times: i32) {
-        for (numbers, growth) in self.0.iter_mut().zip(growth) {
+        for (numbers, growth) in self.edges.iter_mut().zip(growth) {
             *numbers += growth * times;
         }
     }

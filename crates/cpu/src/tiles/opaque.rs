@@ -100,22 +100,17 @@ impl Store {
         planes: Planes<'_>,
         [left, top, ..]: [i32; 4],
     ) {
-        let zero = i32x8::splat(simd, 0);
-        let numbers = i32x8::from_slice(simd, &NUMBERS[..8]);
         let answers = self.answers::<S, u32x8<S>>(simd);
         let color = u32x8::splat(simd, self.color.unwrap_or(0));
         for triangle in triangles {
             let [start, first, _, last] = triangle.around.map(i32::from);
             let column = start.min(left + TILE as i32 - NARROW);
-            let Rows { at, across, down } =
-                Edges::new(triangle).near(column, first, planes.position);
-            let mut a = numbers * across[0] + at[0];
-            let mut b = numbers * across[1] + at[1];
-            let mut c = numbers * across[2] + at[2];
+            let rows = Edges::new(triangle).near(column, first, planes.position);
+            let mut numbers = rows.lanes::<S, i32x8<S>>(simd);
             let code = u32x8::splat(simd, triangle.code);
             let mut place = ((first - top) * TILE as i32 + column - left) as usize;
             for _ in first..=last {
-                let mut covered = (a | b | c).simd_ge(zero);
+                let mut covered = numbers.covered();
                 if DEPTH {
                     let stored = &mut planes.depths[place..place + 8];
                     covered = self.passed(simd, answers, covered, code, stored);
@@ -124,9 +119,7 @@ impl Store {
                     replace(simd, covered, color, &mut planes.colors[place..place + 8]);
                 }
                 place += TILE;
-                a += down[0];
-                b += down[1];
-                c += down[2];
+                numbers.grow(rows.down, 1);
             }
         }
     }
@@ -370,28 +363,22 @@ impl Opaque<'_> {
             depths,
         } = planes;
         let [left, top, ..] = self.texels;
-        let (lanes, zero) = (U::LEN as i32, I::splat(simd, 0));
-        let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
+        let lanes = U::LEN as i32;
         let [first, last] = area.rows;
-        let Rows { at, across, down } = Rows::new(self.triangle, area.first, first, position);
-        // Operations in closures would not be inlined.
-        let mut values = [
-            numbers * across[0] + at[0],
-            numbers * across[1] + at[1],
-            numbers * across[2] + at[2],
-        ];
+        let rows = Rows::new(self.triangle, area.first, first, position);
+        let mut numbers = rows.lanes::<S, I>(simd);
         let store = self.store;
         let answers = store.answers::<S, U>(simd);
         let mut y = first;
         while y <= last {
             let place = ((y - top) * TILE as i32 + area.first - left) as usize;
             let mut chunk = 0;
-            let mut here = values;
+            let mut here = numbers;
             while chunk < area.chunks {
-                let mut covered = (here[0] | here[1] | here[2]).simd_ge(zero);
+                let mut covered = here.covered();
                 let x = area.first + chunk * lanes;
                 if self.triangle.cut {
-                    let columns = numbers + x;
+                    let columns = I::from_slice(simd, &NUMBERS[..I::LEN]) + x;
                     let inside = columns.simd_ge(rect[0]) & columns.simd_lt(rect[2]);
                     let row = y >= rect[1] && y < rect[3];
                     covered = covered & inside & I::Mask::splat(simd, row);
@@ -407,13 +394,9 @@ impl Opaque<'_> {
                     replace(simd, covered, new, &mut colors[at..at + U::LEN]);
                 }
                 chunk += 1;
-                for (value, across) in here.iter_mut().zip(across) {
-                    *value += across * lanes;
-                }
+                here.grow(rows.across, lanes);
             }
-            for (value, down) in values.iter_mut().zip(down) {
-                *value += down;
-            }
+            numbers.grow(rows.down, 1);
             y += 1;
         }
     }

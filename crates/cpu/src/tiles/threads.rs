@@ -41,3 +41,46 @@ pub(crate) fn on_threads<J: Send>(jobs: Vec<J>, run: &(dyn Fn(J) + Sync)) {
         None => jobs.into_iter().for_each(run),
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::{Barrier, Mutex};
+    use std::time::Duration;
+
+    #[test]
+    fn every_job_is_done_once() {
+        for count in 0..6 {
+            let done: Vec<AtomicUsize> = (0..count).map(|_| AtomicUsize::new(0)).collect();
+            on_threads((0..count).collect(), &|job: usize| {
+                done[job].fetch_add(1, Ordering::Relaxed);
+            });
+            assert!(done.iter().all(|n| n.load(Ordering::Relaxed) == 1));
+        }
+    }
+
+    #[test]
+    fn helpers_end_with_their_thread() {
+        // Threads have folders on Linux; elsewhere nothing tells.
+        let folder = || std::fs::read_link("/proc/thread-self").ok();
+        let own = thread::spawn(move || {
+            let (all, folders) = (Barrier::new(TESTED), Mutex::new(Vec::new()));
+            on_threads(vec![(); TESTED], &|()| {
+                all.wait();
+                folders.lock().expect("no job fails").extend(folder());
+            });
+            folders.into_inner().expect("no job fails")
+        });
+        let folders = own.join().expect("jobs are done");
+        assert!(folders.is_empty() || folders.len() == TESTED, "{folders:?}");
+        for folder in folders {
+            let folder = std::path::Path::new("/proc").join(folder);
+            let ended = || {
+                thread::sleep(Duration::from_millis(10));
+                !folder.exists()
+            };
+            assert!((0..1000).any(|_| ended()), "{} goes on", folder.display());
+        }
+    }
+}

@@ -9,7 +9,7 @@ use super::depth_stencil::{
 use super::edges::Rows;
 use super::fragments::{Fragments, MOST};
 use super::image::AREA;
-use super::lanes::{ALL, alphas_from, columns, lanes, select};
+use super::lanes::{ALL, Mask, alphas_from, columns, lanes, select};
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
@@ -21,7 +21,8 @@ use super::work::Work;
 use crate::lanes::LANES;
 use etalon_pipeline::shader::cost;
 use etalon_scene::{StencilFace, StencilOperation};
-use fearless_simd::Simd;
+use fearless_simd::i32x16;
+use fearless_simd::prelude::*;
 use std::hint::black_box;
 use std::iter;
 
@@ -499,7 +500,7 @@ impl Drawing<'_, '_> {
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
         let rows = Rows::new(triangle, first, y_first, self.pass.positions[sample]);
-        let mut row = rows.lanes(simd);
+        let mut row = rows.lanes::<S, i32x16<S>>(simd);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;
         for y in y_first..=y_last {
@@ -510,7 +511,10 @@ impl Drawing<'_, '_> {
             }
             for chunk in 0..=(last - first) / wide {
                 let x = first + chunk * wide;
-                let mut mask = if whole { ALL } else { here.covered(simd) };
+                let mut mask = match whole {
+                    true => ALL,
+                    false => here.covered().to_bitmask() as Mask,
+                };
                 here.grow(rows.across, wide);
                 if cut {
                     mask &= columns(x, [rect[0], rect[2]]);
