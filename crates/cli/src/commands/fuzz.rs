@@ -39,6 +39,9 @@ const WAITING: usize = 8;
 const COUNT: u64 = 1000;
 /// The file of groups.
 const GROUPS: &str = "fuzz.jsonl";
+/// The most groups that the terminal tells: new ones, and those like one finding.
+const MOST_NEW: usize = 20;
+const MOST_ALIKE: usize = 3;
 /// The folder of the scenes that fail.
 const FOUND: &str = "found";
 /// The folder of those that a finding explains.
@@ -403,13 +406,20 @@ impl Tally {
             self.states,
             self.pairs
         );
-        for group in self.groups.iter().filter(|g| g.known().is_none()) {
-            text.push_str(&group.text());
+        let new = self.groups.iter().filter(|g| g.known().is_none());
+        let new: Vec<&Group> = new.collect();
+        let (shown, rest) = new.split_at(new.len().min(MOST_NEW));
+        text.extend(shown.iter().map(|group| group.text()));
+        if !rest.is_empty() {
+            text.push_str(&format!("\n  {}\n", others(rest)));
         }
         for (known, groups) in self.by_finding(false) {
             text.push_str(&headed("looks like", known, &groups));
-            let each = groups.iter().map(|group| group.short());
-            text.extend(each);
+            let (shown, rest) = groups.split_at(groups.len().min(MOST_ALIKE));
+            text.extend(shown.iter().map(|group| group.short()));
+            if !rest.is_empty() {
+                text.push_str(&format!("    {}\n", others(rest)));
+            }
         }
         for (known, groups) in self.by_finding(true) {
             text.push_str(&headed("known", known, &groups));
@@ -433,6 +443,15 @@ impl Tally {
         all.sort_by_key(|(_, groups)| std::cmp::Reverse(scenes(groups)));
         all
     }
+}
+
+/// Returns the line on groups that are not told.
+fn others(groups: &[&Group]) -> String {
+    format!(
+        "and {} of {}, in {GROUPS}",
+        counted(groups.len() as u64, "more group"),
+        counted(scenes(groups), "scene")
+    )
 }
 
 /// Returns the number of scenes in groups.

@@ -204,6 +204,43 @@ fn known_bugs_are_named_by_their_findings() {
 }
 
 #[test]
+fn the_commonest_groups_are_told_and_the_others_counted() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let own = [
+        "fuzz",
+        "--adapter",
+        "gl:softpipe",
+        "--seed",
+        "7",
+        "--count",
+        "1000",
+        "--expect",
+        &nothing_known(folder.path()),
+        "--out",
+        out,
+        "--force",
+    ];
+    let output = etalon(&own).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines = fs::read_to_string(folder.path().join("fuzz.jsonl")).unwrap();
+    let lines = lines
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let counts: Vec<u64> = lines.filter_map(|line| line["count"].as_u64()).collect();
+    assert!(counts.is_sorted_by(|a, b| a >= b), "{counts:?}");
+    let (told, others) = counts.split_at(20);
+    let scenes: u64 = others.iter().sum();
+    assert!(others.len() > 1, "{counts:?}");
+    let due = format!(
+        "\n  and {} more groups of {scenes} scenes, in fuzz.jsonl\n",
+        others.len()
+    );
+    assert!(text.contains(&due), "{due}{text}");
+    assert_eq!(text.matches(" × ").count(), told.len(), "{text}");
+}
+
+#[test]
 fn the_rasterizer_passes_all_scenes() {
     let folder = TempDir::new().unwrap();
     let (code, summary, error) = fuzz("cpu", folder.path(), &["--count", "300", "--seed", "7"]);
