@@ -6,6 +6,8 @@
 //!
 //! Values that are exact in every specification (stencil values, write masks, the edge functions of
 //! snapped vertices) are computed in integers and have no number system.
+//!
+//! The sRGB functions of [`Plain`] are there for many values at once, too.
 
 mod advanced;
 mod arithmetic;
@@ -30,5 +32,6 @@ pub use depth::{DepthPlane, slope};
 pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;
 pub use sampling::texel_position;
+pub use srgb::{srgb_codes, srgb_values};
 pub use stencil::{compare, exported_reference, stencil_operation, stencil_passes, stencil_write};
 pub use viewport::{front_facing, is_culled, window_position};

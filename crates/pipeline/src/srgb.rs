@@ -11,13 +11,13 @@ const PARTS: usize = 4096;
 /// The parts in memory, so that an index without its upper bits is one.
 const SLOTS: usize = 2 * PARTS;
 
-/// The codes of values.
+/// The codes of values: tables that stay near the processor.
 #[derive(Debug)]
 pub(crate) struct Codes {
     /// The code of each part's first value.
-    first: Box<[u32; SLOTS]>,
-    /// The least value of each part whose code is the next.
-    limits: Box<[f32; SLOTS]>,
+    first: Box<[u8; SLOTS]>,
+    /// The least value of each code, and infinity.
+    least: [f32; 257],
 }
 
 /// The codes of linear values.
@@ -30,28 +30,62 @@ pub(crate) static VALUES: LazyLock<[f32; 256]> = LazyLock::new(|| {
 
 impl Codes {
     fn new() -> Self {
-        let mut codes = Self {
-            first: Box::new([0; SLOTS]),
-            limits: Box::new([f32::INFINITY; SLOTS]),
-        };
-        let (mut code, mut limit) = (0, least(1));
-        for part in 0..=PARTS {
-            while part as f32 / PARTS as f32 >= limit {
+        let least = std::array::from_fn(|code| match code {
+            0 => 0.0,
+            code => least(code as u32),
+        });
+        let mut first = Box::new([0; SLOTS]);
+        let mut code = 0_u8;
+        for (part, first) in first.iter_mut().enumerate().take(PARTS + 1) {
+            while part as f32 / PARTS as f32 >= least[usize::from(code) + 1] {
                 code += 1;
-                limit = least(code + 1);
             }
-            (codes.first[part], codes.limits[part]) = (code, limit);
+            *first = code;
         }
-        codes
+        Self { first, least }
     }
 
     /// Returns the code of a linear value: 0 for NaN and negative ones, 255 above 1.
     #[inline(always)]
     pub(crate) fn of(&self, value: f32) -> u32 {
         let value = unit(value);
-        let part = whole(value * PARTS as f32) as usize % SLOTS;
-        self.first[part] + u32::from(value >= self.limits[part])
+        self.at(part(value), value)
     }
+
+    /// Returns the code of a value from 0 to 1 in a part.
+    #[inline(always)]
+    fn at(&self, part: u32, value: f32) -> u32 {
+        let code = self.first[part as usize % SLOTS];
+        u32::from(code) + u32::from(value >= self.least[usize::from(code) + 1])
+    }
+}
+
+/// Gives the codes of linear values: 0 for NaN and negative ones, 255 above 1.
+#[inline(always)]
+pub fn srgb_codes(values: &[f32], codes: &mut [u32]) {
+    let tables = &*CODES;
+    // Apart from the look-ups, so that they are vector instructions.
+    for (code, value) in codes.iter_mut().zip(values) {
+        *code = part(unit(*value));
+    }
+    for (code, value) in codes.iter_mut().zip(values) {
+        *code = tables.at(*code, unit(*value));
+    }
+}
+
+/// Gives the linear values of codes.
+#[inline(always)]
+pub fn srgb_values(codes: &[u32], values: &mut [f32]) {
+    let table = &*VALUES;
+    for (value, code) in values.iter_mut().zip(codes) {
+        *value = table[(code & 0xff) as usize];
+    }
+}
+
+/// Returns the part of a value from 0 to 1.
+#[inline(always)]
+fn part(value: f32) -> u32 {
+    whole(value * PARTS as f32)
 }
 
 /// Returns the code of a linear value, as it is defined.
@@ -89,8 +123,11 @@ mod tests {
         });
         let all = (0..=300_000_u32).map(|i| i as f32 / 299_000.0 - 0.001);
         let ends = [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
-        for value in near.chain(all).chain(ends) {
-            assert_eq!(CODES.of(value), defined(value), "{value}");
+        let values: Vec<f32> = near.chain(all).chain(ends).collect();
+        let mut codes = vec![0; values.len()];
+        srgb_codes(&values, &mut codes);
+        for (value, code) in values.into_iter().zip(codes) {
+            assert_eq!([code, CODES.of(value)], [defined(value); 2], "{value}");
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::lanes::LANES;
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::{Arithmetic, Plain};
+use etalon_pipeline::{Arithmetic, Plain, srgb_codes, srgb_values};
 
 /// The groups that are blended at once.
 pub(crate) const GROUPS: usize = 8;
@@ -57,17 +57,13 @@ pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plan
 /// loads one by one.
 #[inline(never)]
 fn decode_srgb(codes: &[u32], values: &mut Plane) {
-    for (value, code) in values.iter_mut().zip(codes) {
-        [*value] = Plain::<1>.decode(ChannelEncoding::Srgb8, [*code]);
-    }
+    srgb_values(codes, values);
 }
 
 /// Gives the sRGB codes of values, like [`decode_srgb`].
 #[inline(never)]
 fn encode_srgb(values: &[f32], codes: &mut CodePlane) {
-    for (code, value) in codes.iter_mut().zip(values) {
-        [*code] = Plain::<1>.encode(ChannelEncoding::Srgb8, [*value]);
-    }
+    srgb_codes(values, codes);
 }
 
 /// Gives the codes of values.
