@@ -8,7 +8,7 @@ use crate::lanes::LANES;
 use fearless_simd::Simd;
 
 /// A function that keeps some bits of a texel's words, replaces the others, and inverts some of those that it keeps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Bits {
     and: Words,
     xor: Words,

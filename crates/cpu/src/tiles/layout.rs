@@ -16,7 +16,7 @@ pub(crate) struct Layout {
 }
 
 /// The place of a channel's codes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Field {
     pub(crate) word: usize,
     shift: u32,

@@ -73,8 +73,8 @@ pub(crate) struct Blending {
     source: [f32; 4],
     target: ColorTarget,
     constant: [f32; 4],
+    /// The logic operation, if the attachment obeys one.
     logic: Option<LogicOperation>,
-    obeys: bool,
     alpha_to_one: bool,
     channels: &'static [ChannelEncoding],
     layout: Layout,
@@ -113,8 +113,7 @@ impl Paint {
                 source,
                 target: *target,
                 constant: draw.blend_constant,
-                logic: draw.logic,
-                obeys,
+                logic: draw.logic.filter(|_| obeys),
                 alpha_to_one: draw.alpha_to_one(),
                 channels,
                 layout: Layout::new(channels),
@@ -197,7 +196,7 @@ impl Blending {
 
     /// Returns the function of texels that are fetched from channels.
     fn varying(self, fetched: &[ChannelEncoding]) -> Kernel {
-        let replaces = self.target.blend.is_none() && (self.logic.is_none() || !self.obeys);
+        let replaces = self.target.blend.is_none() && self.logic.is_none();
         let all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
         // Codes of 8 unsigned normalized bits are those of their values.
         let same = fetched == UNORM.0 && *self.channels == UNORM.0;
@@ -206,7 +205,7 @@ impl Blending {
             false => Kernel::Varying(Box::new(Varying {
                 target: self.target,
                 constant: self.constant,
-                logic: self.logic.filter(|_| self.obeys),
+                logic: self.logic,
                 opaque: [self.alpha_to_one, self.second_alpha],
                 channels: self.channels,
                 layout: self.layout,
@@ -257,7 +256,7 @@ impl Blending {
 
     /// Returns the blend as weights, if it is one and each channel has 8 unsigned normalized bits.
     fn weights(&self) -> Option<Weights> {
-        let blend = self.target.blend.filter(|_| !self.is_logic())?;
+        let blend = self.target.blend.filter(|_| self.logic.is_none())?;
         let unorm = self.channels.iter().all(|e| *e == UNORM.0[0]);
         let parts = [blend.color, blend.alpha];
         Weights::new(
@@ -271,7 +270,7 @@ impl Blending {
 
     /// Returns the blend as an affine function, if it is one.
     fn affine(&self) -> Option<Affine> {
-        let blend = self.target.blend.filter(|_| !self.is_logic())?;
+        let blend = self.target.blend.filter(|_| self.logic.is_none())?;
         let mut terms = [None; 4];
         for (c, (term, encoding)) in terms.iter_mut().zip(self.channels).enumerate() {
             if self.target.write_mask & (1 << c) != 0 {
@@ -345,11 +344,6 @@ impl Blending {
             factor,
             source,
         })
-    }
-
-    /// True if a logic operation takes the place of blending.
-    fn is_logic(&self) -> bool {
-        self.logic.is_some() && self.obeys
     }
 
     /// Returns the inputs of a blend, without the destination.
@@ -430,7 +424,7 @@ impl Blending {
                 continue;
             }
             let mut new = Faithful.color_codes(encodings[c], value[c]);
-            if let Some(operation) = self.logic.filter(|_| self.obeys) {
+            if let Some(operation) = self.logic {
                 new = Plain::<LANES>.logic(encodings[c], operation, new, old[c]);
             }
             result[c] = new;
@@ -543,35 +537,25 @@ impl Kernel {
 
     #[inline(always)]
     fn whole_of<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
+        let texels = bytemuck::cast_slice_mut::<_, Texel>;
         match self {
-            Self::Store(word) => return planes[..count].fill(*word),
-            Self::Bits(bits) => return bits.whole(planes, count),
-            Self::Affine(affine) => return affine.whole(simd, planes, count),
-            Self::Lanes(blending) => {
-                for at in (0..count).step_by(LANES) {
-                    blending.apply(simd, planes, at, ALL);
-                }
-                return;
-            }
-            _ => {}
-        }
-        let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
-        match self {
-            Self::Keep
-            | Self::Bits(_)
-            | Self::Store(_)
-            | Self::Affine(_)
-            | Self::Lanes(_)
-            | Self::Copy
-            | Self::Varying(_) => {}
-            Self::Linear(linear) => linear.apply(simd, texels),
+            Self::Keep | Self::Copy | Self::Varying(_) => {}
+            Self::Store(word) => planes[..count].fill(*word),
+            Self::Bits(bits) => bits.whole(planes, count),
+            Self::Linear(linear) => linear.apply(simd, texels(&mut planes[..count])),
             Self::Table(table) => {
-                for texel in texels {
+                for texel in texels(&mut planes[..count]) {
                     *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
                 }
             }
             Self::Weighted(weights) => {
-                weights.apply(simd, texels.as_chunks_mut::<LANES>().0);
+                weights.apply(simd, texels(&mut planes[..count]).as_chunks_mut().0);
+            }
+            Self::Affine(affine) => affine.whole(simd, planes, count),
+            Self::Lanes(blending) => {
+                for at in (0..count).step_by(LANES) {
+                    blending.apply(simd, planes, at, ALL);
+                }
             }
         }
     }

@@ -20,8 +20,8 @@ pub(crate) type CodePlane = [u32; TEXELS];
 /// patterns: of what comparisons exclude the compiler makes nothing.
 macro_rules! with_encoding {
     ($encoding:expr, |$known:ident| $run:expr) => {{
-        use etalon_frame::ChannelEncoding::{Float16, Float32, Srgb8, Ufloat, Unorm};
-        with_encoding!($encoding, |$known| $run; [Unorm(8)] [Unorm(10)] [Unorm(16)] [Srgb8] [Float16] [Float32]
+        use etalon_frame::ChannelEncoding::{Float16, Float32, Ufloat, Unorm};
+        with_encoding!($encoding, |$known| $run; [Unorm(8)] [Unorm(10)] [Unorm(16)] [Float16] [Float32]
             [Ufloat(6)] [Ufloat(5)])
     }};
     ($encoding:expr, |$known:ident| $run:expr; $([$($common:tt)*])*) => {

@@ -14,9 +14,7 @@ use crate::lanes::LANES;
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
-use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
-};
+use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, ColorTarget, LogicOperation};
 use fearless_simd::Simd;
 
 /// A function of a texel's codes and of fetched texels.
@@ -147,9 +145,10 @@ impl Varying {
                 None => &inputs.source[c][..count],
                 Some(state) => {
                     let values = &mut values[..count];
-                    match self.in_unit(sources, state, c) {
-                        true => self.blended_in_unit(state, c, inputs, factors, values),
-                        false => self.blended(state, c, inputs, factors, values),
+                    let part = if c == 3 { state.alpha } else { state.color };
+                    match self.in_unit(sources, part) {
+                        true => self.blended_in_unit(part, c, inputs, factors, values),
+                        false => self.blended(part, c, inputs, factors, values),
                     }
                     values
                 }
@@ -204,9 +203,8 @@ impl Varying {
 
     /// True if all operands of a channel lie from 0 to 1, and its blend is a sum of products.
     #[inline(always)]
-    fn in_unit(&self, sources: &Sources<'_>, state: &BlendState, c: usize) -> bool {
+    fn in_unit(&self, sources: &Sources<'_>, part: BlendComponent) -> bool {
         use ChannelEncoding::{Srgb8, Unorm};
-        let part = component(state, c);
         let sum = !matches!(part.operation, BlendOperation::Min | BlendOperation::Max);
         let simple = |factor| {
             use BlendFactor as F;
@@ -224,26 +222,21 @@ impl Varying {
         sum && factors && target && sources.exceed_unit() == [false; 2]
     }
 
-    /// Gives the blended values of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple of an
-    /// operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
+    /// Gives the blended values of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple
+    /// of an operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
     #[inline(always)]
     fn blended_in_unit(
         &self,
-        state: &BlendState,
+        part: BlendComponent,
         c: usize,
         inputs: &Inputs,
         [first, second]: &mut [Plane; 2],
         values: &mut [f32],
     ) {
-        let BlendComponent {
-            operation,
-            src_factor,
-            dst_factor,
-        } = component(state, c);
         let (s, d) = (&inputs.source[c], &inputs.stored[c]);
         let [(a, b, x), (e, f, y)] = [
-            (self.factor(src_factor, c, inputs, first), s),
-            (self.factor(dst_factor, c, inputs, second), d),
+            (self.factor(part.src_factor, c, inputs, first), s),
+            (self.factor(part.dst_factor, c, inputs, second), d),
         ]
         .map(|(factor, any)| match factor {
             Factor::Zero => (0.0, 0.0, &any[..]),
@@ -251,7 +244,7 @@ impl Varying {
             Factor::Value(factors) => (0.0, 1.0, factors),
             Factor::Complement(factors) => (1.0, -1.0, factors),
         });
-        let (plus, minus) = match operation {
+        let (plus, minus) = match part.operation {
             BlendOperation::Subtract => (1.0, -1.0),
             BlendOperation::ReverseSubtract => (-1.0, 1.0),
             _ => (1.0, 1.0),
@@ -266,17 +259,12 @@ impl Varying {
     #[inline(always)]
     fn blended(
         &self,
-        state: &BlendState,
+        part: BlendComponent,
         c: usize,
         inputs: &Inputs,
         [first, second]: &mut [Plane; 2],
         values: &mut [f32],
     ) {
-        let BlendComponent {
-            operation,
-            src_factor,
-            dst_factor,
-        } = component(state, c);
         let encoding = self.encoding(c);
         let count = values.len();
         let (source, stored) = (&inputs.source[c][..count], &inputs.stored[c][..count]);
@@ -290,30 +278,30 @@ impl Varying {
             };
         }
         let pairs = source.iter().zip(stored);
-        match operation {
+        match part.operation {
             BlendOperation::Min => return run!(pairs, |s, d| plain.min(s, d)),
             BlendOperation::Max => return run!(pairs, |s, d| plain.max(s, d)),
             BlendOperation::Add | BlendOperation::Subtract | BlendOperation::ReverseSubtract => {}
         }
         let factors = (
-            self.factor(src_factor, c, inputs, first),
-            self.factor(dst_factor, c, inputs, second),
+            self.factor(part.src_factor, c, inputs, first),
+            self.factor(part.dst_factor, c, inputs, second),
         );
         // Complements of numbers below 0 are out of a normalized range.
         let held = matches!(encoding, ChannelEncoding::Snorm(_));
         let (same, rest) = (|x: f32| x, |x: f32| 1.0 - x);
         match factors {
             (Factor::Value(x), Factor::Value(y)) => {
-                summed(operation, values, (source, x, same), (stored, y, same));
+                summed(part.operation, values, (source, x, same), (stored, y, same));
             }
             (Factor::Value(x), Factor::Complement(y)) if !held => {
-                summed(operation, values, (source, x, same), (stored, y, rest));
+                summed(part.operation, values, (source, x, same), (stored, y, rest));
             }
             (Factor::Complement(x), Factor::Value(y)) if !held => {
-                summed(operation, values, (source, x, rest), (stored, y, same));
+                summed(part.operation, values, (source, x, rest), (stored, y, same));
             }
             (Factor::Complement(x), Factor::Complement(y)) if !held => {
-                summed(operation, values, (source, x, rest), (stored, y, rest));
+                summed(part.operation, values, (source, x, rest), (stored, y, rest));
             }
             (x, y) => {
                 let mut sides = [[0.0; TEXELS]; 2];
@@ -321,7 +309,7 @@ impl Varying {
                 self.product(x, encoding, source, &mut s[..count]);
                 self.product(y, encoding, stored, &mut d[..count]);
                 let ones = [1.0; TEXELS];
-                summed(operation, values, (s, &ones, same), (d, &ones, same));
+                summed(part.operation, values, (s, &ones, same), (d, &ones, same));
             }
         }
     }
@@ -417,12 +405,6 @@ impl Varying {
             }
         }
     }
-}
-
-/// Returns the component of a state that a channel is blended by.
-#[inline(always)]
-fn component(state: &BlendState, c: usize) -> BlendComponent {
-    if c == 3 { state.alpha } else { state.color }
 }
 
 /// Gives the sum or the difference of two sides: operands, and factors before a function of them.
