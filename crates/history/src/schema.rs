@@ -27,19 +27,18 @@ pub(crate) enum Found {
 
 /// Tells what a file is.
 pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, HistoryError> {
-    let wrong = HistoryError::database(path);
-    let number = |name: &str| -> Result<i32, HistoryError> {
-        connection
-            .query_row(&format!("PRAGMA {name}"), [], |row| row.get(0))
-            .map_err(&wrong)
-    };
-    let (application, schema) = (number("application_id")?, number("user_version")?);
+    // One statement, so that all three are of one state: another process may make the tables between two.
+    let (application, schema, tables): (i32, i32, i64) = connection
+        .query_row(
+            "SELECT application_id, user_version, (SELECT count(*) FROM sqlite_schema) \
+             FROM pragma_application_id, pragma_user_version",
+            [],
+            |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
+        )
+        .map_err(HistoryError::database(path))?;
     if application == APPLICATION {
         return Ok(Found::Schema(u32::try_from(schema).unwrap_or(u32::MAX)));
     }
-    let tables: i64 = connection
-        .query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))
-        .map_err(&wrong)?;
     if application == 0 && schema == 0 && tables == 0 {
         return Ok(Found::Empty);
     }
@@ -93,6 +92,8 @@ pub(crate) fn migrate(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::thread;
+    use std::time::Duration;
 
     fn memory() -> Connection {
         Connection::open_in_memory().unwrap()
@@ -109,6 +110,25 @@ mod tests {
             assert_eq!(found, Found::Schema(SCHEMA));
             // Once more does nothing.
             migrate(path, &mut connection, &MIGRATIONS).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_being_made_is_empty_or_a_history() {
+        let folder = tempfile::tempdir().unwrap();
+        for number in 0..50 {
+            let path = folder.path().join(format!("{number}.db"));
+            let open = || {
+                let connection = Connection::open(&path).unwrap();
+                connection.busy_timeout(Duration::from_secs(60)).unwrap();
+                connection
+            };
+            let (mut maker, looker) = (open(), open());
+            let path = path.as_path();
+            thread::scope(|scope| {
+                scope.spawn(move || while look(path, &looker).unwrap() == Found::Empty {});
+                migrate(path, &mut maker, &MIGRATIONS).unwrap();
+            });
         }
     }
 
