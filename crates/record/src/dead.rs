@@ -10,7 +10,7 @@ use crate::verdict::Verdict;
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -92,9 +92,9 @@ impl Expectations {
     pub fn dead(&self, run: &Run, ids: &[String], described: &[String]) -> Vec<Dead> {
         let used = run.header.adapters.iter().map(|a| &a.name);
         let names: BTreeSet<&String> = used.chain(described).collect();
-        let names: Vec<String> = names.into_iter().cloned().collect();
+        let mut names = Names::new(names.into_iter().cloned().collect());
         let ids: BTreeSet<&String> = ids.iter().collect();
-        let ids: Vec<String> = ids.into_iter().cloned().collect();
+        let mut ids = Names::new(ids.into_iter().cloned().collect());
         let mut dead = Vec::new();
         let mut reaches = Vec::new();
         for known in self.all() {
@@ -106,18 +106,19 @@ impl Expectations {
                 });
             };
             for glob in &known.cases {
-                parts_without(glob, &ids)
+                ids.parts_without(glob)
                     .into_iter()
                     .for_each(|glob| part(DeadKind::NoCase, glob));
             }
             for glob in &known.adapters {
-                parts_without(glob, &names)
+                names
+                    .parts_without(glob)
                     .into_iter()
                     .for_each(|glob| part(DeadKind::NoAdapter, glob));
             }
             reaches.push(Reach {
-                cases: reach(&known.cases, &ids),
-                adapters: reach(&known.adapters, &names),
+                cases: ids.reach(&known.cases),
+                adapters: names.reach(&known.adapters),
             });
         }
         for (number, known) in self.all().iter().enumerate() {
@@ -139,7 +140,7 @@ impl Expectations {
                     place: known.place(),
                     about: by.place(),
                 });
-            } else if self.never_matched(number, one, run, &names) {
+            } else if self.never_matched(number, one, run, &names.sorted) {
                 dead.push(Dead {
                     kind: DeadKind::NeverMatched,
                     place: known.place(),
@@ -227,11 +228,49 @@ fn is_pattern(glob: &str) -> bool {
     glob.contains(['*', '?', '[', '{', '\\'])
 }
 
-/// The indices of the names, which are sorted, that one of the globs matches.
-fn reach(globs: &[String], names: &[String]) -> BTreeSet<usize> {
-    globs.iter().flat_map(|glob| matches(glob, names)).collect()
+/// Names, and which of them each glob matches that was asked about: entries share most of their globs.
+struct Names {
+    sorted: Vec<String>,
+    matches: HashMap<String, Vec<usize>>,
 }
 
+impl Names {
+    fn new(sorted: Vec<String>) -> Self {
+        Self {
+            sorted,
+            matches: HashMap::new(),
+        }
+    }
+
+    /// The indices of the names that one of the globs matches.
+    fn reach(&mut self, globs: &[String]) -> BTreeSet<usize> {
+        let mut reach = BTreeSet::new();
+        for glob in globs {
+            reach.extend(self.matches(glob));
+        }
+        reach
+    }
+
+    fn matches(&mut self, glob: &str) -> &[usize] {
+        if !self.matches.contains_key(glob) {
+            let found = matches(glob, &self.sorted);
+            self.matches.insert(glob.to_owned(), found);
+        }
+        &self.matches[glob]
+    }
+
+    /// The glob if it matches no name; else each form of it with one alternative alone that matches none.
+    fn parts_without(&mut self, glob: &str) -> Vec<String> {
+        if self.matches(glob).is_empty() {
+            return vec![glob.to_owned()];
+        }
+        let mut parts = alternatives(glob);
+        parts.retain(|part| self.matches(part).is_empty());
+        parts
+    }
+}
+
+/// The indices of the names, which are sorted, that a glob matches.
 fn matches(glob: &str, names: &[String]) -> Vec<usize> {
     if !is_pattern(glob) {
         let found = names.binary_search_by(|name| name.as_str().cmp(glob));
@@ -247,17 +286,6 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
     near.take_while(|(_, name)| name.starts_with(prefix))
         .filter(|(_, name)| compiled.is_match(name))
         .map(|(index, _)| index)
-        .collect()
-}
-
-/// The glob if it matches no name; else each form of it with one alternative alone that matches none.
-fn parts_without(glob: &str, names: &[String]) -> Vec<String> {
-    if matches(glob, names).is_empty() {
-        return vec![glob.to_owned()];
-    }
-    let parts = alternatives(glob).into_iter();
-    parts
-        .filter(|part| matches(part, names).is_empty())
         .collect()
 }
 
