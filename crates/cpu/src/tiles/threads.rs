@@ -1,6 +1,7 @@
 //! The threads that share a pass.
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
+use std::sync::LazyLock;
 use std::thread;
 
 /// The most threads that tests draw with, on a machine that has fewer, too.
@@ -18,7 +19,10 @@ thread_local! {
 
 /// Returns the number of threads that this machine runs at once.
 pub(crate) fn available() -> usize {
-    thread::available_parallelism().map_or(1, usize::from)
+    // The answer takes a dozen files of the kernel to read, each time.
+    static THREADS: LazyLock<usize> =
+        LazyLock::new(|| thread::available_parallelism().map_or(1, usize::from));
+    *THREADS
 }
 
 /// Does each job on a thread of its own, the first on this one. What no other thread has begun when this one is done
