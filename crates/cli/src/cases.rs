@@ -169,17 +169,30 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     .map_err(Failure::usage)
 }
 
-/// Returns the cases of a library whose ids match, built: on all cores, since a full run would wait a second
-/// for it.
+/// Returns the cases of a library whose ids match, built.
 pub(crate) fn build(
     library: &Library,
     profile: Profile,
     globs: &[String],
 ) -> Result<Vec<Case>, Failure> {
     let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
-    let share = selection.cases.len().div_ceil(processors()).max(1);
+    build_each(&selection.cases)
+}
+
+/// Returns the cases of a library with these ids, built.
+pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<Case>, Failure> {
+    let all = library.cases(Profile::Full);
+    let named: Vec<CaseRef<'_>> = all
+        .filter(|case| ids.contains(case.id().as_str()))
+        .collect();
+    build_each(&named)
+}
+
+/// Builds cases on all cores, since a full run would wait a second for it.
+fn build_each(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, Failure> {
+    let share = cases.len().div_ceil(processors()).max(1);
     let parts: Vec<Result<Vec<Case>, CaseError>> = thread::scope(|scope| {
-        let parts = selection.cases.chunks(share);
+        let parts = cases.chunks(share);
         let started: Vec<_> = parts
             .map(|cases| scope.spawn(|| cases.iter().map(CaseRef::build).collect()))
             .collect();
@@ -202,8 +215,11 @@ pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Ve
     etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
 }
 
-/// Returns the ids of all cases.
+/// Returns the ids of all cases. Those of a folder are built all the same, so that errors show.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
+    if cases.is_none() {
+        return all_ids(None);
+    }
     let library = library(cases)?;
     let all = build(&library, Profile::Full, &[])?;
     Ok(all.into_iter().map(|case| case.id).collect())

@@ -1,6 +1,6 @@
 //! `etalon merge`.
 
-use crate::cases::{build, library};
+use crate::cases::{build_named, library};
 use crate::catalogue::catalogue;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
@@ -8,7 +8,6 @@ use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
-use etalon_case::Profile;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run, clear};
 use serde_json::json;
 use std::collections::HashSet;
@@ -118,8 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
     let library = library(None)?;
     let drawn: HashSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
-    let mut cases = build(&library, Profile::Full, &[])?;
-    cases.retain(|case| drawn.contains(case.id.as_str()));
+    let cases = build_named(&library, &drawn)?;
     etalon_report::write_catalogue(out, &catalogue(&library, &cases)).map_err(Failure::incomplete)
 }
 
