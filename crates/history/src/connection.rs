@@ -48,8 +48,9 @@ pub(crate) fn for_reading(path: &Path, patience: Duration) -> Result<Connection,
     // reads a file without that permission all the same.
     let mut connection = open(path, OpenFlags::SQLITE_OPEN_READ_WRITE, patience)?;
     match schema::look(path, &connection)? {
+        // As a file is that another process is making.
         Found::Empty => {
-            return Err(HistoryError::Other {
+            return Err(HistoryError::None {
                 path: path.to_owned(),
             });
         }

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Why a history could not be read or written, or a run not be added.
 #[derive(Debug, Error)]
 pub enum HistoryError {
-    /// There is no such file.
+    /// There is no such file, or it is empty.
     #[error("there is no history at {}; `etalon history add RUN` makes one", path.display())]
     None {
         /// The file.

@@ -66,6 +66,9 @@ fn an_empty_file_becomes_a_history() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     fs::write(&path, "").unwrap();
+    let error = History::open_read(&path).unwrap_err();
+    assert!(matches!(error, HistoryError::None { .. }), "{error}");
+    assert_line(&error, &path);
     Writer::open(&path).unwrap().add(&one(1)).unwrap();
     assert_eq!(History::open_read(&path).unwrap().runs().len(), 1);
 }
