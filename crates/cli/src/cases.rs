@@ -156,8 +156,7 @@ pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Fa
 
 /// Returns the cases whose ids are nearest to a text.
 pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
-    let ids: Vec<String> = library.cases(Profile::Full).map(|case| case.id()).collect();
-    did_you_mean(word, ids.iter().map(String::as_str))
+    did_you_mean(word, ids_of(library).iter().map(String::as_str))
 }
 
 /// Returns the cases of a folder, or the built-in ones.
@@ -217,17 +216,18 @@ pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Ve
 
 /// Returns the ids of all cases. Those of a folder are built all the same, so that errors show.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
-    if cases.is_none() {
-        return all_ids(None);
-    }
     let library = library(cases)?;
-    let all = build(&library, Profile::Full, &[])?;
-    Ok(all.into_iter().map(|case| case.id).collect())
+    if cases.is_some() {
+        build(&library, Profile::Full, &[])?;
+    }
+    Ok(ids_of(&library))
 }
 
 /// Returns the ids of all cases, without building them.
 pub(crate) fn all_ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
-    let library = library(cases)?;
-    let all = etalon_runner::select(&library, Profile::Full, &[]).map_err(Failure::usage)?;
-    Ok(all.cases.iter().map(|case| case.id()).collect())
+    Ok(ids_of(&library(cases)?))
+}
+
+fn ids_of(library: &Library) -> Vec<String> {
+    library.cases(Profile::Full).map(|case| case.id()).collect()
 }

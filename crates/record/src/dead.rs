@@ -91,10 +91,8 @@ impl Expectations {
     /// the names of adapters that there may be besides those of the run.
     pub fn dead(&self, run: &Run, ids: &[String], described: &[String]) -> Vec<Dead> {
         let used = run.header.adapters.iter().map(|a| &a.name);
-        let names: BTreeSet<&String> = used.chain(described).collect();
-        let mut names = Names::new(names.into_iter().cloned().collect());
-        let ids: BTreeSet<&String> = ids.iter().collect();
-        let mut ids = Names::new(ids.into_iter().cloned().collect());
+        let mut names = Names::new(used.chain(described));
+        let mut ids = Names::new(ids);
         let mut dead = Vec::new();
         let mut reaches = Vec::new();
         for known in self.all() {
@@ -235,9 +233,10 @@ struct Names {
 }
 
 impl Names {
-    fn new(sorted: Vec<String>) -> Self {
+    fn new<'a>(names: impl IntoIterator<Item = &'a String>) -> Self {
+        let sorted: BTreeSet<&String> = names.into_iter().collect();
         Self {
-            sorted,
+            sorted: sorted.into_iter().cloned().collect(),
             matches: HashMap::new(),
         }
     }
