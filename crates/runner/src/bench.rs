@@ -10,7 +10,6 @@ mod round;
 mod ruler;
 
 use crate::drawing::Drawing;
-use crate::judge::Judge;
 use crate::launch::Launch;
 use crate::loss::Failure;
 use crate::process::Wait;
@@ -18,6 +17,7 @@ use crate::supervisor::{FailedStarts, Supervisor};
 use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
+use etalon_judge::Judge;
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
     Expectations, Picture, Record, RecordError, ReportFiles, Round, Time, Verdict, cell,

@@ -1,10 +1,10 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
 use crate::drawing::draw_frames;
-use crate::judge::Judge;
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
+use etalon_judge::Judge;
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::channel;

@@ -1,11 +1,11 @@
 //! The record of a case that was drawn alone, for callers that keep no run folder.
 
 use crate::failure_report::FailureReport;
-use crate::judge::Judge;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
 use etalon_case::Case;
 use etalon_frame::{Frame, Limits};
+use etalon_judge::Judge;
 use etalon_record::Record;
 
 /// Returns the record of a drawing, and whether its worker must not be used again. Frames are judged by themselves:

@@ -17,8 +17,9 @@ use etalon_bundle::{
 use etalon_case::Case;
 use etalon_explore::states;
 use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
+use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Record, Source, Subject, Symptom};
-use etalon_runner::{Judge, Judged, Launch, Recorded, Worker, judge_texel};
+use etalon_runner::{Launch, Recorded, Worker};
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Duration;

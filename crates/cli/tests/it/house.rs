@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 24] = [
+const TABLE: [(&str, &[&str], &[&str]); 25] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -39,11 +39,17 @@ const TABLE: [(&str, &[&str], &[&str]); 24] = [
     ),
     ("record", &["frame", "stats"], &[]),
     (
+        "judge",
+        &["case", "frame", "record", "reference", "scene"],
+        &[],
+    ),
+    (
         "runner",
         &[
             "backend",
             "case",
             "frame",
+            "judge",
             "mutants",
             "record",
             "reference",
@@ -82,6 +88,7 @@ const TABLE: [(&str, &[&str], &[&str]); 24] = [
             "frame",
             "gl",
             "history",
+            "judge",
             "mutants",
             "pipeline",
             "record",

@@ -4,9 +4,9 @@
 use etalon_backend::Backend;
 use etalon_case::{Case, CaseFile, Profile};
 use etalon_frame::{Frame, Limits, Story};
+use etalon_judge::Judge;
 use etalon_mutants::MutantBackend;
 use etalon_record::{Record, Verdict};
-use etalon_runner::Judge;
 
 fn case(body: &str) -> Case {
     let text = format!(r#"{{"about":"t","spec":["t"],{body}}}"#);

@@ -9,9 +9,10 @@ use etalon_backend::Backend;
 use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
+use etalon_judge::Judge;
 use etalon_mutants::{Mutant, MutantBackend, mutants};
 use etalon_record::{Record, Verdict};
-use etalon_runner::{Judge, draw_frames};
+use etalon_runner::draw_frames;
 use std::cell::{LazyCell, OnceCell};
 use std::collections::BTreeSet;
 

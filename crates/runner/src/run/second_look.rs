@@ -5,9 +5,9 @@ use crate::drawing::Drawing;
 use crate::failure_report::FailureReport;
 use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
-use crate::story::tell_chain;
 use crate::supervisor::start;
 use crate::sync::lock;
+use etalon_judge::tell_chain;
 use etalon_record::{LossKind, Symptom, Verdict};
 use std::time::{Duration, Instant};
 

@@ -6,8 +6,9 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_case::{Case, CaseFile, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits};
+use etalon_judge::Judge;
 use etalon_record::Verdict;
-use etalon_runner::{Judge, Worker, draw_frames};
+use etalon_runner::{Worker, draw_frames};
 use etalon_scene::Scene;
 
 /// The rasterizer, whose clears are a code off from some submission of a prepared scene on.

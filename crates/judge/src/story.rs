@@ -71,7 +71,7 @@ pub(crate) fn tell_relation(
 }
 
 /// Adds to a record's story the cases that had to be drawn before.
-pub(crate) fn tell_chain(record: &mut Record) {
+pub fn tell_chain(record: &mut Record) {
     let after = record.after.join(", then ");
     if let Some(verdict) = record.story.as_mut().and_then(Story::verdict_mut)
         && !after.is_empty()

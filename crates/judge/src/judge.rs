@@ -154,7 +154,7 @@ impl Judge {
     ///
     /// # Errors
     /// When a frame is not one of the case.
-    pub(crate) fn verdict(
+    pub fn verdict(
         &self,
         number: usize,
         case: &Case,
@@ -205,7 +205,7 @@ pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
 
 /// True if a case is a selftest that must fail under the rules of an adapter. One whose relation the text
 /// does not bind is Imprecise there, and rightly so.
-pub(crate) fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
+pub fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
     let bound = |relation: &Relation| {
         let permission = Rules::invariance(limits, relation.invariance);
         permission.value() > Some(Band::Imprecise)

@@ -1,13 +1,12 @@
 //! The cache of legal sets. Adapters share those of equal limits under rules that agree on all that the
 //! judge asked for.
 
-use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
 use etalon_reference::{Judgement, KnownSets, Rules, Texels, judge_some, judgements_by};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The most bytes of cached legal sets.
 const CACHE_BYTES: usize = 512 << 20;
@@ -110,4 +109,9 @@ pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
         Some(variant) => &variant.scene,
         None => case.judged_scene(),
     }
+}
+
+/// Locks a mutex. What it guards stays consistent at every step, so a poisoned one is used on.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

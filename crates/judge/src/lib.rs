@@ -1,0 +1,18 @@
+//! The judge: takes a case, the frames that a driver drew of its scenes, and its limits; gives the verdict with its grade,
+//! what was asserted, and the story of the first wrong sample.
+//!
+//! Legal sets come from `reference`, records and frame files go to `record`. Nothing here draws, waits or writes, so that it
+//! compiles for WebAssembly too.
+
+mod expected_values;
+mod frame_file;
+mod grade;
+mod judge;
+mod judgement_cache;
+mod relation;
+mod story;
+mod texel;
+
+pub use judge::{Judge, Judged, is_due_to_fail};
+pub use story::{story_of_relation, story_of_sample, tell_chain};
+pub use texel::judge_texel;
