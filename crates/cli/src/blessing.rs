@@ -4,7 +4,8 @@ use crate::cases::ids;
 use crate::expectations::{replace, today, write};
 use crate::failure::Failure;
 use crate::output::say;
-use etalon_record::{Blessing, Expectations, Run, Source};
+use etalon_diagnose::Blessing;
+use etalon_record::{Expectations, Run, Source};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +42,7 @@ pub(crate) fn bless(
     all_adapters: bool,
 ) -> Result<(), Failure> {
     let ids = ids(cases)?;
-    let blessing = expected.bless(run, &ids, all_adapters, &today());
+    let blessing = etalon_diagnose::bless(expected, run, &ids, all_adapters, &today());
     let (what, added) = if path.is_dir() {
         write_findings(path, &blessing)?;
         ("findings", blessing.findings.len())

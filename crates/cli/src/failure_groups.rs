@@ -7,11 +7,11 @@
 use crate::failure::Failure;
 use crate::known_bugs::{KnownBugs, Match};
 use crate::reduction::{DriverOracle, Shown, confirm, file_name};
-use crate::traits::Traits;
 use etalon_case::Case;
-use etalon_explore::{Candidate, Oracle, RandomScene, Signature, keys};
+use etalon_diagnose::{Signature, Symptom, Traits};
+use etalon_explore::{Candidate, Oracle, RandomScene, keys};
 use etalon_frame::Limits;
-use etalon_record::{Record, Symptom, Verdict};
+use etalon_record::{Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;

@@ -7,11 +7,11 @@
 
 use crate::failure::Failure;
 use crate::reduction::{DriverOracle, confirm};
-use crate::traits::{Likeness, Traits};
 use etalon_case::{Case, CaseRef, Library, Profile, build};
-use etalon_explore::{Candidate, Signature, keys};
+use etalon_diagnose::{Likeness, Signature, Symptom, Traits};
+use etalon_explore::{Candidate, keys};
 use etalon_frame::{Aspect, Limits};
-use etalon_record::{AdapterRecord, Expectations, Known, Record, Symptom, Verdict};
+use etalon_record::{AdapterRecord, Expectations, Known, Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::cmp::Reverse;

@@ -39,7 +39,6 @@ mod reduction;
 mod report_files;
 mod scene_text;
 mod shard;
-mod traits;
 mod worker;
 
 use clap::{CommandFactory, Parser};

@@ -4,9 +4,10 @@
 //! way. Each such candidate costs a process, and each that hangs its time, so that both are bounded.
 
 use etalon_case::Case;
+use etalon_diagnose::{Subject, Symptom};
 use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce, states};
 use etalon_frame::Limits;
-use etalon_record::{Record, Subject, Symptom, Verdict};
+use etalon_record::{Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::sync::atomic::{AtomicBool, Ordering};

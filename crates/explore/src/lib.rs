@@ -18,11 +18,9 @@ mod pairs;
 mod passes;
 mod reduce;
 mod scenes;
-mod signature;
 mod space;
 
 pub use document::{keys, leaves, states};
 pub use fuzz::{Fuzzer, RandomScene};
 pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce};
-pub use signature::Signature;
 pub use space::Space;

@@ -3,7 +3,7 @@
 //! Only what is certain is called dead. An expectation whose cases or adapters a run left out may be alive.
 
 use crate::error::RecordError;
-use crate::expectations::{Expectations, Known, compiled};
+use crate::expectations::{Expectations, Known, compile_glob};
 use crate::folder::DEAD_FILE;
 use crate::run::Run;
 use crate::verdict::Verdict;
@@ -212,7 +212,7 @@ fn covers(by: &Known, known: &Known) -> bool {
     let driver = by.driver == "*"
         || by.driver == known.driver
         || !is_pattern(&known.driver)
-            && compiled(&by.driver).is_ok_and(|glob| glob.is_match(&known.driver));
+            && compile_glob(&by.driver).is_ok_and(|glob| glob.is_match(&known.driver));
     let version = by.version.is_none() || by.version == known.version;
     let day = match (&by.expires, &known.expires) {
         (None, _) => true,
@@ -275,7 +275,7 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
         let found = names.binary_search_by(|name| name.as_str().cmp(glob));
         return found.into_iter().collect();
     }
-    let Ok(compiled) = compiled(glob) else {
+    let Ok(compiled) = compile_glob(glob) else {
         return Vec::new();
     };
     let end = glob.find(['*', '?', '[', '{', '\\']).unwrap_or(glob.len());

@@ -4,7 +4,7 @@ use crate::adapter::AdapterRecord;
 use semver::Version;
 
 /// Returns the version of an adapter's driver: that of its description, else the one it reports.
-pub(crate) fn version_of(adapter: &AdapterRecord) -> Option<Version> {
+pub fn version_of(adapter: &AdapterRecord) -> Option<Version> {
     match &adapter.release {
         Some(release) => release_version(&release.version),
         None => driver_version(&adapter.driver_version),

@@ -240,7 +240,7 @@ const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 
 /// Compiles a glob, in which `*` also matches `/`.
-pub(crate) fn compiled(glob: &str) -> Result<GlobMatcher, globset::Error> {
+pub fn compile_glob(glob: &str) -> Result<GlobMatcher, globset::Error> {
     let built = GlobBuilder::new(glob).literal_separator(false).build();
     built.map(|g| g.compile_matcher())
 }
@@ -340,7 +340,7 @@ impl Expectations {
             remedy,
         };
         let build = |key: &str, glob: &String| {
-            compiled(glob).map_err(|e| {
+            compile_glob(glob).map_err(|e| {
                 let e = shortened(&e.to_string());
                 fail(glob, format!("\"{key}\": {e}"))
             })
@@ -438,7 +438,7 @@ impl Expectations {
     }
 
     /// The numbers of the expectations that name a case on an adapter.
-    pub(crate) fn numbers<'e, 'a>(
+    pub fn numbers<'e, 'a>(
         &'e self,
         adapter: &'a AdapterRecord,
         case: &'a str,
@@ -449,7 +449,7 @@ impl Expectations {
     }
 
     /// True if an expectation names a case, on any adapter.
-    pub(crate) fn names(&self, number: usize, case: &str) -> bool {
+    pub fn names(&self, number: usize, case: &str) -> bool {
         self.globs.get(number).is_some_and(|g| g.match_case(case))
     }
 

@@ -13,9 +13,7 @@
 
 mod adapter;
 mod bench;
-mod bless;
 mod clear;
-mod condition;
 mod conflict;
 mod dead;
 mod driver_version;
@@ -43,7 +41,6 @@ mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
-mod symptom;
 mod verdict;
 mod versions;
 mod writer;
@@ -53,12 +50,11 @@ pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
     Done, Ended, Enough, Measure, Picture, Round, Time, cell,
 };
-pub use bless::Blessing;
 pub use clear::clear;
-pub use condition::Condition;
 pub use dead::{Dead, DeadKind};
+pub use driver_version::version_of;
 pub use error::RecordError;
-pub use expectations::{Entry, Expectation, Expectations, Known, Source};
+pub use expectations::{Entry, Expectation, Expectations, Known, Source, compile_glob};
 pub use findings::{Evidence, Finding, Seen};
 pub use folder::{BENCH_FILE, CASES_FILE, DEAD_FILE, FolderKind, MISSING_FILE, RUN_FILE};
 pub use frame_file::{FrameFile, FrameImage};
@@ -79,7 +75,6 @@ pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
-pub use symptom::{Direction, Subject, Symptom};
 pub use verdict::Verdict;
 pub use versions::{
     CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,

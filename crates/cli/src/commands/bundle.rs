@@ -15,10 +15,11 @@ use etalon_bundle::{
     Versions, shader_test,
 };
 use etalon_case::Case;
+use etalon_diagnose::{Subject, Symptom};
 use etalon_explore::states;
 use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
-use etalon_record::{AdapterRecord, Finding, Record, Source, Subject, Symptom};
+use etalon_record::{AdapterRecord, Finding, Record, Source};
 use etalon_runner::{Launch, Recorded, Worker};
 use serde_json::json;
 use std::path::PathBuf;

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 25] = [
+const TABLE: [(&str, &[&str], &[&str]); 26] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -43,11 +43,13 @@ const TABLE: [(&str, &[&str], &[&str]); 25] = [
         &["case", "frame", "record", "reference", "scene"],
         &[],
     ),
+    ("diagnose", &["frame", "record"], &[]),
     (
         "runner",
         &[
             "backend",
             "case",
+            "diagnose",
             "frame",
             "judge",
             "mutants",
@@ -68,6 +70,7 @@ const TABLE: [(&str, &[&str], &[&str]); 25] = [
         "report",
         &[
             "dashboards",
+            "diagnose",
             "frame",
             "history",
             "methods",
@@ -83,6 +86,7 @@ const TABLE: [(&str, &[&str], &[&str]); 25] = [
             "bundle",
             "case",
             "cpu",
+            "diagnose",
             "explore",
             "export",
             "frame",

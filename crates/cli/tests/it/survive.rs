@@ -3,7 +3,8 @@
 
 use crate::etalon::{BINARY, REMOVED, etalon};
 use crate::sample;
-use etalon_record::{LossKind, Record, Run, Symptom, Verdict};
+use etalon_diagnose::Symptom;
+use etalon_record::{LossKind, Record, Run, Verdict};
 use predicates::prelude::*;
 use predicates::str::contains;
 use rustix::process::{Pid, Signal, kill_process};

@@ -7,8 +7,9 @@ use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
 use crate::supervisor::start;
 use crate::sync::lock;
+use etalon_diagnose::Symptom;
 use etalon_judge::tell_chain;
-use etalon_record::{LossKind, Symptom, Verdict};
+use etalon_record::{LossKind, Verdict};
 use std::time::{Duration, Instant};
 
 /// The time after which a search for the preceding cases is not narrowed further.

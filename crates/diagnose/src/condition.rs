@@ -1,6 +1,6 @@
 //! The shortest condition on axes that tells the failing cases of a file from the others that were drawn.
 
-use crate::expectations::compiled;
+use etalon_record::compile_glob;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most globs that a condition is written as.
@@ -153,7 +153,7 @@ impl Condition {
 
 /// True if a glob, in which `*` also stands for `/`, names an id.
 fn names(glob: &str, id: &str) -> bool {
-    compiled(glob).is_ok_and(|glob| glob.is_match(id))
+    compile_glob(glob).is_ok_and(|glob| glob.is_match(id))
 }
 
 fn axes(id: &str) -> BTreeMap<&str, &str> {

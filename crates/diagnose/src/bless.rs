@@ -3,16 +3,12 @@
 //! New ones are of the grade [`Grade::Unread`]: a run can say what happened, and only people can say which clause it
 //! breaks.
 
-use crate::adapter::AdapterRecord;
 use crate::condition::Condition;
-use crate::driver_version::version_of;
-use crate::expectations::{Entry, Expectation, Expectations, Known, Source};
-use crate::findings::{Evidence, Finding};
-use crate::grade::Grade;
-use crate::record::Record;
-use crate::run::Run;
 use crate::symptom::Symptom;
-use crate::verdict::Verdict;
+use etalon_record::{
+    AdapterRecord, Entry, Evidence, Expectation, Expectations, Finding, Grade, Known, Record, Run,
+    Source, Verdict, version_of,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The expectations after a run was blessed.
@@ -32,79 +28,83 @@ pub struct Blessing {
     pub unblessed: u64,
 }
 
-impl Expectations {
-    /// Adds an entry for every unexpected verdict of a run, case by case, and removes the entries of cases
-    /// that are better. `ids` are all existing cases, of which the run may have drawn a part; `all_adapters`
-    /// is true if it used every adapter found. The reason of a new entry says that it is not explained yet:
-    /// explanations are for people to write.
-    pub fn bless(&self, run: &Run, ids: &[String], all_adapters: bool, today: &str) -> Blessing {
-        let mut blessing = Blessing::default();
-        let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); self.all().len()];
-        let mut better = vec![0_u64; self.all().len()];
-        let mut worse = vec![0_u64; self.all().len()];
-        let mut new = Vec::new();
-        for record in &run.records {
-            let Some(adapter) = run.header.adapter(&record.adapter) else {
-                continue;
-            };
-            for number in self.numbers(adapter, &record.case) {
-                drawn[number].insert(&record.case);
-                let good = !record.verdict.is_bad()
-                    && !matches!(record.verdict, Verdict::NotSupported | Verdict::Skipped);
-                better[number] += u64::from(good);
-                worse[number] += u64::from(!good);
-            }
-            if !record.unexpected() {
-                continue;
-            }
-            // It is expected as soon as its round trip is.
-            let follows = record.blocked_by.iter().any(|id| {
-                let mut all = run.records.iter();
-                all.any(|r| r.adapter == record.adapter && r.case == *id)
-            });
-            if !record.verdict.is_bad() {
-                blessing.unblessed += 1;
-            } else if !follows
-                && !matches!(
-                    self.look_up(adapter, &record.case, record.verdict),
-                    Expectation::Agrees(_)
-                )
-            {
-                new.push((record, entry(record, adapter, run, today)));
-            }
-        }
-        let mut keep = |known: &Known| {
-            if let Source::Entry(entry) = &known.source {
-                blessing.entries.push(entry.clone());
-            }
+/// Returns expectations with an entry for every unexpected verdict of a run, case by case, and without the entries of cases
+/// that are better. `ids` are all existing cases, of which the run may have drawn a part; `all_adapters`
+/// is true if it used every adapter found. The reason of a new entry says that it is not explained yet:
+/// explanations are for people to write.
+pub fn bless(
+    expectations: &Expectations,
+    run: &Run,
+    ids: &[String],
+    all_adapters: bool,
+    today: &str,
+) -> Blessing {
+    let mut blessing = Blessing::default();
+    let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); expectations.all().len()];
+    let mut better = vec![0_u64; expectations.all().len()];
+    let mut worse = vec![0_u64; expectations.all().len()];
+    let mut new = Vec::new();
+    for record in &run.records {
+        let Some(adapter) = run.header.adapter(&record.adapter) else {
+            continue;
         };
-        for (number, known) in self.all().iter().enumerate() {
-            // What is flaky passes now and then, and what is skipped was not drawn.
-            let tried = !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
-            if !tried || better[number] == 0 {
-                keep(known);
-                continue;
-            }
-            let pattern = |glob: &String| glob.contains(['*', '?', '[', '{']);
-            let one_adapter = known.adapters.len() == 1 && !known.adapters.iter().any(pattern);
-            let whole = ids
-                .iter()
-                .filter(|id| self.names(number, id))
-                .all(|id| drawn[number].contains(id.as_str()));
-            if worse[number] == 0 && whole && (one_adapter || all_adapters) {
-                blessing.removed.push(known.clone());
-            } else {
-                blessing.to_narrow.push(known.clone());
-                keep(known);
-            }
+        for number in expectations.numbers(adapter, &record.case) {
+            drawn[number].insert(&record.case);
+            let good = !record.verdict.is_bad()
+                && !matches!(record.verdict, Verdict::NotSupported | Verdict::Skipped);
+            better[number] += u64::from(good);
+            worse[number] += u64::from(!good);
         }
-        blessing.added = new.len();
-        blessing.findings = findings(&new, run, today);
-        blessing
-            .entries
-            .extend(new.into_iter().map(|(_, entry)| entry));
-        blessing
+        if !record.unexpected() {
+            continue;
+        }
+        // It is expected as soon as its round trip is.
+        let follows = record.blocked_by.iter().any(|id| {
+            let mut all = run.records.iter();
+            all.any(|r| r.adapter == record.adapter && r.case == *id)
+        });
+        if !record.verdict.is_bad() {
+            blessing.unblessed += 1;
+        } else if !follows
+            && !matches!(
+                expectations.look_up(adapter, &record.case, record.verdict),
+                Expectation::Agrees(_)
+            )
+        {
+            new.push((record, entry(record, adapter, run, today)));
+        }
     }
+    let mut keep = |known: &Known| {
+        if let Source::Entry(entry) = &known.source {
+            blessing.entries.push(entry.clone());
+        }
+    };
+    for (number, known) in expectations.all().iter().enumerate() {
+        // What is flaky passes now and then, and what is skipped was not drawn.
+        let tried = !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
+        if !tried || better[number] == 0 {
+            keep(known);
+            continue;
+        }
+        let pattern = |glob: &String| glob.contains(['*', '?', '[', '{']);
+        let one_adapter = known.adapters.len() == 1 && !known.adapters.iter().any(pattern);
+        let whole = ids
+            .iter()
+            .filter(|id| expectations.names(number, id))
+            .all(|id| drawn[number].contains(id.as_str()));
+        if worse[number] == 0 && whole && (one_adapter || all_adapters) {
+            blessing.removed.push(known.clone());
+        } else {
+            blessing.to_narrow.push(known.clone());
+            keep(known);
+        }
+    }
+    blessing.added = new.len();
+    blessing.findings = findings(&new, run, today);
+    blessing
+        .entries
+        .extend(new.into_iter().map(|(_, entry)| entry));
+    blessing
 }
 
 fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> Entry {
@@ -224,8 +224,7 @@ fn slug(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::header::{FORMAT, Header, Settings};
-    use crate::machine::Machine;
+    use etalon_record::{FORMAT, Header, Machine, Settings};
     use std::path::Path;
 
     fn run(verdicts: &[(&str, Verdict)], expectations: &Expectations) -> Run {
@@ -286,7 +285,13 @@ mod tests {
             ],
             &before,
         );
-        let blessing = before.bless(&seen, &ids(&["a/x=*", "a/y", "a/z"]), true, "2026-11-22");
+        let blessing = bless(
+            &before,
+            &seen,
+            &ids(&["a/x=*", "a/y", "a/z"]),
+            true,
+            "2026-11-22",
+        );
         assert_eq!((blessing.added, blessing.entries.len()), (2, 2));
         let text = Expectations::to_text(&blessing.entries).unwrap();
         let after = Expectations::parse(&text, Path::new("e.json")).unwrap();
@@ -340,7 +345,7 @@ mod tests {
         ));
         // Blessed once, there is nothing more to bless.
         let again = run(&[("a/x=*", Verdict::Fail), ("a/z", Verdict::Flaky)], &after);
-        assert_eq!(after.bless(&again, &[], true, "d").added, 0);
+        assert_eq!(bless(&after, &again, &[], true, "d").added, 0);
     }
 
     #[test]
@@ -351,12 +356,12 @@ mod tests {
             &none,
         );
         seen.records[1].blocked_by = vec!["a/trip".to_owned()];
-        let blessing = none.bless(&seen, &[], true, "d");
+        let blessing = bless(&none, &seen, &[], true, "d");
         let cases: Vec<&str> = blessing.entries.iter().map(|e| e.case.as_str()).collect();
         assert_eq!(cases, ["a/trip"]);
         // Without it in the run, the case has to speak for itself.
         seen.records.remove(0);
-        let blessing = none.bless(&seen, &[], true, "d");
+        let blessing = bless(&none, &seen, &[], true, "d");
         assert_eq!(blessing.entries[0].verdict, Verdict::Blocked);
     }
 
@@ -365,7 +370,7 @@ mod tests {
         let entry = read("a/*");
         let all = ids(&["a/1", "a/2", "b/1"]);
         let bless = |verdicts: &[(&str, Verdict)], whole: bool| {
-            let blessing = entry.bless(&run(verdicts, &entry), &all, whole, "d");
+            let blessing = bless(&entry, &run(verdicts, &entry), &all, whole, "d");
             (
                 blessing.removed.len(),
                 blessing.to_narrow.len(),

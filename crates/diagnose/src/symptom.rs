@@ -7,9 +7,8 @@
 //! one's; one that is new is another symptom. [`Symptom::broad`] leaves out what differs among the cases of one
 //! bug: the runner rechecks so many records of each, reports group by it.
 
-use crate::record::{LossKind, ProcessEnd, Record};
-use crate::verdict::Verdict;
 use etalon_frame::{Aspect, Band, ChannelMismatch, CounterKind, Story, StoryLine};
+use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
 
 /// Operations that every sample passes, and so tell nothing.

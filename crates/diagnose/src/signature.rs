@@ -5,7 +5,6 @@
 //! those of formats and shaders. [`Signature::exact`] keeps more, for the question whether two failures are the same
 //! beyond what groups of failures ask for.
 
-use crate::document::list;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -182,6 +181,11 @@ impl fmt::Display for Signature {
         let all: Vec<&str> = self.0.iter().map(String::as_str).collect();
         f.write_str(&all.join(", "))
     }
+}
+
+/// Returns the items of a list; none where there is no list.
+fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
+    value.get(key).and_then(Value::as_array).map_or(&[], |l| l)
 }
 
 /// Adds the keys below a value with their words.

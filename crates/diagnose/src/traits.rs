@@ -4,27 +4,27 @@
 //! bug shows in many; to say that a failure is one that is known asks for more: the same words, and values on the same
 //! side of 0 and 1.
 
-use etalon_explore::Signature;
+use crate::signature::Signature;
+use crate::symptom::{Subject, Symptom};
 use etalon_frame::Aspect;
-use etalon_record::{Subject, Symptom};
 use serde_json::Value;
 
 /// The traits of a failing scene.
 #[derive(Clone, Debug)]
-pub(crate) struct Traits {
+pub struct Traits {
     /// The violation, without names of attachments and what was there before.
-    pub(crate) way: String,
+    pub way: String,
     subject: Subject,
     operations: Vec<String>,
     /// Its states.
-    pub(crate) states: Signature,
+    pub states: Signature,
     /// Its states with their words.
-    pub(crate) words: Signature,
+    pub words: Signature,
 }
 
 /// The likeness of a failure to one that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Likeness {
+pub enum Likeness {
     /// The same violation, states and words.
     Same,
     /// All groups of states that the known one has, and its violation, possibly with more.
@@ -35,7 +35,7 @@ pub(crate) enum Likeness {
 
 impl Traits {
     /// Returns the traits of a document that fails with a symptom.
-    pub(crate) fn of(document: &Value, symptom: &Symptom) -> Self {
+    pub fn of(document: &Value, symptom: &Symptom) -> Self {
         let mut operations: Vec<String> = match symptom.subject {
             Subject::Picture(_) => symptom.of_draws().into_iter().map(str::to_owned).collect(),
             _ => Vec::new(),
@@ -55,7 +55,7 @@ impl Traits {
     }
 
     /// Returns how much this failure is like a known one; `None` if it lacks something of it.
-    pub(crate) fn likeness(&self, known: &Self) -> Option<Likeness> {
+    pub fn likeness(&self, known: &Self) -> Option<Likeness> {
         // A failure that needs no vertices of its own is not about those of the known one.
         let own_vertices = self.words != self.words.without_vertices();
         let as_here = |signature: &Signature| match own_vertices {
@@ -90,7 +90,7 @@ impl Traits {
     }
 
     /// The aspect of a picture that is wrong.
-    pub(crate) fn aspect(&self) -> Option<Aspect> {
+    pub fn aspect(&self) -> Option<Aspect> {
         match self.subject {
             Subject::Picture(aspect) => Some(aspect),
             _ => None,
@@ -98,7 +98,7 @@ impl Traits {
     }
 
     /// True if a failure with these traits may be what is left of one with others when it is reduced.
-    pub(crate) fn may_be_left_of(&self, larger: &Self) -> bool {
+    pub fn may_be_left_of(&self, larger: &Self) -> bool {
         let has = |o: &String| larger.operations.contains(o);
         self.subject == larger.subject && self.operations.iter().all(has)
     }
