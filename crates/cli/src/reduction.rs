@@ -3,9 +3,10 @@
 //! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
 //! way. Each such candidate costs a process, and each that hangs its time, so that both are bounded.
 
-use etalon_case::Case;
-use etalon_diagnose::{Subject, Symptom};
-use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce, states};
+use crate::failure::Failure;
+use etalon_case::{Case, CaseRef, build};
+use etalon_diagnose::{Driver, Subject, Symptom, Traits};
+use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, reduce, states};
 use etalon_frame::Limits;
 use etalon_record::{Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
@@ -37,6 +38,8 @@ pub(crate) const TIMEOUT: &str = "20";
 const MOST_LOST: usize = 200;
 const LOST_TIME: Duration = Duration::from_secs(60);
 const HUNG_TIME: Duration = Duration::from_secs(2);
+/// The most keys of a scene that is reduced for a comparison.
+const MOST_KEYS: usize = 600;
 
 /// Draws a reduced case in a fresh process.
 pub(crate) fn confirm(
@@ -173,6 +176,121 @@ impl Oracle for DriverOracle<'_> {
 
     fn texel(&self) -> Option<[u32; 2]> {
         self.record.wrong.first().map(|w| [w.x, w.y])
+    }
+}
+
+/// Reduces cases on one driver, whose worker is started when it is needed.
+pub(crate) struct Reducer<'a> {
+    pub(crate) launch: Launch,
+    pub(crate) limits: Limits,
+    /// The time that a case may take.
+    pub(crate) timeout: Duration,
+    /// Set when the search is being stopped.
+    pub(crate) stop: &'a AtomicBool,
+    trials: Option<Trials>,
+}
+
+impl<'a> Reducer<'a> {
+    pub(crate) fn new(
+        launch: Launch,
+        limits: Limits,
+        timeout: Duration,
+        stop: &'a AtomicBool,
+    ) -> Self {
+        Self {
+            launch,
+            limits,
+            timeout,
+            stop,
+            trials: None,
+        }
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Returns an oracle on a case with this record, which is to be given back.
+    pub(crate) fn oracle(&mut self, record: Record) -> Result<DriverOracle<'a>, Failure> {
+        let trials = self.trials()?;
+        let stop = Some(self.stop);
+        Ok(DriverOracle::new(trials, record, self.timeout, stop))
+    }
+
+    /// Keeps the worker of an oracle for the next one.
+    pub(crate) fn give_back(&mut self, oracle: DriverOracle<'_>) -> Result<(), Failure> {
+        if let Some(error) = oracle.error {
+            let adapter = &self.launch.adapter;
+            return Err(Failure::incomplete(format!(
+                "the worker of {adapter} could not be started again: {error}"
+            )));
+        }
+        self.trials = Some(oracle.trials);
+        Ok(())
+    }
+
+    fn trials(&mut self) -> Result<Trials, Failure> {
+        match self.trials.take() {
+            Some(trials) => Ok(trials),
+            None => {
+                let worker = Worker::start(&self.launch).map_err(Failure::incomplete)?;
+                Ok(Trials::new(self.launch.clone(), worker, self.timeout))
+            }
+        }
+    }
+}
+
+impl<'a> Driver for Reducer<'a> {
+    type Named = CaseRef<'a>;
+    type Case = Candidate;
+    type Error = Failure;
+
+    fn is_stopped(&self) -> bool {
+        self.is_stopped()
+    }
+
+    fn document(&self, named: &CaseRef<'a>) -> Option<Value> {
+        named.document().ok()
+    }
+
+    fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, Failure> {
+        // A case may need all that it reads.
+        let Ok(case) = build("found/known", document) else {
+            return Ok(None);
+        };
+        if keys(&document["scene"]) > MOST_KEYS
+            || self.limits.missing(&case.requirements()).is_some()
+        {
+            return Ok(None);
+        }
+        let mut trials = self.trials()?;
+        let mut next = Some(&case);
+        let mut record = None;
+        let drawn = trials.first(&mut || next.take(), |case| *case, &mut |_, judged| {
+            record = Some(judged);
+            true
+        });
+        drawn.map_err(Failure::incomplete)?;
+        self.trials = Some(trials);
+        let document = document.clone();
+        Ok(record.map(|record| (Candidate { document, case }, record)))
+    }
+
+    fn reduce(
+        &mut self,
+        case: Candidate,
+        record: Record,
+    ) -> Result<(Candidate, Symptom, Traits), Failure> {
+        let mut oracle = self.oracle(record)?;
+        let smallest = oracle.reduce(case, &self.limits).smallest;
+        let symptom = oracle.symptom.clone();
+        self.give_back(oracle)?;
+        let traits = Traits::of(&smallest.document, &symptom);
+        Ok((smallest, symptom, traits))
+    }
+
+    fn is_steady(&self, case: &Candidate, symptom: &Symptom) -> bool {
+        confirm(&self.launch, &case.case, symptom, self.timeout).is_ok()
     }
 }
 

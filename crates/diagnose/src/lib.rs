@@ -2,7 +2,8 @@
 //!
 //! A [`Symptom`] is the way in which a record failed, a [`Signature`] what of a scene tells one failure from another,
 //! [`Traits`] are both, and say how much a failure is like one that is known. A [`Condition`] on axes tells the failing
-//! cases of a file from the others. [`bless()`] makes expectations and findings of a run's failures.
+//! cases of a file from the others. [`Groups`] holds failing scenes by what is left of them, [`KnownBugs`] finds the finding
+//! that explains a group, or that it is like. [`bless()`] makes expectations and findings of a run's failures.
 
 #![cfg_attr(
     test,
@@ -11,12 +12,18 @@
 
 mod bless;
 mod condition;
+mod groups;
+mod known_bugs;
+mod matching;
 mod signature;
 mod symptom;
 mod traits;
 
 pub use bless::{Blessing, bless};
 pub use condition::Condition;
+pub use groups::{Group, Groups, Key};
+pub use known_bugs::{Driver, KnownBugs};
+pub use matching::{Beyond, Match};
 pub use signature::Signature;
 pub use symptom::{Direction, Subject, Symptom};
 pub use traits::{Likeness, Traits};

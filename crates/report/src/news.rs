@@ -1,5 +1,7 @@
 //! The news of a run.
 
+mod compare;
+
 use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::{Expected, Run};

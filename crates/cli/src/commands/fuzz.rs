@@ -8,21 +8,23 @@ use crate::cases::library;
 use crate::counted::counted;
 use crate::expectations::{self, today};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
-use crate::failure_groups::{Folders, Group, Groups};
+use crate::failure_groups::{FailingScenes, Folders, Group};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::group_text::{self, why};
 use crate::interruption::listen;
-use crate::known_bugs::{KnownBugs, Match};
 use crate::output::{say, summarize, summarize_json};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
-use crate::reduction::TIMEOUT;
+use crate::reduction::{Reducer, TIMEOUT};
 use clap::Args;
-use etalon_case::{Case, Library};
+use etalon_case::{Case, Library, Profile};
+use etalon_diagnose::{KnownBugs, Match};
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
 use etalon_record::{AdapterRecord, Expectations, FolderLock, Record, Verdict};
 use etalon_runner::{Batches, Launch, Worker};
+use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -119,8 +121,7 @@ struct Tally {
 impl Tally {
     /// The groups that no finding explains.
     fn unexplained(&self) -> impl Iterator<Item = &Group> {
-        let explained = |g: &&Group| g.known().is_some_and(Match::is_exact);
-        self.groups.iter().filter(move |g| !explained(g))
+        self.groups.iter().filter(|g| !g.is_explained())
     }
 }
 
@@ -141,50 +142,56 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if adapters.ready.is_empty() {
         return Err(Failure::nothing("no adapter can be used"));
     }
-    let stop = listen()?;
+    let search = Search {
+        arguments,
+        expectations: &expectations,
+        library: &library,
+        stop: listen()?,
+        jobs: arguments.jobs.map_or_else(processors, usize::from),
+        timeout: Duration::from_secs_f64(arguments.timeout),
+    };
     let mut all = Vec::new();
     for (launch, worker) in adapters.ready {
-        if stop.load(Ordering::Relaxed) {
+        if search.is_stopped() {
             break;
         }
-        all.push(fuzz(
-            arguments,
-            launch,
-            worker,
-            &expectations,
-            &library,
-            stop,
-        )?);
+        all.push(search.on_adapter(launch, worker)?);
         // What was found is kept, whatever happens to the next adapter.
-        write(arguments, &all, stop)?;
+        write(arguments, &all, search.is_stopped())?;
     }
-    let interrupted = stop.load(Ordering::Relaxed);
+    let interrupted = search.is_stopped();
     if all.iter().all(|t| t.scenes == 0) && !interrupted {
         return Err(Failure::nothing("no scene can be drawn on these adapters"));
     }
-    match arguments.format {
-        Format::Json => summarize_json(&json!({
-            "interrupted": interrupted,
-            "adapters": all.iter().map(Tally::json).collect::<Vec<_>>(),
-            "groups": all.iter().flat_map(|t| t.groups.iter().map(Group::json)).collect::<Vec<_>>(),
-            "report": arguments.out.join(GROUPS),
-        }))?,
-        Format::Text => {
-            for tally in &all {
-                summarize(&tally.text());
-            }
-            let path = arguments.out.join(GROUPS);
-            summarize(&format!("Report: {}\n", path.display()));
-        }
-    }
+    print(arguments, &all, interrupted)?;
     if interrupted {
         say!("interrupted: what was found is kept");
         return Ok(INCOMPLETE);
     }
-    Ok(match all.iter().all(|t| t.unexplained().next().is_none()) {
-        true => 0,
-        false => UNEXPECTED,
+    Ok(if all.iter().all(|t| t.unexplained().next().is_none()) {
+        0
+    } else {
+        UNEXPECTED
     })
+}
+
+fn print(arguments: &Arguments, all: &[Tally], interrupted: bool) -> Result<(), Failure> {
+    let report = arguments.out.join(GROUPS);
+    match arguments.format {
+        Format::Json => summarize_json(&json!({
+            "interrupted": interrupted,
+            "adapters": all.iter().map(Tally::json).collect::<Vec<_>>(),
+            "groups": all.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
+            "report": report,
+        }))?,
+        Format::Text => {
+            for tally in all {
+                summarize(&tally.text());
+            }
+            summarize(&format!("Report: {}\n", report.display()));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses to replace what a folder holds without `--force`, with which it is removed.
@@ -213,121 +220,155 @@ fn free(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Draws the scenes of one adapter.
-fn fuzz(
-    arguments: &Arguments,
-    launch: Launch,
-    worker: Worker,
-    expectations: &Expectations,
-    library: &Library,
-    stop: &AtomicBool,
-) -> Result<Tally, Failure> {
-    let adapter = AdapterRecord::from(&worker);
-    let name = launch.adapter.clone();
-    let limits = worker.hello.limits.clone();
-    let jobs = arguments.jobs.map_or_else(processors, usize::from);
-    let count = match arguments.time {
-        Some(_) => u64::MAX,
-        None => arguments.count.unwrap_or(COUNT),
-    };
-    let begun = Instant::now();
-    let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
-    let timeout = Duration::from_secs_f64(arguments.timeout);
-    let mut batches = Batches::new(launch.clone(), worker, jobs, timeout);
-    let folders = Folders {
-        found: arguments.out.join(FOUND),
-        known: arguments.out.join(KNOWN),
-    };
-    let mut groups = Groups::new(launch.clone(), limits.clone(), folders, timeout);
-    let bar = progress(if count == u64::MAX { 0 } else { count });
-    bar.set_message(name.clone());
-    let mut tally = Tally {
-        adapter: name,
-        scenes: 0,
-        failing: 0,
-        not_supported: 0,
-        pairs: 0,
-        states: 0,
-        seconds: 0.0,
-        comparing: 0.0,
-        groups: Vec::new(),
-    };
-    let mut left = count;
-    let mut next = make(&mut fuzzer, &limits, &mut left);
-    let found = AtomicUsize::new(0);
-    let (failing, received) = mpsc::sync_channel::<Vec<(RandomScene, Record)>>(WAITING);
-    thread::scope(|scope| {
-        // What failed is reduced one after the other, in the order of the scenes, while others are drawn.
-        let added = scope.spawn(|| {
-            for scenes in received {
-                groups.add(scenes, stop)?;
-                found.store(groups.len(), Ordering::Relaxed);
-            }
-            Ok::<_, Failure>(())
-        });
-        let mut drawn = Ok(());
-        while !next.is_empty() && !stop.load(Ordering::Relaxed) {
-            let scenes = std::mem::take(&mut next);
-            let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
-            let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
-            (tally.pairs, tally.states) = (fuzzer.pairs(), fuzzer.states());
-            // While these are drawn, the next scenes are made.
-            let records = thread::scope(|scope| {
-                let made = scope.spawn(|| match late {
-                    true => Vec::new(),
-                    false => make(&mut fuzzer, &limits, &mut left),
-                });
-                let records = batches.draw(&cases, stop);
-                next = joined(made);
-                records
+/// What stays the same for all adapters.
+struct Search<'a> {
+    arguments: &'a Arguments,
+    expectations: &'a Expectations,
+    library: &'a Library,
+    stop: &'a AtomicBool,
+    jobs: usize,
+    timeout: Duration,
+}
+
+impl Search<'_> {
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Draws the scenes of one adapter, groups those that fail, and compares the groups with findings.
+    fn on_adapter(&self, launch: Launch, worker: Worker) -> Result<Tally, Failure> {
+        let Arguments { seed, out, .. } = self.arguments;
+        let adapter = AdapterRecord::from(&worker);
+        let limits = &worker.hello.limits;
+        let reducer = || Reducer::new(launch.clone(), limits.clone(), self.timeout, self.stop);
+        let folders = Folders {
+            found: out.join(FOUND),
+            known: out.join(KNOWN),
+        };
+        let mut failing = FailingScenes::new(reducer(), folders);
+        let bug_reducer = reducer();
+        let begun = Instant::now();
+        let count = match self.arguments.time {
+            Some(_) => u64::MAX,
+            None => self.arguments.count.unwrap_or(COUNT),
+        };
+        let mut maker = Maker {
+            fuzzer: Fuzzer::new(*seed, Space::of([limits])),
+            limits: limits.clone(),
+            left: count,
+            until: self.arguments.time.map(|time| begun + time),
+        };
+        let bar = progress(if count == u64::MAX { 0 } else { count });
+        bar.set_message(launch.adapter.clone());
+        let mut tally = Tally::new(&launch.adapter);
+        let batches = Batches::new(launch, worker, self.jobs, self.timeout);
+        self.draw(batches, &mut maker, &mut failing, &mut tally, &bar)?;
+        tally.seconds = begun.elapsed().as_secs_f64();
+        if failing.groups() > 0 && !self.is_stopped() {
+            bar.set_message(format!("{}: comparing with findings", tally.adapter));
+            self.compare(&mut failing, &adapter, bug_reducer);
+            tally.comparing = begun.elapsed().as_secs_f64() - tally.seconds;
+        }
+        bar.finish_and_clear();
+        tally.groups = failing.finish();
+        Ok(tally)
+    }
+
+    /// Draws scenes in batches until the maker gives none.
+    fn draw(
+        &self,
+        mut batches: Batches,
+        maker: &mut Maker,
+        failing: &mut FailingScenes<'_>,
+        tally: &mut Tally,
+        bar: &ProgressBar,
+    ) -> Result<(), Failure> {
+        let groups = AtomicUsize::new(0);
+        let (sender, receiver) = mpsc::sync_channel::<Vec<(RandomScene, Record)>>(WAITING);
+        let mut next = maker.batch();
+        thread::scope(|scope| {
+            // What failed is reduced one after the other, in the order of the scenes, while others are drawn.
+            let added = scope.spawn(|| {
+                for scenes in receiver {
+                    failing.add(scenes)?;
+                    groups.store(failing.groups(), Ordering::Relaxed);
+                }
+                Ok::<_, Failure>(())
             });
-            let records = match records {
-                Ok(records) => records,
-                Err(error) => {
-                    drawn = Err(Failure::incomplete(error));
+            let mut drawn = Ok(());
+            while !next.is_empty() && !self.is_stopped() {
+                let scenes = std::mem::take(&mut next);
+                let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
+                (tally.pairs, tally.states) = (maker.fuzzer.pairs(), maker.fuzzer.states());
+                // While these are drawn, the next scenes are made.
+                let records = thread::scope(|scope| {
+                    let made = scope.spawn(|| maker.batch());
+                    let records = batches.draw(&cases, self.stop);
+                    next = joined(made);
+                    records
+                });
+                let records = match records {
+                    Ok(records) => records,
+                    Err(error) => {
+                        drawn = Err(Failure::incomplete(error));
+                        break;
+                    }
+                };
+                // Fails if the other thread ended with an error, which it returns.
+                if sender.send(tally.count(scenes, records, bar)).is_err() {
                     break;
                 }
-            };
-            let mut bad = Vec::new();
-            for (scene, record) in scenes.into_iter().zip(records) {
-                let Some(record) = record else { continue };
-                tally.scenes += 1;
-                bar.inc(1);
-                if record.verdict == Verdict::NotSupported {
-                    tally.not_supported += 1;
-                } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
-                    tally.failing += 1;
-                    bad.push((scene, record));
-                }
+                let count = groups.load(Ordering::Relaxed);
+                bar.set_message(format!("{}: {count} groups", tally.adapter));
             }
-            // Fails where the other thread ended with an error, which it returns.
-            if failing.send(bad).is_err() {
-                break;
-            }
-            let count = found.load(Ordering::Relaxed);
-            bar.set_message(format!("{}: {count} groups", tally.adapter));
-        }
-        drop(failing);
-        joined(added).and(drawn)
-    })?;
-    tally.seconds = begun.elapsed().as_secs_f64();
-    if groups.len() > 0 && !stop.load(Ordering::Relaxed) {
-        bar.set_message(format!("{}: comparing with findings", tally.adapter));
-        groups.confirm(jobs, stop);
-        let mut bugs = KnownBugs::new(expectations, &adapter, library, launch, timeout, stop);
-        let compared = groups.compare(&mut bugs);
-        if let Err(failure) = compared {
+            drop(sender);
+            joined(added).and(drawn)
+        })
+    }
+
+    /// Compares groups with the findings about an adapter.
+    fn compare(
+        &self,
+        failing: &mut FailingScenes<'_>,
+        adapter: &AdapterRecord,
+        reducer: Reducer<'_>,
+    ) {
+        let name = reducer.launch.adapter.clone();
+        failing.confirm(self.jobs);
+        let cases = self.library.cases(Profile::Full);
+        let cases = cases.map(|case| (case.id(), case));
+        let mut bugs = KnownBugs::new(self.expectations, adapter, cases, reducer);
+        if let Err(failure) = failing.compare(&mut bugs) {
             say!(
-                "{}: not all groups were compared with findings: {}",
-                tally.adapter,
+                "{name}: not all groups were compared with findings: {}",
                 failure.message
             );
         }
-        tally.comparing = begun.elapsed().as_secs_f64() - tally.seconds;
     }
-    bar.finish_and_clear();
-    tally.groups = groups.finish();
-    Ok(tally)
+}
+
+/// Makes the scenes of an adapter.
+struct Maker {
+    fuzzer: Fuzzer,
+    limits: Limits,
+    /// The number of scenes that are left to make.
+    left: u64,
+    /// The time from which no more are made.
+    until: Option<Instant>,
+}
+
+impl Maker {
+    /// Makes the scenes of a batch; none at the end.
+    fn batch(&mut self) -> Vec<RandomScene> {
+        if self.until.is_some_and(|until| Instant::now() >= until) {
+            return Vec::new();
+        }
+        let can_draw = |case: &Case| self.limits.missing(&case.requirements()).is_none();
+        let count = (BATCH as u64).min(self.left);
+        self.left -= count;
+        let made = (0..count).filter_map(|_| self.fuzzer.scene(&can_draw));
+        made.collect()
+    }
 }
 
 /// Returns the result of a thread, or passes its panic on.
@@ -338,17 +379,8 @@ fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
     }
 }
 
-/// Makes the scenes of a batch.
-fn make(fuzzer: &mut Fuzzer, limits: &Limits, left: &mut u64) -> Vec<RandomScene> {
-    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-    let count = (BATCH as u64).min(*left);
-    *left -= count;
-    let made = (0..count).filter_map(|_| fuzzer.scene(&can_draw));
-    made.collect()
-}
-
 /// Writes the groups, behind a line about the search and one about each adapter.
-fn write(arguments: &Arguments, all: &[Tally], stop: &AtomicBool) -> Result<(), Failure> {
+fn write(arguments: &Arguments, all: &[Tally], interrupted: bool) -> Result<(), Failure> {
     let mut lines = vec![json!({
         "fuzz": 1,
         "etalon": provenance::VERSION,
@@ -356,10 +388,13 @@ fn write(arguments: &Arguments, all: &[Tally], stop: &AtomicBool) -> Result<(), 
         "machine": provenance::machine(),
         "command": provenance::command(),
         "seed": arguments.seed,
-        "interrupted": stop.load(Ordering::Relaxed),
+        "interrupted": interrupted,
     })];
     lines.extend(all.iter().map(Tally::json));
-    lines.extend(all.iter().flat_map(|t| t.groups.iter().map(Group::json)));
+    lines.extend(
+        all.iter()
+            .flat_map(|t| t.groups.iter().map(group_text::json)),
+    );
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
     let path = arguments.out.join(GROUPS);
     fs::write(&path, text)
@@ -367,6 +402,42 @@ fn write(arguments: &Arguments, all: &[Tally], stop: &AtomicBool) -> Result<(), 
 }
 
 impl Tally {
+    fn new(adapter: &str) -> Self {
+        Self {
+            adapter: adapter.to_owned(),
+            scenes: 0,
+            failing: 0,
+            not_supported: 0,
+            pairs: 0,
+            states: 0,
+            seconds: 0.0,
+            comparing: 0.0,
+            groups: Vec::new(),
+        }
+    }
+
+    /// Counts the scenes of a batch. Returns those that fail.
+    fn count(
+        &mut self,
+        scenes: Vec<RandomScene>,
+        records: Vec<Option<Record>>,
+        bar: &ProgressBar,
+    ) -> Vec<(RandomScene, Record)> {
+        let mut failing = Vec::new();
+        for (scene, record) in scenes.into_iter().zip(records) {
+            let Some(record) = record else { continue };
+            self.scenes += 1;
+            bar.inc(1);
+            if record.verdict == Verdict::NotSupported {
+                self.not_supported += 1;
+            } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
+                self.failing += 1;
+                failing.push((scene, record));
+            }
+        }
+        failing
+    }
+
     fn json(&self) -> Value {
         let [new, alike, known] = self.counts();
         json!({
@@ -387,7 +458,7 @@ impl Tally {
 
     /// Returns the numbers of groups that are new, that look like a finding, and that a finding explains.
     fn counts(&self) -> [usize; 3] {
-        let alike = |g: &&Group| g.known().is_some();
+        let alike = |g: &&Group| g.known.is_some();
         let unexplained = self.unexplained().count();
         let alike = self.unexplained().filter(alike).count();
         [unexplained - alike, alike, self.groups.len() - unexplained]
@@ -406,24 +477,24 @@ impl Tally {
             self.states,
             self.pairs
         );
-        let new = self.groups.iter().filter(|g| g.known().is_none());
+        let new = self.groups.iter().filter(|g| g.known.is_none());
         let new: Vec<&Group> = new.collect();
         let (shown, rest) = new.split_at(new.len().min(MOST_NEW));
-        text.extend(shown.iter().map(|group| group.text()));
+        text.extend(shown.iter().map(|group| group_text::text(group)));
         if !rest.is_empty() {
             text.push_str(&format!("\n  {}\n", others(rest)));
         }
         for (known, groups) in self.by_finding(false) {
             text.push_str(&headed("looks like", known, &groups));
             let (shown, rest) = groups.split_at(groups.len().min(MOST_ALIKE));
-            text.extend(shown.iter().map(|group| group.short()));
+            text.extend(shown.iter().map(|group| group_text::short(group)));
             if !rest.is_empty() {
                 text.push_str(&format!("    {}\n", others(rest)));
             }
         }
         for (known, groups) in self.by_finding(true) {
             text.push_str(&headed("known", known, &groups));
-            text.push_str(&format!("    {}\n", known.why()));
+            text.push_str(&format!("    {}\n", why(known)));
         }
         text
     }
@@ -432,7 +503,7 @@ impl Tally {
     fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
         let mut all: Vec<(&Match, Vec<&Group>)> = Vec::new();
         for group in &self.groups {
-            let Some(known) = group.known().filter(|k| k.is_exact() == explained) else {
+            let Some(known) = group.known.as_ref().filter(|k| k.is_exact() == explained) else {
                 continue;
             };
             match all.iter_mut().find(|(k, _)| k.finding == known.finding) {
@@ -456,7 +527,7 @@ fn others(groups: &[&Group]) -> String {
 
 /// Returns the number of scenes in groups.
 fn scenes(groups: &[&Group]) -> u64 {
-    groups.iter().map(|g| g.count()).sum()
+    groups.iter().map(|g| g.count).sum()
 }
 
 /// Returns the line on the groups of a finding.

@@ -5,101 +5,60 @@
 //! states and the same violation on this very driver, and a finding whose bug is gone matches nothing. Only cases from
 //! which a scene could come are drawn, and a few of each finding for likeness; each is reduced once.
 
-use crate::failure::Failure;
-use crate::reduction::{DriverOracle, confirm};
-use etalon_case::{Case, CaseRef, Library, Profile, build};
-use etalon_diagnose::{Likeness, Signature, Symptom, Traits};
-use etalon_explore::{Candidate, keys};
-use etalon_frame::{Aspect, Limits};
+use crate::matching::{Beyond, Match};
+use crate::signature::Signature;
+use crate::symptom::Symptom;
+use crate::traits::{Likeness, Traits};
+use etalon_frame::Aspect;
 use etalon_record::{AdapterRecord, Expectations, Known, Record, Verdict};
-use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
 /// The cases that are tried for one failure, and of each finding.
 const TRIED: usize = 12;
 const TRIED_OF_EACH: usize = 3;
 /// The cases of each finding that stand for it where a failure has more than a case shows.
 const STANDING: usize = 3;
-/// The most keys of a scene that is reduced for a comparison.
-const MOST_KEYS: usize = 600;
 
-/// A finding that explains a failure, or seems to.
-#[derive(Clone, Debug)]
-pub(crate) struct Match {
-    /// The finding's name.
-    pub(crate) finding: String,
-    /// The bug in one sentence.
-    pub(crate) title: String,
-    /// The case of the finding.
-    case: String,
-    /// The states that are left of the case.
-    states: Signature,
-    /// What is different; `None` where the failure is the same.
-    beyond: Option<Beyond>,
-}
+/// The driver that failed: draws cases of findings and reduces what fails.
+pub trait Driver {
+    /// A case that findings can name.
+    type Named;
+    /// A case that was drawn.
+    type Case;
+    /// The reason why the driver cannot be used any more.
+    type Error;
 
-/// What tells a failure from one that it is like.
-#[derive(Clone, Debug)]
-struct Beyond {
-    /// The states that are not left of the case.
-    states: Signature,
-    /// The violation of the case, where it is another one.
-    violation: Option<String>,
-}
+    /// True if the search is being stopped.
+    fn is_stopped(&self) -> bool;
 
-impl Match {
-    /// True if case and failure leave the same states, words and violation.
-    pub(crate) fn is_exact(&self) -> bool {
-        self.beyond.is_none()
-    }
+    /// Returns the document of a case; `None` if it cannot be written as one.
+    fn document(&self, named: &Self::Named) -> Option<Value>;
 
-    /// Returns why the finding was named.
-    pub(crate) fn why(&self) -> String {
-        let Self { case, states, .. } = self;
-        let Some(beyond) = &self.beyond else {
-            return format!("{case}, reduced, leaves the same states and violation");
-        };
-        let mut text = format!("has what is left of {case} ({states})");
-        if let Some(violation) = &beyond.violation {
-            text.push_str(&format!(", which violates {violation}"));
-        }
-        match beyond.states.is_empty() {
-            true if beyond.violation.is_none() => text.push_str(", with other values"),
-            true => {}
-            false => text.push_str(&format!("; also {}", beyond.states)),
-        }
-        text
-    }
+    /// Draws a document. Returns `None` if the driver cannot draw it, or if it is too large to be reduced.
+    ///
+    /// # Errors
+    /// When the driver cannot be started again.
+    fn draw(&mut self, document: &Value) -> Result<Option<(Self::Case, Record)>, Self::Error>;
 
-    /// Returns what the description of a case file says of it.
-    pub(crate) fn sentence(&self) -> String {
-        let Self { finding, title, .. } = self;
-        let word = if self.is_exact() {
-            "Known"
-        } else {
-            "Looks like"
-        };
-        format!("{word}: {finding} ({title}): {}.", self.why())
-    }
+    /// Reduces a case that failed with this record. Returns what is left, with its symptom and traits.
+    ///
+    /// # Errors
+    /// When the driver cannot be started again.
+    fn reduce(
+        &mut self,
+        case: Self::Case,
+        record: Record,
+    ) -> Result<(Self::Case, Symptom, Traits), Self::Error>;
 
-    pub(crate) fn json(&self) -> Value {
-        json!({
-            "finding": self.finding,
-            "title": self.title,
-            "match": if self.is_exact() { "exact" } else { "alike" },
-            "case": self.case,
-            "why": self.why(),
-        })
-    }
+    /// True if a case fails with a symptom in a new process.
+    fn is_steady(&self, case: &Self::Case, symptom: &Symptom) -> bool;
 }
 
 /// A case that findings about the adapter name.
-struct Named<'a> {
-    reference: CaseRef<'a>,
+struct Named<N> {
+    case: N,
     id: String,
     /// The numbers of the findings.
     findings: Vec<usize>,
@@ -149,23 +108,22 @@ impl Part {
 }
 
 /// A case that was drawn, and what is left of it.
-#[derive(Default)]
-struct Tried {
-    seen: Option<Seen>,
+struct Tried<C> {
+    seen: Option<Seen<C>>,
     /// What is left; `None` inside where it does not fail as a finding says.
-    reduced: Option<Option<Reduced>>,
+    reduced: Option<Option<Reduced<C>>>,
 }
 
 /// A case as it was drawn.
-struct Seen {
-    candidate: Candidate,
+struct Seen<C> {
+    case: C,
     record: Record,
     traits: Traits,
 }
 
 /// What is left of a case.
-struct Reduced {
-    case: Case,
+struct Reduced<C> {
+    case: C,
     symptom: Symptom,
     traits: Traits,
     /// True if it fails in a new process; `None` until that was tried.
@@ -173,40 +131,40 @@ struct Reduced {
 }
 
 /// The known bugs of an adapter.
-pub(crate) struct KnownBugs<'a> {
+pub struct KnownBugs<D: Driver> {
     expectations: Expectations,
-    named: Vec<Named<'a>>,
-    tried: BTreeMap<(usize, Part), Tried>,
+    named: Vec<Named<D::Named>>,
+    tried: BTreeMap<(usize, Part), Tried<D::Case>>,
     /// The numbers of cases that stand for findings.
     standing: Vec<usize>,
-    launch: Launch,
-    limits: Limits,
-    timeout: Duration,
-    trials: Option<Trials>,
-    stop: &'a AtomicBool,
+    driver: D,
 }
 
-impl<'a> KnownBugs<'a> {
-    /// The expectations about an adapter, and the cases of the library that they name.
-    pub(crate) fn new(
+impl<D: Driver> KnownBugs<D> {
+    /// Returns the bugs that expectations about an adapter name, with those of the cases, by their ids, that show them.
+    pub fn new(
         expectations: &Expectations,
         adapter: &AdapterRecord,
-        library: &'a Library,
-        launch: Launch,
-        timeout: Duration,
-        stop: &'a AtomicBool,
+        cases: impl Iterator<Item = (String, D::Named)>,
+        driver: D,
     ) -> Self {
         let expectations = expectations.clone().about(adapter);
-        let limits = adapter.limits.clone();
-        let mut named: Vec<Named<'a>> = Vec::new();
+        let mut named: Vec<Named<D::Named>> = Vec::new();
         if !expectations.all().is_empty() {
-            for reference in library.cases(Profile::Full) {
-                let id = reference.id();
+            for (id, case) in cases {
                 let of_case = expectations.bad(adapter, &id);
                 let place = |known: &Known| expectations.all().iter().position(|k| k == known);
                 let findings: Vec<usize> = of_case.filter_map(place).collect();
-                if !findings.is_empty() {
-                    named.extend(Named::new(reference, id, findings));
+                if !findings.is_empty()
+                    && let Some(document) = driver.document(&case)
+                {
+                    named.push(Named {
+                        case,
+                        id,
+                        findings,
+                        states: Signature::of(&document),
+                        words: Signature::exact(&document),
+                    });
                 }
             }
         }
@@ -216,22 +174,21 @@ impl<'a> KnownBugs<'a> {
             named,
             tried: BTreeMap::new(),
             standing,
-            launch,
-            limits,
-            timeout,
-            trials: None,
-            stop,
+            driver,
         }
     }
 
     /// Returns the finding that explains a failure, or the one that it is like most; `None` if none is, or if the
     /// search is being stopped.
-    pub(crate) fn matching(
+    ///
+    /// # Errors
+    /// When the driver cannot be started again.
+    pub fn matching(
         &mut self,
         verdict: Verdict,
         traits: &Traits,
         steady: bool,
-    ) -> Result<Option<Match>, Failure> {
+    ) -> Result<Option<Match>, D::Error> {
         let part = Part::of(traits);
         if steady && verdict.is_violation() {
             for number in self.may_leave(traits) {
@@ -239,7 +196,7 @@ impl<'a> KnownBugs<'a> {
                 self.reduced(at, traits)?;
                 if self.likeness(at, verdict, traits) == Some(Likeness::Same) && self.is_steady(at)
                 {
-                    return Ok(Some(self.told(at, verdict, traits, None)));
+                    return Ok(Some(self.matched(at, verdict, traits, None)));
                 }
             }
         }
@@ -253,7 +210,7 @@ impl<'a> KnownBugs<'a> {
                 self.reduced((number, *part), traits)?;
             }
         }
-        if self.stopped() {
+        if self.driver.is_stopped() {
             return Ok(None);
         }
         let all = self.tried.keys().copied();
@@ -273,23 +230,19 @@ impl<'a> KnownBugs<'a> {
         let best = alike.find(|(at, _)| !steady || self.is_steady(*at));
         Ok(best.map(|(at, likeness)| {
             if steady && likeness == Likeness::Same && verdict.is_violation() {
-                return self.told(at, verdict, traits, None);
+                return self.matched(at, verdict, traits, None);
             }
             let known = self.left(at).map(|r| &r.traits);
             let beyond = known.map(|k| Beyond {
                 states: traits.states.without(&k.states),
                 violation: (likeness == Likeness::Elsewhere).then(|| k.way.clone()),
             });
-            self.told(at, verdict, traits, beyond)
+            self.matched(at, verdict, traits, beyond)
         }))
     }
 
-    fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
     /// Returns what was left of a case.
-    fn left(&self, at: (usize, Part)) -> Option<&Reduced> {
+    fn left(&self, at: (usize, Part)) -> Option<&Reduced<D::Case>> {
         self.tried.get(&at)?.reduced.as_ref()?.as_ref()
     }
 
@@ -305,7 +258,7 @@ impl<'a> KnownBugs<'a> {
         findings.find(|known| known.excuses(verdict))
     }
 
-    fn told(
+    fn matched(
         &self,
         at: (usize, Part),
         verdict: Verdict,
@@ -344,8 +297,8 @@ impl<'a> KnownBugs<'a> {
     }
 
     /// Draws a case and reduces it, if it fails by the finding and is of use for a failure with these traits.
-    fn reduced(&mut self, at: (usize, Part), traits: &Traits) -> Result<(), Failure> {
-        if self.stopped() {
+    fn reduced(&mut self, at: (usize, Part), traits: &Traits) -> Result<(), D::Error> {
+        if self.driver.is_stopped() {
             return Ok(());
         }
         if !self.tried.contains_key(&at) {
@@ -354,7 +307,7 @@ impl<'a> KnownBugs<'a> {
             self.tried.insert(at, Tried { seen, reduced });
         }
         // What is left may be like a failure that has more, or in another violation.
-        let of_use = |seen: &mut Seen| {
+        let of_use = |seen: &mut Seen<D::Case>| {
             traits.may_be_left_of(&seen.traits)
                 || seen.traits.may_be_left_of(traits)
                 || traits.aspect().is_some() && seen.traits.aspect().is_some()
@@ -363,83 +316,48 @@ impl<'a> KnownBugs<'a> {
         let seen = tried.and_then(|tried| tried.seen.take_if(of_use));
         if let Some(seen) = seen {
             let left = self.reduce(seen)?;
-            self.tried.entry(at).or_default().reduced = Some(Some(left));
+            let reduced = Some(Some(left));
+            self.tried.insert(
+                at,
+                Tried {
+                    seen: None,
+                    reduced,
+                },
+            );
         }
         Ok(())
     }
 
     /// Draws a part of a case. Returns it if it fails as a finding says.
-    fn drawn(&mut self, at: (usize, Part)) -> Result<Option<Seen>, Failure> {
-        let number = at.0;
-        let Ok(document) = self.named[number].reference.document() else {
+    fn drawn(&mut self, at: (usize, Part)) -> Result<Option<Seen<D::Case>>, D::Error> {
+        let (number, part) = at;
+        let document = self.driver.document(&self.named[number].case);
+        let Some(document) = document.and_then(|document| part.of_document(document)) else {
             return Ok(None);
         };
-        let Some(document) = at.1.of_document(document) else {
+        let Some((case, record)) = self.driver.draw(&document)? else {
             return Ok(None);
         };
-        // A case may need all that it reads.
-        let Ok(case) = build("found/known", &document) else {
-            return Ok(None);
-        };
-        if keys(&document["scene"]) > MOST_KEYS
-            || self.limits.missing(&case.requirements()).is_some()
-        {
+        if self.finding(number, record.verdict).is_none() {
             return Ok(None);
         }
-        let mut trials = self.trials()?;
-        let mut record = None;
-        let mut due = Some(&case);
-        let drawn = trials.first(&mut || due.take(), |case| *case, &mut |_, judged| {
-            record = Some(judged);
-            true
-        });
-        drawn.map_err(Failure::incomplete)?;
-        self.trials = Some(trials);
-        let known = |record: &Record| self.finding(number, record.verdict).is_some();
-        let Some(record) = record.filter(known) else {
-            return Ok(None);
-        };
         let traits = Traits::of(&document, &Symptom::of(&record));
-        let candidate = Candidate { document, case };
         Ok(Some(Seen {
-            candidate,
+            case,
             record,
             traits,
         }))
     }
 
-    fn trials(&mut self) -> Result<Trials, Failure> {
-        match self.trials.take() {
-            Some(trials) => Ok(trials),
-            None => {
-                let worker = Worker::start(&self.launch).map_err(Failure::incomplete)?;
-                Ok(Trials::new(self.launch.clone(), worker, self.timeout))
-            }
-        }
-    }
-
     /// Reduces a case. One that ends its worker stays as it is: each step would cost a process.
-    fn reduce(&mut self, seen: Seen) -> Result<Reduced, Failure> {
-        if !seen.record.verdict.is_violation() {
-            return Ok(Reduced {
-                case: seen.candidate.case,
-                symptom: Symptom::of(&seen.record),
-                traits: seen.traits,
-                steady: None,
-            });
-        }
-        let trials = self.trials()?;
-        let mut oracle = DriverOracle::new(trials, seen.record, self.timeout, Some(self.stop));
-        let reduction = oracle.reduce(seen.candidate, &self.limits);
-        if let Some(error) = oracle.error {
-            return Err(Failure::incomplete(error));
-        }
-        let smallest = reduction.smallest;
-        let traits = Traits::of(&smallest.document, &oracle.symptom);
-        let symptom = oracle.symptom.clone();
-        self.trials = Some(oracle.trials);
+    fn reduce(&mut self, seen: Seen<D::Case>) -> Result<Reduced<D::Case>, D::Error> {
+        let (case, symptom, traits) = if seen.record.verdict.is_violation() {
+            self.driver.reduce(seen.case, seen.record)?
+        } else {
+            (seen.case, Symptom::of(&seen.record), seen.traits)
+        };
         Ok(Reduced {
-            case: smallest.case,
+            case,
             symptom,
             traits,
             steady: None,
@@ -448,7 +366,6 @@ impl<'a> KnownBugs<'a> {
 
     /// True if what is left of a case fails in a new process.
     fn is_steady(&mut self, at: (usize, Part)) -> bool {
-        let (launch, timeout) = (&self.launch, self.timeout);
         let tried = self.tried.get_mut(&at);
         let reduced = tried.and_then(|t| t.reduced.as_mut()?.as_mut());
         let Some(Reduced {
@@ -460,26 +377,12 @@ impl<'a> KnownBugs<'a> {
         else {
             return false;
         };
-        *steady.get_or_insert_with(|| confirm(launch, case, symptom, timeout).is_ok())
-    }
-}
-
-impl<'a> Named<'a> {
-    /// A case of the library; `None` if it cannot be written as a document.
-    fn new(reference: CaseRef<'a>, id: String, findings: Vec<usize>) -> Option<Self> {
-        let document = reference.document().ok()?;
-        Some(Self {
-            reference,
-            id,
-            findings,
-            states: Signature::of(&document),
-            words: Signature::exact(&document),
-        })
+        *steady.get_or_insert_with(|| self.driver.is_steady(case, symptom))
     }
 }
 
 /// Returns the cases that stand for each finding: some of its cases, evenly spaced.
-fn standing(named: &[Named<'_>]) -> Vec<usize> {
+fn standing<N>(named: &[Named<N>]) -> Vec<usize> {
     let mut of_each: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, case) in named.iter().enumerate() {
         for finding in &case.findings {

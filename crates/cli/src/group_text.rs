@@ -1,0 +1,100 @@
+//! Groups of failing scenes, for people and programs.
+
+use crate::failure_groups::Group;
+use etalon_diagnose::Match;
+use serde_json::{Value, json};
+
+pub(crate) fn json(group: &Group) -> Value {
+    let scene = &group.scene;
+    json!({
+        "adapter": scene.adapter,
+        "file": scene.file,
+        "count": group.count,
+        "reduced": group.reduced,
+        "index": scene.index,
+        "verdict": group.verdict,
+        "violation": group.way(),
+        "sentence": scene.sentence,
+        "clause": scene.clause,
+        "states": scene.states,
+        "keys": scene.keys,
+        "steady": group.steady,
+        "known": group.known.as_ref().map(match_json),
+    })
+}
+
+pub(crate) fn text(group: &Group) -> String {
+    let scene = &group.scene;
+    let mut text = format!("\n  {}\n", headline(group));
+    for line in [&scene.states, &scene.sentence] {
+        if !line.is_empty() {
+            text.push_str(&format!("    {line}\n"));
+        }
+    }
+    if let Some(clause) = &scene.clause {
+        text.push_str(&format!("    [{clause}]\n"));
+    }
+    text.push_str(&format!("    {}\n", scene.file.display()));
+    text
+}
+
+/// Returns the same in short, for a group below the finding that it is like.
+pub(crate) fn short(group: &Group) -> String {
+    let scene = &group.scene;
+    format!(
+        "    {}: {}\n      {}\n      {}\n",
+        headline(group),
+        scene.states,
+        group.known.as_ref().map(why).unwrap_or_default(),
+        scene.file.display()
+    )
+}
+
+fn headline(group: &Group) -> String {
+    format!(
+        "{} × {}: {}{}",
+        group.count,
+        group.verdict,
+        group.way(),
+        if group.steady { "" } else { " (unsteady)" }
+    )
+}
+
+/// Returns the reason for which a finding was named.
+pub(crate) fn why(found: &Match) -> String {
+    let Match { case, states, .. } = found;
+    let Some(beyond) = &found.beyond else {
+        return format!("{case}, reduced, leaves the same states and violation");
+    };
+    let mut text = format!("has what is left of {case} ({states})");
+    if let Some(violation) = &beyond.violation {
+        text.push_str(&format!(", which violates {violation}"));
+    }
+    if !beyond.states.is_empty() {
+        text.push_str(&format!("; also {}", beyond.states));
+    } else if beyond.violation.is_none() {
+        text.push_str(", with other values");
+    }
+    text
+}
+
+/// Returns what the description of a case file says of a finding.
+pub(crate) fn match_sentence(found: &Match) -> String {
+    let Match { finding, title, .. } = found;
+    let word = if found.is_exact() {
+        "Known"
+    } else {
+        "Looks like"
+    };
+    format!("{word}: {finding} ({title}): {}.", why(found))
+}
+
+fn match_json(found: &Match) -> Value {
+    json!({
+        "finding": found.finding,
+        "title": found.title,
+        "match": if found.is_exact() { "exact" } else { "alike" },
+        "case": found.case,
+        "why": why(found),
+    })
+}
