@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::report_files;
-use etalon_record::{Bench, FolderKind, RecordError, Run, clear};
+use etalon_record::{Bench, FolderKind, FolderLock, RecordError, Run, clear};
 use std::path::Path;
 
 /// What a command is told to do with what its folder holds.
@@ -17,12 +17,47 @@ pub(crate) struct Out<'a> {
     pub(crate) force: bool,
 }
 
-impl Out<'_> {
-    /// Returns true if what the folder holds is continued.
+/// A folder that may be written.
+pub(crate) struct Claim<'a> {
+    out: Out<'a>,
+    /// True if what the folder holds is continued.
+    pub(crate) resume: bool,
+    /// Of a folder that exists.
+    lock: Option<FolderLock>,
+}
+
+impl Claim<'_> {
+    /// Makes and locks the folder, and removes what it holds of the other kind.
     ///
     /// # Errors
-    /// When the folder holds what may not be replaced. Nothing has been changed then.
-    pub(crate) fn resumes(self) -> Result<bool, Failure> {
+    /// When a file cannot be removed, or another process has the folder.
+    pub(crate) fn take(self) -> Result<FolderLock, Failure> {
+        let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
+        self.out.clear_other()?;
+        Ok(lock)
+    }
+}
+
+impl<'a> Out<'a> {
+    /// Locks the folder if it exists. A new one is made by [`Claim::take`], once there is something to write.
+    ///
+    /// # Errors
+    /// When the folder holds what may not be replaced, or another process has it. Nothing has been changed then.
+    pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
+        let lock = self.folder.exists().then(|| self.lock()).transpose()?;
+        Ok(Claim {
+            out: self,
+            resume: self.resumes()?,
+            lock,
+        })
+    }
+
+    fn lock(self) -> Result<FolderLock, Failure> {
+        FolderLock::acquire(self.folder).map_err(Failure::usage)
+    }
+
+    /// Returns true if what the folder holds is continued.
+    fn resumes(self) -> Result<bool, Failure> {
         let path = self.folder.to_owned();
         match FolderKind::of(self.folder) {
             None => Ok(false),
@@ -61,10 +96,7 @@ impl Out<'_> {
     }
 
     /// Removes what the folder holds of the other kind, once [`Out::resumes`] has allowed it.
-    ///
-    /// # Errors
-    /// When a file cannot be removed.
-    pub(crate) fn clear_other(self) -> Result<(), Failure> {
+    fn clear_other(self) -> Result<(), Failure> {
         let reports = match self.kind {
             FolderKind::Run => report_files::BENCH,
             FolderKind::Bench => report_files::RUN,

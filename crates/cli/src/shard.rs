@@ -1,7 +1,9 @@
 //! The shard of this process: from the flag, or from the variables of systems that start many processes.
 
 use crate::failure::Failure;
-use etalon_record::Shard;
+use crate::output::say;
+use etalon_case::Case;
+use etalon_record::{Shard, shard_of};
 use std::fs;
 use std::path::PathBuf;
 
@@ -21,7 +23,7 @@ pub(crate) fn parse(text: &str) -> Result<Shard, String> {
 }
 
 /// Returns the shard that the flag or the environment gives; none if it is everything.
-pub(crate) fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
+fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
     if let Some(shard) = flag {
         return Ok((shard.count > 1).then_some(shard));
     }
@@ -36,6 +38,17 @@ pub(crate) fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
         })?;
     }
     Ok(given.shard)
+}
+
+/// Keeps the cases of the shard that the flag or the environment gives, and says how many they are.
+pub(crate) fn keep(flag: Option<Shard>, cases: &mut Vec<Case>) -> Result<Option<Shard>, Failure> {
+    let shard = chosen(flag)?;
+    if let Some(shard) = shard {
+        let selected = cases.len();
+        cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
+        say!("shard {shard}: {} of {selected} cases", cases.len());
+    }
+    Ok(shard)
 }
 
 /// The shard that the environment gives.

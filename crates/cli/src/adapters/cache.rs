@@ -1,5 +1,7 @@
 //! The drivers' shader caches on disk.
 
+use etalon_record::ShaderCache;
+
 /// Variables that disable the caches. SwiftShader, softpipe and `wgpu` have none; ANGLE has one only for programs that
 /// supply storage.
 const OFF: [(&str, &str); 3] = [
@@ -19,8 +21,17 @@ pub(crate) fn disable() -> impl Iterator<Item = (String, Option<String>)> {
         .map(|(name, value)| ((*name).to_owned(), Some((*value).to_owned())))
 }
 
+/// Returns the state of the caches: cold if workers disable them, or the environment does.
+pub(crate) fn state(cold: bool) -> ShaderCache {
+    if cold || is_disabled() {
+        ShaderCache::Cold
+    } else {
+        ShaderCache::Warm
+    }
+}
+
 /// True if the environment disables Mesa's shader cache, by Mesa's own parsing.
-pub(crate) fn is_disabled() -> bool {
+fn is_disabled() -> bool {
     let value = std::env::var(MESA).unwrap_or_default();
     ["1", "true", "yes", "y"].contains(&value.to_lowercase().as_str())
 }

@@ -1,9 +1,9 @@
 //! `etalon bench`.
 
-use crate::adapters::{Query, cache, discover, refuse_absent};
+use crate::adapters::{Adapters, Query, cache, discover, refuse_absent};
 use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format, parse_timeout};
+use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
@@ -11,10 +11,11 @@ use crate::{expectations, provenance, report_files, shard};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, FolderLock, ShaderCache, Shard,
-    cell, selection_digest, shard_of,
+    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, Shard, cell, selection_digest,
 };
-use etalon_runner::{BenchError, BenchEvent, BenchPlan};
+use etalon_report::WrittenBench;
+use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary};
+use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -77,31 +78,16 @@ const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let mut selection = arguments.selection.clone();
-    let by_default = selection.globs.is_empty();
-    if by_default {
-        selection.globs.push(DEFAULT.to_owned());
-    }
-    let mut cases = chosen(&selection)?;
-    cases.retain(|case| !by_default || !case.id.starts_with(MATRIX));
-    beside_each_other(&mut cases);
-    let all: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
-    let shard = shard::chosen(arguments.shard)?;
-    if let Some(shard) = shard {
-        cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
-        say!("shard {shard}: {} of {} cases", cases.len(), all.len());
-    }
-    let out = Out {
+    let selected = Selected::new(arguments)?;
+    // The samples of a concurrent or an earlier bench must not be lost.
+    let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Bench,
         latest: LATEST,
         resume: arguments.resume,
         force: arguments.force,
-    };
-    // The samples of a concurrent or an earlier bench must not be lost.
-    let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
-    let early = arguments.out.exists().then(lock).transpose()?;
-    let resume = out.resumes()?;
+    }
+    .claim()?;
     let expectations = expectations::read(None)?;
     let adapters = discover(&Query {
         names: &arguments.adapters,
@@ -110,6 +96,59 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ..Query::default()
     })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
+    let names = names(&adapters)?;
+    let header = header(arguments, &selected, &adapters);
+    let resume = claim.resume;
+    let _lock = claim.take()?;
+    let summary = measure(BenchPlan {
+        reports: report_files::BENCH,
+        cases: &selected.cases,
+        adapters: adapters.ready,
+        budget: Duration::from_secs_f64(arguments.seconds),
+        timeout: Duration::from_secs_f64(arguments.timeout),
+        expectations: &expectations,
+        resume,
+        folder: &arguments.out,
+        header,
+    })?;
+    let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
+    print(arguments, &summary, &names, &written)?;
+    Ok(if summary.unexpected > 0 {
+        UNEXPECTED
+    } else {
+        0
+    })
+}
+
+/// The cases of a bench.
+struct Selected {
+    /// Those to measure, in their order.
+    cases: Vec<Case>,
+    /// The digest of all that were selected, of which a shard measures a part.
+    digest: String,
+    shard: Option<Shard>,
+}
+
+impl Selected {
+    fn new(arguments: &Arguments) -> Result<Self, Failure> {
+        let mut selection = arguments.selection.clone();
+        let by_default = selection.globs.is_empty();
+        if by_default {
+            selection.globs.push(DEFAULT.to_owned());
+        }
+        let mut cases = chosen(&selection)?;
+        cases.retain(|case| !by_default || !case.id.starts_with(MATRIX));
+        beside_each_other(&mut cases);
+        Ok(Self {
+            digest: selection_digest(cases.iter().map(|case| case.id.as_str())),
+            shard: shard::keep(arguments.shard, &mut cases)?,
+            cases,
+        })
+    }
+}
+
+/// Returns the names that adapters report, which must differ.
+fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
     let mut names = BTreeSet::new();
     for (_, worker) in &adapters.ready {
         let name = &worker.hello.info.name;
@@ -120,63 +159,61 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             )));
         }
     }
-    let header = BenchHeader {
+    Ok(names)
+}
+
+fn header(arguments: &Arguments, selected: &Selected, adapters: &Adapters) -> BenchHeader {
+    BenchHeader {
         format: BENCH_FORMAT,
         etalon: provenance::VERSION.to_owned(),
         commit: provenance::commit(),
         machine: provenance::machine(),
         started: provenance::now(),
         command: provenance::command(),
-        profile: match selection.profile {
-            CaseProfile::Quick => "quick".to_owned(),
-            CaseProfile::Full => "full".to_owned(),
-        },
-        cases: cases.len() as u64,
+        profile: arguments.selection.profile.name().to_owned(),
+        cases: selected.cases.len() as u64,
         rounds: arguments.rounds,
-        shader_cache: match arguments.cold || cache::is_disabled() {
-            true => ShaderCache::Cold,
-            false => ShaderCache::Warm,
-        },
+        shader_cache: cache::state(arguments.cold),
         ruler: etalon_runner::ruler().to_owned(),
         settings: BenchSettings {
-            selection: selection_digest(all.iter().map(String::as_str)),
-            shard,
+            selection: selected.digest.clone(),
+            shard: selected.shard,
             seconds: Some(arguments.seconds),
             timeout: Some(arguments.timeout),
             within: arguments.within,
             limit: arguments.limit,
         },
         adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
-        absent: adapters.absent,
-    };
-    let _lock = early.map_or_else(lock, Ok)?;
-    out.clear_other()?;
-    let rounds = u64::from(arguments.rounds);
-    // A picture counts as one step, like a round.
-    let bar = progress((cases.len() * adapters.ready.len()) as u64 * (1 + rounds));
-    let plan = BenchPlan {
-        reports: report_files::BENCH,
-        cases: &cases,
-        adapters: adapters.ready,
-        budget: Duration::from_secs_f64(arguments.seconds),
-        timeout: Duration::from_secs_f64(arguments.timeout),
-        expectations: &expectations,
-        resume,
-        folder: &arguments.out,
-        header,
-    };
-    let outcome = etalon_runner::bench(plan, &mut |event| match event {
+        absent: adapters.absent.clone(),
+    }
+}
+
+/// Measures with a progress bar, on which a picture counts as one step, like a round.
+fn measure(plan: BenchPlan<'_>) -> Result<BenchSummary, Failure> {
+    let rounds = u64::from(plan.header.rounds);
+    let bar = progress((plan.cases.len() * plan.adapters.len()) as u64 * (1 + rounds));
+    let outcome = etalon_runner::bench(plan, &mut |event| show(&bar, rounds, event));
+    bar.finish_and_clear();
+    outcome.map_err(|error| match error {
+        BenchError::Folder(error) => Failure::usage(error),
+        BenchError::Write(_) => Failure::incomplete(error),
+    })
+}
+
+fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
+    match event {
         BenchEvent::Judged {
             picture,
             unexpected,
             known,
         } => {
             bar.set_message(format!("judging {}", picture.adapter));
-            bar.inc(1);
-            bar.inc(match picture.may_be_timed() {
-                true => u64::from(known),
-                false => rounds,
-            });
+            let never_timed = if picture.may_be_timed() {
+                u64::from(known)
+            } else {
+                rounds
+            };
+            bar.inc(1 + never_timed);
             if unexpected {
                 let (verdict, adapter) = (picture.verdict, &picture.adapter);
                 bar.suspend(|| {
@@ -194,40 +231,37 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             let (verdict, adapter) = (ended.verdict, &ended.adapter);
             bar.suspend(|| say!("{verdict} {adapter} {}: {}", ended.case, ended.message));
         }
-    });
-    bar.finish_and_clear();
-    let outcome = outcome.map_err(|error| match error {
-        BenchError::Folder(error) => Failure::usage(error),
-        BenchError::Write(_) => Failure::incomplete(error),
-    })?;
-    let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
+    }
+}
+
+fn print(
+    arguments: &Arguments,
+    summary: &BenchSummary,
+    names: &BTreeSet<String>,
+    written: &WrittenBench,
+) -> Result<(), Failure> {
     if arguments.format == Format::Json {
-        summarize_json(&json!({
-            "pictures": outcome.pictures,
-            "timed": outcome.timed,
-            "unexpected": outcome.unexpected,
+        return summarize_json(&json!({
+            "pictures": summary.pictures,
+            "timed": summary.timed,
+            "unexpected": summary.unexpected,
             "adapters": names,
             "folder": arguments.out,
             "report": written.html,
             "bencher": written.bencher,
             "action": written.action,
             "matrix": written.matrix,
-        }))?;
-    } else {
-        let bench = Bench::read(&arguments.out).map_err(Failure::incomplete)?;
-        let options = table_options();
-        summarize(&etalon_report::bench_table(&bench, options));
-        summarize(&etalon_report::matrix_table(&bench, options));
-        summarize(&format!("\nReport: {}\n", written.html.display()));
-        for path in written.matrix.iter().flatten() {
-            summarize(&format!("Matrix: {}\n", path.display()));
-        }
+        }));
     }
-    Ok(if outcome.unexpected > 0 {
-        UNEXPECTED
-    } else {
-        0
-    })
+    let bench = Bench::read(&arguments.out).map_err(Failure::incomplete)?;
+    let options = table_options();
+    summarize(&etalon_report::bench_table(&bench, options));
+    summarize(&etalon_report::matrix_table(&bench, options));
+    summarize(&format!("\nReport: {}\n", written.html.display()));
+    for path in written.matrix.iter().flatten() {
+        summarize(&format!("Matrix: {}\n", path.display()));
+    }
+    Ok(())
 }
 
 /// Moves the cases of each cell of the matrix together, so that they are timed one right after the other.

@@ -10,9 +10,10 @@ use crate::provenance;
 use crate::reducing::{Failing, smallest, started};
 use crate::reduction::{Shown, TIMEOUT};
 use clap::Args;
+use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
-    Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Program, Report, Trim,
-    Versions, shader_test,
+    Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Language, Program, Report,
+    Trim, Versions, Written, shader_test,
 };
 use etalon_case::Case;
 use etalon_diagnose::{Subject, Symptom};
@@ -21,7 +22,7 @@ use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Record, Source};
 use etalon_runner::{Launch, Recorded, Worker};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -77,151 +78,58 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapter = AdapterRecord::from(&worker);
     let timeout = Duration::from_secs_f64(arguments.timeout);
     let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
-    let symptom = &smallest.symptom;
-    let refused = |why: &str| refused(arguments, why, symptom);
-    let (Subject::Picture(_) | Subject::Counter(_)) = symptom.subject else {
-        return Err(refused("it is no wrong value of one picture"));
-    };
     let document = &smallest.reduction.smallest.document;
     let reduced = Reduced {
+        arguments,
         case: &alone(smallest.reduction.smallest.case.clone()),
-        symptom,
-        limits: &hello.limits,
-    };
-    let checks = reduced.checks(arguments, &hello.info.backend)?;
-    let recorded = reduced.recorded(arguments)?;
-    let judged = reduced.judged(&recorded.frame)?;
-    let due = reduced.due(&recorded.frame, &judged.record)?;
-    let Some(recording) = &recorded.recording else {
-        let backend = &hello.info.backend;
-        return Err(refused(&format!(
-            "calls of backend {backend} are not recorded"
-        )));
-    };
-    let frequency = reduced.frequency(&launch, timeout)?;
-    let finding = finding(&adapter, &arguments.case)?;
-    let newest = match &arguments.latest {
-        Some(line) => Some(reduced.newest(arguments, line, timeout)?),
-        None => None,
-    };
-    let shown = Shown {
         document,
-        record: &judged.record,
-        symptom,
+        symptom: &smallest.symptom,
+        limits: &hello.limits,
+        device: &hello.info,
+        adapter: &adapter,
+        launch: &launch,
+        timeout,
     };
-    let title = match &finding {
-        Some(finding) => finding.title.clone(),
-        None => format!("{}: wrong {symptom}", adapter.device),
-    };
-    let run = run_command(&launch);
-    let head = Head {
-        title: title.clone(),
-        sentence: shown.sentence(),
-        run: run.clone(),
-    };
-    let (program, built) = shortest(
-        |trim| {
-            etalon_bundle::program(&head, recording, &due, trim)
-                .map_err(|e| refused(&format!("no program can be printed: {e}")))
-        },
-        |program| built_and_run(program, &launch, timeout),
-    )?;
-    if let Some(run) = built.as_ref().filter(|run| run.status != Some(BUG)) {
-        return Err(refused(&format!(
-            "the program made of its calls does not show the bug: {}, {}",
-            run.ending, run.line
-        )));
-    }
-    let described = shown.described(&format!(
-        "Reduced from {} on {}.",
-        arguments.case, arguments.adapter
-    ));
-    let language = program.language;
-    let mut files = program.files;
-    let line = built.map(|run| {
-        files.extend(run.made);
-        run.line
-    });
-    files.push(File::text(
-        "case.json",
-        "the scene as a case file of etalon",
-        format!(
-            "{}\n",
-            serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?
-        ),
-    ));
-    if let Some(test) = shader_test(recording, &due) {
-        files.push(File::text(
-            "repro.shader_test",
-            "the same for piglit: `shader_runner repro.shader_test -auto -fbo`",
-            test,
-        ));
-    }
-    files.extend(pictures(&judged));
-    let report = Report {
-        title,
-        sentence: shown.sentence(),
-        clause: finding
-            .as_ref()
-            .map(|f| f.clause.clone())
-            .filter(|c| !c.is_empty())
-            .or_else(|| shown.clause().map(str::to_owned)),
-        device: hello.info.clone(),
-        machine: {
-            let machine = provenance::machine();
-            format!("{}, {}", machine.os, machine.cpu)
-        },
-        versions: versions(finding.as_ref(), newest),
-        expected: expected(&judged.record),
-        states: states(&document["scene"]),
-        frequency,
-        checks,
-        language,
-        run,
-        built: line,
-        search: search(&adapter, symptom),
-        story: judged
-            .record
-            .story
-            .iter()
-            .flat_map(|s| s.to_string().lines().map(str::to_owned).collect::<Vec<_>>())
-            .collect(),
-        files: files
-            .iter()
-            .map(|f| (f.name.clone(), f.about.clone()))
-            .collect(),
-    };
+    let evidence = reduced.evidence()?;
+    let (program, ran) = reduced.program(&evidence)?;
+    let mut files = reduced.files(&evidence)?;
+    let made = ran.as_ref().map_or(&[][..], |ran| &ran.made);
+    files.splice(0..0, program.files.iter().chain(made).cloned());
+    let report = reduced.report(&evidence, program.language, ran.map(|ran| ran.line), &files);
     files.insert(0, File::text("report.md", "the report", report.markdown()));
     let written = etalon_bundle::write(&arguments.out, &name, &files, arguments.force)
         .map_err(Failure::incomplete)?;
+    print(arguments, &report, &written)?;
+    Ok(0)
+}
+
+fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<(), Failure> {
+    let Arguments { case, adapter, .. } = arguments;
+    let [failed, runs] = report.frequency;
     match arguments.format {
         Format::Text => summarize(&format!(
-            "{} on {}\n  {}\n  {}\n  fails in {} of {} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
-            arguments.case,
-            arguments.adapter,
+            "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
             report.title,
             report.sentence,
-            frequency[0],
-            frequency[1],
-            language.build(),
+            report.language.build(),
             report.run,
             written.folder.display(),
             written.archive.display(),
         )),
         Format::Json => summarize_json(&json!({
-            "case": arguments.case,
-            "adapter": arguments.adapter,
+            "case": case,
+            "adapter": adapter,
             "title": report.title,
             "sentence": report.sentence,
             "clause": report.clause,
-            "failed": frequency[0],
-            "runs": frequency[1],
+            "failed": failed,
+            "runs": runs,
             "clean": report.checks != Checks::Absent,
             "folder": written.folder,
             "archive": written.archive,
         }))?,
     }
-    Ok(0)
+    Ok(())
 }
 
 /// Returns the shortest program that shows the bug when it is built and run, with that run; the whole one if none does,
@@ -247,44 +155,183 @@ fn shortest(
     Ok((whole, None))
 }
 
-/// The reason why there is no bundle.
-fn refused(arguments: &Arguments, why: &str, symptom: &Symptom) -> Failure {
-    Failure {
-        code: UNEXPECTED,
-        message: format!(
-            "no bundle of {} on {}: {why} ({symptom}); `etalon reduce` writes it as a case file",
-            arguments.case, arguments.adapter
-        ),
-    }
-}
-
 /// Returns the case without its variants: the program draws one picture.
 fn alone(mut case: Case) -> Case {
     case.variants.clear();
     case
 }
 
-/// The smallest case.
+/// The smallest case, and the driver on which it fails.
 struct Reduced<'a> {
+    arguments: &'a Arguments,
     case: &'a Case,
+    document: &'a Value,
     symptom: &'a Symptom,
     limits: &'a Limits,
+    device: &'a AdapterInfo,
+    adapter: &'a AdapterRecord,
+    launch: &'a Launch,
+    timeout: Duration,
+}
+
+/// What the driver does with the smallest case.
+struct Evidence {
+    checks: Checks,
+    recording: Recording,
+    judged: Judged,
+    due: Due,
+    frequency: [u32; 2],
+    finding: Option<Finding>,
+    /// The newest release of a line, and whether it draws the case wrong.
+    newest: Option<(String, bool)>,
 }
 
 impl Reduced<'_> {
+    /// Returns the error of a case that has no bundle.
+    fn refused(&self, why: &str) -> Failure {
+        let Arguments { case, adapter, .. } = self.arguments;
+        Failure {
+            code: UNEXPECTED,
+            message: format!(
+                "no bundle of {case} on {adapter}: {why} ({}); `etalon reduce` writes it as a case file",
+                self.symptom
+            ),
+        }
+    }
+
+    fn evidence(&self) -> Result<Evidence, Failure> {
+        let (Subject::Picture(_) | Subject::Counter(_)) = self.symptom.subject else {
+            return Err(self.refused("it is no wrong value of one picture"));
+        };
+        let checks = self.checks()?;
+        let recorded = self.recorded()?;
+        let judged = self.judged(&recorded.frame)?;
+        let due = self.due(&recorded.frame, &judged.record)?;
+        let Some(recording) = recorded.recording else {
+            let backend = &self.device.backend;
+            return Err(self.refused(&format!("calls of backend {backend} are not recorded")));
+        };
+        let newest = self.arguments.latest.as_ref();
+        Ok(Evidence {
+            checks,
+            recording,
+            judged,
+            due,
+            frequency: self.frequency()?,
+            finding: finding(self.adapter, &self.arguments.case)?,
+            newest: newest.map(|line| self.newest(line)).transpose()?,
+        })
+    }
+
+    fn shown<'a>(&'a self, evidence: &'a Evidence) -> Shown<'a> {
+        Shown {
+            document: self.document,
+            record: &evidence.judged.record,
+            symptom: self.symptom,
+        }
+    }
+
+    fn title(&self, finding: Option<&Finding>) -> String {
+        match finding {
+            Some(finding) => finding.title.clone(),
+            None => format!("{}: wrong {}", self.adapter.device, self.symptom),
+        }
+    }
+
+    /// Returns the program with its run, if it is run here, in which it must show the bug.
+    fn program(&self, evidence: &Evidence) -> Result<(Program, Option<Run>), Failure> {
+        let head = Head {
+            title: self.title(evidence.finding.as_ref()),
+            sentence: self.shown(evidence).sentence(),
+            run: run_command(self.launch),
+        };
+        let (program, ran) = shortest(
+            |trim| {
+                etalon_bundle::program(&head, &evidence.recording, &evidence.due, trim)
+                    .map_err(|e| self.refused(&format!("no program can be printed: {e}")))
+            },
+            |program| built_and_run(program, self.launch, self.timeout),
+        )?;
+        if let Some(run) = ran.as_ref().filter(|run| run.status != Some(BUG)) {
+            return Err(self.refused(&format!(
+                "the program made of its calls does not show the bug: {}, {}",
+                run.ending, run.line
+            )));
+        }
+        Ok((program, ran))
+    }
+
+    /// Returns the files beside the program: the case, the test for piglit, and the pictures.
+    fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
+        let Arguments { case, adapter, .. } = self.arguments;
+        let origin = format!("Reduced from {case} on {adapter}.");
+        let described = self.shown(evidence).described(&origin);
+        let text = serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?;
+        let about = "the scene as a case file of etalon";
+        let mut files = vec![File::text("case.json", about, format!("{text}\n"))];
+        if let Some(test) = shader_test(&evidence.recording, &evidence.due) {
+            files.push(File::text(
+                "repro.shader_test",
+                "the same for piglit: `shader_runner repro.shader_test -auto -fbo`",
+                test,
+            ));
+        }
+        files.extend(pictures(&evidence.judged));
+        Ok(files)
+    }
+
+    /// Returns the report. `built` is the last line of the program, if it was run here; `files` lie beside the report.
+    fn report(
+        &self,
+        evidence: &Evidence,
+        language: Language,
+        built: Option<String>,
+        files: &[File],
+    ) -> Report {
+        let finding = evidence.finding.as_ref();
+        let shown = self.shown(evidence);
+        let record = &evidence.judged.record;
+        let known = finding.map(|f| f.clause.clone()).filter(|c| !c.is_empty());
+        let story = record.story.iter().map(ToString::to_string);
+        Report {
+            title: self.title(finding),
+            sentence: shown.sentence(),
+            clause: known.or_else(|| shown.clause().map(str::to_owned)),
+            device: self.device.clone(),
+            machine: {
+                let machine = provenance::machine();
+                format!("{}, {}", machine.os, machine.cpu)
+            },
+            versions: versions(finding, evidence.newest.clone()),
+            expected: expected(record),
+            states: states(&self.document["scene"]),
+            frequency: evidence.frequency,
+            checks: evidence.checks.clone(),
+            language,
+            run: run_command(self.launch),
+            built,
+            search: search(self.adapter, self.symptom),
+            story: story
+                .flat_map(|s| s.lines().map(str::to_owned).collect::<Vec<_>>())
+                .collect(),
+            files: files
+                .iter()
+                .map(|f| (f.name.clone(), f.about.clone()))
+                .collect(),
+        }
+    }
+
     /// Draws the case where the API checks each call.
-    fn checks(&self, arguments: &Arguments, backend: &str) -> Result<Checks, Failure> {
+    fn checks(&self) -> Result<Checks, Failure> {
+        let Arguments { adapter, file, .. } = self.arguments;
         let opened = started(Query {
-            names: std::slice::from_ref(&arguments.adapter),
-            file: arguments.file.adapter_file.as_deref(),
+            names: std::slice::from_ref(adapter),
+            file: file.adapter_file.as_deref(),
             validate: true,
             ..Query::default()
         });
         let Ok((_, mut worker)) = opened else {
-            say!(
-                "{} has no debug output or validation layer: the calls are not checked",
-                arguments.adapter
-            );
+            say!("{adapter} has no debug output or validation layer: the calls are not checked");
             return Ok(Checks::Absent);
         };
         let recorded = worker
@@ -293,20 +340,18 @@ impl Reduced<'_> {
         match recorded.messages.into_iter().next() {
             None => Ok(Checks::Clean),
             // wgpu refuses what breaks its own rules; these are of the calls that it makes.
-            Some(message) if backend == "wgpu" => Ok(Checks::Below(message)),
-            Some(message) => Err(refused(
-                arguments,
-                &format!("the case does not keep to the rules of the API: {message}"),
-                self.symptom,
-            )),
+            Some(message) if self.device.backend == "wgpu" => Ok(Checks::Below(message)),
+            Some(message) => Err(self.refused(&format!(
+                "the case does not keep to the rules of the API: {message}"
+            ))),
         }
     }
 
     /// Draws the case and records the calls.
-    fn recorded(&self, arguments: &Arguments) -> Result<Recorded, Failure> {
+    fn recorded(&self) -> Result<Recorded, Failure> {
         let (_, mut worker) = started(Query {
-            names: std::slice::from_ref(&arguments.adapter),
-            file: arguments.file.adapter_file.as_deref(),
+            names: std::slice::from_ref(&self.arguments.adapter),
+            file: self.arguments.file.adapter_file.as_deref(),
             record: true,
             ..Query::default()
         })?;
@@ -399,24 +444,19 @@ impl Reduced<'_> {
     }
 
     /// Returns the processes in which the case fails in its way, and all.
-    fn frequency(&self, launch: &Launch, timeout: Duration) -> Result<[u32; 2], Failure> {
+    fn frequency(&self) -> Result<[u32; 2], Failure> {
         let mut failed = 0;
         for _ in 0..RUNS {
-            let mut worker = Worker::start(launch).map_err(Failure::incomplete)?;
-            let (record, _) = worker.record(self.case, timeout);
+            let mut worker = Worker::start(self.launch).map_err(Failure::incomplete)?;
+            let (record, _) = worker.record(self.case, self.timeout);
             failed += u32::from(self.symptom.covers(&Symptom::of(&record)));
         }
         Ok([failed, RUNS])
     }
 
     /// Returns the newest release of a line, and whether it draws the case wrong.
-    fn newest(
-        &self,
-        arguments: &Arguments,
-        line: &str,
-        timeout: Duration,
-    ) -> Result<(String, bool), Failure> {
-        let file = arguments.file.adapter_file.as_deref();
+    fn newest(&self, line: &str) -> Result<(String, bool), Failure> {
+        let file = self.arguments.file.adapter_file.as_deref();
         let mut releases = releases_of(file, line)?;
         let Some((name, release)) = releases.pop() else {
             return Err(Failure::usage(format!("line {line} has no release")));
@@ -431,7 +471,7 @@ impl Reduced<'_> {
                 "adapter {name}, the newest release of {line}, cannot be used"
             )));
         };
-        let (record, _) = worker.record(self.case, timeout);
+        let (record, _) = worker.record(self.case, self.timeout);
         Ok((release.version, record.verdict.is_violation()))
     }
 }

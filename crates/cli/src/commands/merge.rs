@@ -9,6 +9,7 @@ use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run, clear};
+use etalon_report::News;
 use serde_json::json;
 use std::collections::HashSet;
 use std::fs;
@@ -39,33 +40,14 @@ const NAMED: usize = 20;
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let out = &arguments.out;
-    for folder in &arguments.folders {
-        if same(folder, out) {
-            return Err(Failure::usage(format!(
-                "{} is one of the parts; choose another --out",
-                out.display()
-            )));
-        }
-    }
+    refuse_part(arguments)?;
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
     // What a folder of case files held is not at hand.
     let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
     let built_in = !merge.header_mut().command.iter().any(of_folder);
     merge.header_mut().command = provenance::command();
     let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
-    match FolderKind::of(out) {
-        Some(FolderKind::Run) if !arguments.force => {
-            return Err(Failure::usage(occupied(out)));
-        }
-        Some(kind @ FolderKind::Bench) if !arguments.force => {
-            let path = out.clone();
-            return Err(Failure::usage(RecordError::Holds { path, kind }));
-        }
-        Some(kind @ FolderKind::Bench) => {
-            clear(out, kind, report_files::BENCH).map_err(Failure::usage)?;
-        }
-        _ => {}
-    }
+    free(out, arguments.force)?;
     let merged = merge
         .write(out, report_files::RUN)
         .map_err(Failure::incomplete)?;
@@ -74,12 +56,63 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         write_catalogue(out, &run)?;
     }
     let news = arguments.news.news(&run)?;
-    let shown = shown(&run, news.as_ref());
-    let written = etalon_report::write_run_with_news(out, &shown, news.as_ref())
-        .map_err(Failure::incomplete)?;
+    print(arguments, &merged, &run, news.as_ref())?;
+    print_overlap(&merged);
+    if !merged.missing.is_empty() || !merged.empty.is_empty() {
+        return Err(Failure::incomplete(holes(&merged, out)));
+    }
+    arguments.news.tell_how_to_add(out);
+    let unexpected = news.map_or(merged.unexpected, |news| news.counted());
+    Ok(if unexpected > 0 {
+        UNEXPECTED
+    } else if merged.improvements > 0 {
+        IMPROVED
+    } else {
+        0
+    })
+}
+
+/// Refuses to replace one of the parts.
+fn refuse_part(arguments: &Arguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    if arguments.folders.iter().any(|folder| same(folder, out)) {
+        return Err(Failure::usage(format!(
+            "{} is one of the parts; choose another --out",
+            out.display()
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses to replace what a folder holds without `--force`, with which a bench is removed.
+fn free(out: &Path, force: bool) -> Result<(), Failure> {
+    match FolderKind::of(out) {
+        Some(FolderKind::Run) if !force => Err(Failure::usage(occupied(out))),
+        Some(kind @ FolderKind::Bench) if !force => {
+            let path = out.to_owned();
+            Err(Failure::usage(RecordError::Holds { path, kind }))
+        }
+        Some(kind @ FolderKind::Bench) => {
+            clear(out, kind, report_files::BENCH).map_err(Failure::usage)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes the pages of a merged run, and prints it.
+fn print(
+    arguments: &Arguments,
+    merged: &Merged,
+    run: &Run,
+    news: Option<&News>,
+) -> Result<(), Failure> {
+    let out = &arguments.out;
+    let shown = shown(run, news);
+    let written =
+        etalon_report::write_run_with_news(out, &shown, news).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
-        summarize_json(&json!({
+        return summarize_json(&json!({
             "records": merged.records,
             "missing": merged.missing.iter().map(pair).collect::<Vec<_>>(),
             "empty": merged.empty,
@@ -90,27 +123,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "news": news,
             "folder": out,
             "report": written.html,
-        }))?;
-    } else {
-        if let Some(news) = &news {
-            summarize(&etalon_report::news_table(news, table_options()));
-        }
-        summarize(&etalon_report::table(&shown, table_options()));
-        summarize(&format!("\nReport: {}\n", written.html.display()));
+        }));
     }
-    print_overlap(&merged);
-    if !merged.missing.is_empty() || !merged.empty.is_empty() {
-        return Err(Failure::incomplete(holes(&merged, out)));
+    if let Some(news) = news {
+        summarize(&etalon_report::news_table(news, table_options()));
     }
-    arguments.news.tell_how_to_add(out);
-    let unexpected = news.map_or(merged.unexpected, |news| news.counted());
-    Ok(match merged {
-        _ if unexpected > 0 => UNEXPECTED,
-        Merged {
-            improvements: 1.., ..
-        } => IMPROVED,
-        _ => 0,
-    })
+    summarize(&etalon_report::table(&shown, table_options()));
+    summarize(&format!("\nReport: {}\n", written.html.display()));
+    Ok(())
 }
 
 /// Writes the catalogue of the merged cases.

@@ -178,51 +178,7 @@ const CHUNK: u64 = 500;
 /// others are caught is what is measured.
 fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8, Failure> {
     let (started, start) = (provenance::now(), Instant::now());
-    let limits = CpuBackend::new("cpu").limits().clone();
-    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-    let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
-    let mut records: Vec<Option<MutantRecord>> = vec![None; chosen.len()];
-    let bar = progress(scenes);
-    let mut failing = Vec::new();
-    let mut drawn = 0;
-    while drawn < scenes {
-        let count = CHUNK.min(scenes - drawn);
-        drawn += count;
-        let made = (0..count).filter_map(|_| fuzzer.scene(&can_draw));
-        let cases: Vec<Case> = made.map(|s| s.candidate.case).collect();
-        let (cases, wrong) = without_own_failures(cases, &limits);
-        failing.extend(wrong);
-        let caught = |at: &usize| {
-            let record = records[*at].as_ref();
-            record.is_some_and(|r| r.outcome == Catch::Caught)
-        };
-        let left: Vec<usize> = (0..chosen.len()).filter(|at| !caught(at)).collect();
-        let mutants: Vec<MutantInfo> = left.iter().map(|at| chosen[*at].clone()).collect();
-        let plan = HuntPlan {
-            cases: &cases,
-            mutants: &mutants,
-            full: false,
-            jobs: processors(),
-        };
-        let found = etalon_runner::hunt(plan, &open, &|| {});
-        for (at, mut record) in left.into_iter().zip(found) {
-            // A plant that panics in a scene, since it was not made for it, says nothing there.
-            if record.outcome == Catch::Broken && record.areas.iter().any(|a| a.fail > 0) {
-                record.outcome = Catch::Caught;
-            } else if record.outcome == Catch::Broken {
-                record.outcome = Catch::Survived;
-                record.first = None;
-            }
-            match &mut records[at] {
-                Some(before) => before.add(record),
-                none => *none = Some(record),
-            }
-        }
-        bar.inc(count);
-        bar.set_message(format!("{} left", mutants.len()));
-    }
-    bar.finish_and_clear();
-    let found = records.into_iter().flatten().collect();
+    let (found, failing) = fuzzed(arguments.seed, scenes, chosen);
     let hunt = hunted(arguments, scenes, started, start, found);
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     let mut table = recall(&hunt);
@@ -239,12 +195,69 @@ fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8,
         Format::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
     }
     let wrong = |m: &MutantRecord| m.outcome == Catch::Caught && m.mutant.legal.is_some();
-    Ok(
-        match hunt.mutants.iter().any(wrong) || !failing.is_empty() {
-            true => UNEXPECTED,
-            false => 0,
-        },
-    )
+    Ok(if hunt.mutants.iter().any(wrong) || !failing.is_empty() {
+        UNEXPECTED
+    } else {
+        0
+    })
+}
+
+/// Draws random scenes with the bugs that are left, chunk by chunk. Returns the record of each bug, and the ids of the
+/// scenes that fail without a bug.
+fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, Vec<String>) {
+    let limits = CpuBackend::new("cpu").limits().clone();
+    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+    let mut fuzzer = Fuzzer::new(seed, Space::of([&limits]));
+    let mut records: Vec<Option<MutantRecord>> = vec![None; chosen.len()];
+    let bar = progress(scenes);
+    let mut failing = Vec::new();
+    let mut drawn = 0;
+    while drawn < scenes {
+        let count = CHUNK.min(scenes - drawn);
+        drawn += count;
+        let made = (0..count).filter_map(|_| fuzzer.scene(&can_draw));
+        let cases: Vec<Case> = made.map(|s| s.candidate.case).collect();
+        let (cases, wrong) = without_own_failures(cases, &limits);
+        failing.extend(wrong);
+        let caught = |index: &usize| {
+            let record = records[*index].as_ref();
+            record.is_some_and(|r| r.outcome == Catch::Caught)
+        };
+        let left: Vec<usize> = (0..chosen.len()).filter(|index| !caught(index)).collect();
+        let mutants: Vec<MutantInfo> = left.iter().map(|index| chosen[*index].clone()).collect();
+        let plan = HuntPlan {
+            cases: &cases,
+            mutants: &mutants,
+            full: false,
+            jobs: processors(),
+        };
+        let found = etalon_runner::hunt(plan, &open, &|| {});
+        for (index, record) in left.into_iter().zip(found) {
+            let record = without_panics(record);
+            match &mut records[index] {
+                Some(before) => before.add(record),
+                none => *none = Some(record),
+            }
+        }
+        bar.inc(count);
+        bar.set_message(format!("{} left", mutants.len()));
+    }
+    bar.finish_and_clear();
+    (records.into_iter().flatten().collect(), failing)
+}
+
+/// Returns a record as if its bug had not panicked: one that panics in a scene, since it was not made for it, says nothing
+/// there.
+fn without_panics(mut record: MutantRecord) -> MutantRecord {
+    if record.outcome == Catch::Broken {
+        if record.areas.iter().any(|a| a.fail > 0) {
+            record.outcome = Catch::Caught;
+        } else {
+            record.outcome = Catch::Survived;
+            record.first = None;
+        }
+    }
+    record
 }
 
 /// Parts the cases that the rasterizer fails without a bug from the others: they would catch every bug.

@@ -21,14 +21,15 @@ use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, Run, Settings, ShaderCache,
-    Shard, Verdict, selection_digest, shard_of,
+    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    selection_digest,
 };
+use etalon_report::News;
 use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -151,49 +152,108 @@ fn parse_percent(text: &str) -> Result<f64, String> {
 /// Draws the selected cases on the selected adapters, judges them, writes records and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
-    let mut cases = chosen(&arguments.selection)?;
-    if arguments.selection.globs.is_empty() {
-        // A folder with nothing else in it means them.
-        let measuring_alone = cases.iter().all(is_measuring);
-        cases.retain(|case| measuring_alone || !is_measuring(case));
-    }
-    let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
-    let round_trips = round_trips(arguments.selection.cases.as_ref(), &cases)?;
-    let shard = shard::chosen(arguments.shard)?;
-    if let Some(shard) = shard {
-        cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
-        say!(
-            "shard {shard}: {} of {} cases",
-            cases.len(),
-            selection.len()
-        );
-    }
-    if let Some(seed) = arguments.shuffle {
-        shuffle(&mut cases, seed);
-    }
-    let blessed = match arguments.bless {
-        true => Some(to_bless(arguments.expect.as_deref())?),
-        false => None,
+    let selected = Selected::new(arguments)?;
+    let to_bless = if arguments.bless {
+        Some(to_bless(arguments.expect.as_deref())?)
+    } else {
+        None
     };
-    let expectations = match &blessed {
-        // The file to write need not exist yet.
-        Some(path) if !path.exists() => Expectations::default(),
-        Some(path) => Expectations::read(path).map_err(Failure::usage)?,
-        None => expectations::read(arguments.expect.as_deref())?,
-    }
-    .on(&today());
+    let expectations = expectations(arguments, to_bless.as_deref())?;
     // The records of a concurrent or an earlier run must not be lost.
-    let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
-    let early = arguments.out.exists().then(lock).transpose()?;
-    let out = Out {
+    let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Run,
         latest: LATEST,
         resume: arguments.resume,
         force: arguments.force,
-    };
-    let resume = out.resumes()?;
+    }
+    .claim()?;
     let stop = listen()?;
+    let (adapters, dead) = start(arguments)?;
+    let resume = claim.resume;
+    let _lock = claim.take()?;
+    let header = header(arguments, &selected, &adapters, &dead);
+    let adapter_names = header.adapters.iter().map(|a| a.name.clone()).collect();
+    let summary = draw(Plan {
+        reports: report_files::RUN,
+        cases: &selected.cases,
+        round_trips: &selected.round_trips,
+        selection: Some(&selected.ids),
+        adapters: adapters.ready,
+        dead,
+        options: options(arguments),
+        expectations: &expectations,
+        folder: &arguments.out,
+        header,
+        resume,
+        stop,
+    })?;
+    let results = Results::write(arguments, &selected, &expectations, summary, adapter_names)?;
+    results.print()?;
+    let run = &results.run;
+    if run.missing() > 0 {
+        return Err(incomplete(run, summary.interrupted));
+    }
+    arguments.news.tell_how_to_add(&arguments.out);
+    if let Some(path) = &to_bless {
+        let all_adapters = arguments.adapters.is_empty();
+        let cases = arguments.selection.cases.as_ref();
+        bless(path, run, &expectations, cases, all_adapters)?;
+        return Ok(0);
+    }
+    Ok(results.exit_code())
+}
+
+/// The cases of a run.
+struct Selected {
+    /// Those to draw, in their order.
+    cases: Vec<Case>,
+    /// The ids of all that were selected, of which a shard draws a part.
+    ids: Vec<String>,
+    round_trips: Vec<Case>,
+    shard: Option<Shard>,
+    /// The number of cases that the profile leaves out.
+    left_out: u64,
+}
+
+impl Selected {
+    fn new(arguments: &Arguments) -> Result<Self, Failure> {
+        let Arguments { selection, .. } = arguments;
+        let mut cases = chosen(selection)?;
+        if selection.globs.is_empty() {
+            // A folder with nothing else in it means them.
+            let measuring_alone = cases.iter().all(is_measuring);
+            cases.retain(|case| measuring_alone || !is_measuring(case));
+        }
+        let ids: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
+        let round_trips = round_trips(selection.cases.as_ref(), &cases)?;
+        let shard = shard::keep(arguments.shard, &mut cases)?;
+        if let Some(seed) = arguments.shuffle {
+            shuffle(&mut cases, seed);
+        }
+        Ok(Self {
+            left_out: left_out(selection, &ids)?,
+            cases,
+            ids,
+            round_trips,
+            shard,
+        })
+    }
+}
+
+/// Returns the expectations of a run; `to_bless` is the file to update, which need not exist yet.
+fn expectations(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectations, Failure> {
+    let expectations = match to_bless {
+        Some(path) if !path.exists() => Expectations::default(),
+        Some(path) => Expectations::read(path).map_err(Failure::usage)?,
+        None => expectations::read(arguments.expect.as_deref())?,
+    };
+    Ok(expectations.on(&today()))
+}
+
+/// Starts the adapters. Returns those too that are installed and do not start, with the reason: each of their cases has a
+/// record like any other.
+fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)>), Failure> {
     let mut adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
@@ -201,136 +261,158 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         cold: arguments.shader_cache == CacheState::Cold,
         ..Query::default()
     })?;
-    // A driver that is installed and does not start has a record for each case like any other.
     let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
         say!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    // A new folder is created only once there is something to write.
-    let _lock = early.map_or_else(lock, Ok)?;
-    out.clear_other()?;
-    let mut header = header(arguments, &cases, &selection, shard, &adapters, &dead);
-    header.settings.left_out = Some(left_out(&arguments.selection, &selection)?);
-    let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
-    let plan = Plan {
-        reports: report_files::RUN,
-        cases: &cases,
-        round_trips: &round_trips,
-        selection: Some(&selection),
-        adapters: adapters.ready,
-        dead,
-        options: Options {
-            jobs: arguments.jobs.map_or_else(processors, usize::from),
-            timeout: Duration::from_secs_f64(arguments.timeout),
-            memory: Some(arguments.memory),
-            repeat: arguments.repeat,
-            recheck: arguments.recheck.0,
-        },
-        expectations: &expectations,
-        folder: &arguments.out,
-        header,
-        resume,
-        stop,
-    };
-    let bar = progress(cases.len() as u64 * names.len() as u64);
+    Ok((adapters, dead))
+}
+
+fn options(arguments: &Arguments) -> Options {
+    Options {
+        jobs: arguments.jobs.map_or_else(processors, usize::from),
+        timeout: Duration::from_secs_f64(arguments.timeout),
+        memory: Some(arguments.memory),
+        repeat: arguments.repeat,
+        recheck: arguments.recheck.0,
+    }
+}
+
+/// Draws with a progress bar.
+fn draw(plan: Plan<'_>) -> Result<RunSummary, Failure> {
+    let bar = progress(plan.cases.len() as u64 * plan.header.adapters.len() as u64);
     let outcome = execute(plan, &bar);
     bar.finish_and_clear();
-    let outcome = outcome.map_err(|error| match error {
+    outcome.map_err(|error| match error {
         RunError::Folder(error) => Failure::usage(error),
         RunError::Write(_) => Failure::incomplete(format!("{error}; {}", how_to_resume())),
-    })?;
-    let run = Run::read(&arguments.out).map_err(Failure::incomplete)?;
-    let dead = match (&arguments.expect, &arguments.selection.cases) {
-        // The built-in findings are about the built-in cases.
-        (None, Some(_)) => Vec::new(),
-        _ => dead_expectations(arguments, &expectations, &run)?,
-    };
-    Dead::write(&arguments.out, &dead).map_err(Failure::incomplete)?;
-    let library = library(arguments.selection.cases.as_ref())?;
-    etalon_report::write_catalogue(&arguments.out, &catalogue(&library, &cases))
-        .map_err(Failure::incomplete)?;
-    let news = arguments.news.news(&run)?;
-    let shown = shown(&run, news.as_ref());
-    let written = etalon_report::write_run_with_news(&arguments.out, &shown, news.as_ref())
-        .map_err(Failure::incomplete)?;
-    if arguments.format == Format::Json {
-        summarize_json(&json!({
-            "records": outcome.records,
-            "missing": run.missing(),
-            "unexpected": outcome.unexpected,
-            "improvements": outcome.improvements,
-            "rechecked": outcome.rechecks.done,
-            "not_rechecked": outcome.rechecks.left,
-            "interrupted": outcome.interrupted,
-            "dead_expectations": dead,
-            "adapters": names,
-            "verdicts": verdicts(&run),
-            "news": news,
-            "folder": arguments.out,
-            "report": written.html,
-        }))?;
-    } else {
-        if let Some(news) = &news {
-            summarize(&etalon_report::news_table(news, table_options()));
-        }
-        summarize(&etalon_report::table(&shown, table_options()));
-        summarize(&rechecked(arguments.recheck, outcome.rechecks));
-        summarize(&format!("\nReport: {}\n", written.html.display()));
-    }
-    if run.missing() > 0 {
-        let interrupted = if outcome.interrupted {
-            "interrupted: "
-        } else {
-            ""
-        };
-        return Err(Failure::incomplete(format!(
-            "{interrupted}{} of {} records are missing; {}",
-            run.missing(),
-            run.header.expected_records(),
-            how_to_resume()
-        )));
-    }
-    arguments.news.tell_how_to_add(&arguments.out);
-    if let Some(path) = &blessed {
-        let all_adapters = arguments.adapters.is_empty();
-        let cases = arguments.selection.cases.as_ref();
-        bless(path, &run, &expectations, cases, all_adapters)?;
-        return Ok(0);
-    }
-    if !dead.is_empty() {
-        say!("{}", etalon_report::dead_lines(&dead));
-        if !arguments.strict_expectations {
-            say!("--strict-expectations exits with 1 for them");
-        }
-    }
-    let asserted = arguments.min_asserted.is_none_or(|percent| {
-        let (enough, line) = asserted(&run, percent);
-        if !enough {
-            say!("{line}");
-        }
-        enough
-    });
-    let unexpected = news.map_or(outcome.unexpected, |news| news.counted());
-    Ok(match outcome {
-        _ if unexpected > 0 => UNEXPECTED,
-        _ if !asserted || arguments.strict_expectations && !dead.is_empty() => UNEXPECTED,
-        RunSummary {
-            improvements: 1.., ..
-        } => IMPROVED,
-        _ => 0,
     })
 }
 
+/// A run that was drawn, and what is written beside its records.
+struct Results<'a> {
+    arguments: &'a Arguments,
+    summary: RunSummary,
+    adapter_names: Vec<String>,
+    run: Run,
+    dead: Vec<Dead>,
+    news: Option<News>,
+    report: PathBuf,
+}
+
+impl<'a> Results<'a> {
+    /// Reads the records back, and writes the pages and lists beside them.
+    fn write(
+        arguments: &'a Arguments,
+        selected: &Selected,
+        expectations: &Expectations,
+        summary: RunSummary,
+        adapter_names: Vec<String>,
+    ) -> Result<Self, Failure> {
+        let folder = &arguments.out;
+        let run = Run::read(folder).map_err(Failure::incomplete)?;
+        let dead = dead_expectations(arguments, expectations, &run)?;
+        Dead::write(folder, &dead).map_err(Failure::incomplete)?;
+        let library = library(arguments.selection.cases.as_ref())?;
+        let catalogue = catalogue(&library, &selected.cases);
+        etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
+        let news = arguments.news.news(&run)?;
+        let shown = shown(&run, news.as_ref());
+        let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref())
+            .map_err(Failure::incomplete)?;
+        drop(shown);
+        Ok(Self {
+            arguments,
+            summary,
+            adapter_names,
+            run,
+            dead,
+            news,
+            report: written.html,
+        })
+    }
+
+    fn print(&self) -> Result<(), Failure> {
+        if self.arguments.format == Format::Json {
+            return summarize_json(&json!({
+                "records": self.summary.records,
+                "missing": self.run.missing(),
+                "unexpected": self.summary.unexpected,
+                "improvements": self.summary.improvements,
+                "rechecked": self.summary.rechecks.done,
+                "not_rechecked": self.summary.rechecks.left,
+                "interrupted": self.summary.interrupted,
+                "dead_expectations": self.dead,
+                "adapters": self.adapter_names,
+                "verdicts": verdicts(&self.run),
+                "news": self.news,
+                "folder": self.arguments.out,
+                "report": self.report,
+            }));
+        }
+        if let Some(news) = &self.news {
+            summarize(&etalon_report::news_table(news, table_options()));
+        }
+        let shown = shown(&self.run, self.news.as_ref());
+        summarize(&etalon_report::table(&shown, table_options()));
+        summarize(&rechecked(self.arguments.recheck, self.summary.rechecks));
+        summarize(&format!("\nReport: {}\n", self.report.display()));
+        Ok(())
+    }
+
+    /// Returns the exit code, and says what it is about besides the verdicts.
+    fn exit_code(&self) -> u8 {
+        let strict = self.arguments.strict_expectations;
+        if !self.dead.is_empty() {
+            say!("{}", etalon_report::dead_lines(&self.dead));
+            if !strict {
+                say!("--strict-expectations exits with 1 for them");
+            }
+        }
+        let asserted = self.arguments.min_asserted.is_none_or(|percent| {
+            let (enough, line) = asserted(&self.run, percent);
+            if !enough {
+                say!("{line}");
+            }
+            enough
+        });
+        let news = self.news.as_ref();
+        let unexpected = news.map_or(self.summary.unexpected, News::counted);
+        if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
+            UNEXPECTED
+        } else if self.summary.improvements > 0 {
+            IMPROVED
+        } else {
+            0
+        }
+    }
+}
+
+/// The error of a run that lacks records.
+fn incomplete(run: &Run, interrupted: bool) -> Failure {
+    let interrupted = if interrupted { "interrupted: " } else { "" };
+    Failure::incomplete(format!(
+        "{interrupted}{} of {} records are missing; {}",
+        run.missing(),
+        run.header.expected_records(),
+        how_to_resume()
+    ))
+}
+
+/// Returns the dead expectations; none if the built-in findings meet cases of a folder, since they are about the built-in
+/// cases.
 fn dead_expectations(
     arguments: &Arguments,
     expectations: &Expectations,
     run: &Run,
 ) -> Result<Vec<Dead>, Failure> {
-    if expectations.all().is_empty() {
+    let cases = arguments.selection.cases.as_ref();
+    let built_in_alone = arguments.expect.is_none() && cases.is_some();
+    if built_in_alone || expectations.all().is_empty() {
         return Ok(Vec::new());
     }
-    let ids = all_ids(arguments.selection.cases.as_ref())?;
+    let ids = all_ids(cases)?;
     let described = described_names(arguments.file.adapter_file.as_deref())?;
     Ok(expectations.dead(run, &ids, &described))
 }
@@ -378,9 +460,7 @@ fn shuffle(cases: &mut [Case], seed: u64) {
 
 fn header(
     arguments: &Arguments,
-    cases: &[Case],
-    selection: &[String],
-    shard: Option<Shard>,
+    selected: &Selected,
     adapters: &Adapters,
     dead: &[(AdapterRecord, String)],
 ) -> Header {
@@ -391,20 +471,15 @@ fn header(
         machine: provenance::machine(),
         started: provenance::now(),
         command: provenance::command(),
-        cases: cases.len() as u64,
+        cases: selected.cases.len() as u64,
         settings: Settings {
-            selection: selection_digest(selection.iter().map(String::as_str)),
-            shard,
+            selection: selection_digest(selected.ids.iter().map(String::as_str)),
+            shard: selected.shard,
             profile: Some(arguments.selection.profile.name().to_owned()),
-            left_out: None,
+            left_out: Some(selected.left_out),
             shuffle: arguments.shuffle,
             repeat: (arguments.repeat > 1).then_some(arguments.repeat),
-            shader_cache: Some(
-                match arguments.shader_cache == CacheState::Cold || cache::is_disabled() {
-                    true => ShaderCache::Cold,
-                    false => ShaderCache::Warm,
-                },
-            ),
+            shader_cache: Some(cache::state(arguments.shader_cache == CacheState::Cold)),
             validate: arguments.validate,
             timeout: Some(arguments.timeout),
             memory: Some(arguments.memory),
