@@ -204,7 +204,7 @@ impl<'a> FailingScenes<'a> {
             adapter,
             index: seen.index,
             sentence: shown.sentence(),
-            clause: shown.clause().map(str::to_owned),
+            clause: shown.clause(),
             states: shown.states(),
             keys: [seen.keys, keys(&document["scene"])],
             file,

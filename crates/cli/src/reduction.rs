@@ -7,8 +7,9 @@ use crate::failure::Failure;
 use etalon_case::{Case, CaseRef, build};
 use etalon_diagnose::{Driver, Subject, Symptom, Traits};
 use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, reduce, states};
-use etalon_frame::Limits;
+use etalon_frame::{Limits, Operation};
 use etalon_record::{Record, Verdict};
+use etalon_report::{judged_by, sentence};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -307,26 +308,26 @@ pub(crate) struct Shown<'a> {
 impl Shown<'_> {
     /// Returns the sentence on the wrong sample or counter.
     pub(crate) fn sentence(&self) -> String {
-        let sentence = self.record.story.as_ref().and_then(|s| s.sentence());
+        let sentence = self.record.story.as_ref().and_then(sentence);
         sentence.unwrap_or_else(|| self.record.message.clone())
     }
 
     /// Returns the clause that is violated: that of the last operation that cites one. Coverage cites one for
     /// primitives that lie elsewhere, and so is the last to be named.
-    pub(crate) fn clause(&self) -> Option<&str> {
+    pub(crate) fn clause(&self) -> Option<String> {
         let story = self.record.story.as_ref()?;
+        if matches!(self.symptom.subject, Subject::Relation(_)) {
+            return judged_by(story);
+        }
         let cited = |coverage: bool| {
-            let mut lines = story.operations().iter().rev();
-            lines.find_map(|line| {
-                let own = (line.operation == "coverage") == coverage;
-                line.citation.as_deref().filter(|_| own)
+            let mut events = story.events.iter().rev();
+            events.find_map(|event| {
+                let counts = (event.operation() == Operation::Coverage) == coverage;
+                event.citation.clone().filter(|_| counts)
             })
         };
-        let verdict = || story.verdict()?.citation.as_deref();
-        if matches!(self.symptom.subject, Subject::Relation(_)) {
-            return verdict();
-        }
-        cited(false).or_else(|| cited(true)).or_else(verdict)
+        let clause = cited(false).or_else(|| cited(true));
+        clause.or_else(|| judged_by(story))
     }
 
     /// Returns the states that are not the default.

@@ -25,7 +25,7 @@ impl Key {
     pub fn reduced(document: &Value, symptom: &Symptom) -> Self {
         let Traits { way, states, .. } = Traits::of(document, symptom);
         Self {
-            way,
+            way: way.to_string(),
             states: Some(states),
         }
     }

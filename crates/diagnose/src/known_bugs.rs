@@ -235,7 +235,7 @@ impl<D: Driver> KnownBugs<D> {
             let known = self.left(at).map(|r| &r.traits);
             let beyond = known.map(|k| Beyond {
                 states: traits.states.without(&k.states),
-                violation: (likeness == Likeness::Elsewhere).then(|| k.way.clone()),
+                violation: (likeness == Likeness::Elsewhere).then(|| k.way.to_string()),
             });
             self.matched(at, verdict, traits, beyond)
         }))

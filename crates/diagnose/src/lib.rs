@@ -26,4 +26,4 @@ pub use known_bugs::{Driver, KnownBugs};
 pub use matching::{Beyond, Match};
 pub use signature::Signature;
 pub use symptom::{Direction, Subject, Symptom};
-pub use traits::{Likeness, Traits};
+pub use traits::{Likeness, Traits, Violation};

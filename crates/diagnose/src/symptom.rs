@@ -7,44 +7,33 @@
 //! one's; one that is new is another symptom. [`Symptom::broad`] leaves out what differs among the cases of one
 //! bug: the runner rechecks so many records of each, reports group by it.
 
-use etalon_frame::{Aspect, Band, ChannelMismatch, CounterKind, Story, StoryLine};
+use etalon_frame::{
+    Aspect, Band, ChannelMismatch, CounterKind, Effect, Event, Operation, Rejection, Step, Story,
+    Target,
+};
 use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
 
-/// Operations that every sample passes, and so tell nothing.
-const COMMON: [&str; 7] = [
-    "read back",
-    "coverage",
-    "viewport",
-    "shade",
-    "store color",
-    "store depth",
-    "store stencil",
-];
-
-/// Operations that end a draw at a sample. Coverage stands apart: every draw has primitives elsewhere.
-const REJECTIONS: [&str; 14] = [
-    "rasterizer discard",
-    "viewport",
-    "clipping",
-    "culling",
-    "scissor",
-    "sample coverage",
-    "sample mask",
-    "discard",
-    "shader's sample mask",
-    "alpha to coverage",
-    "depth bounds",
-    "stencil test",
-    "depth test",
-    "early tests",
+/// Operations that every sample passes, which distinguish no failure.
+const COMMON: [Operation; 7] = [
+    Operation::ReadBack,
+    Operation::Coverage,
+    Operation::Viewport,
+    Operation::Shade,
+    Operation::StoreColor,
+    Operation::StoreDepth,
+    Operation::StoreStencil,
 ];
 
 /// Operations that compute what is stored.
-const COMPUTED: [&str; 3] = ["logic operation", "advanced blend", "blend"];
+const COMPUTED: [Operation; 3] = [
+    Operation::LogicOperation,
+    Operation::AdvancedBlend,
+    Operation::Blend,
+];
 
-/// Operations that give an attachment what it holds before all draws, or without one.
-const INITIAL: [&str; 3] = ["clear", "upload", "resolve"];
+/// Operations that give an attachment its contents before all draws, or without one.
+const INITIAL: [Operation; 3] = [Operation::Clear, Operation::Upload, Operation::Resolve];
 
 /// The way in which a case failed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -56,9 +45,9 @@ pub struct Symptom {
     /// Of a picture, the name of the attachment.
     pub attachment: Option<String>,
     /// Of a picture, the operations that decide what the first wrong sample must hold, in their order.
-    pub operations: Vec<String>,
-    /// The last operation of the story that not every sample passes; empty where there is none.
-    pub last: String,
+    pub operations: Vec<Operation>,
+    /// The last operation of the story that not every sample passes.
+    pub last: Option<Operation>,
     /// Of a value, the side on which it lies.
     pub direction: Option<Direction>,
 }
@@ -102,15 +91,14 @@ impl Symptom {
     /// Returns the symptom of a record.
     pub fn of(record: &Record) -> Self {
         let story = record.story.as_ref();
-        let lines = story.map_or(&[][..], |story| story.operations());
-        let telling = |line: &&StoryLine| !COMMON.contains(&line.operation.as_str());
-        let last = lines.iter().rev().find(telling);
+        let events = story.map_or(&[][..], |story| &story.events[..]);
+        let mut operations = events.iter().rev().map(Event::operation);
         let bare = Self {
             verdict: record.verdict,
             subject: Subject::Unknown,
             attachment: None,
             operations: Vec::new(),
-            last: last.map_or_else(String::new, |line| line.operation.clone()),
+            last: operations.find(|operation| !COMMON.contains(operation)),
             direction: None,
         };
         if let Some(ProcessEnd {
@@ -120,7 +108,7 @@ impl Symptom {
             let subject = Subject::Process { kind, signal, exit };
             return Self { subject, ..bare };
         }
-        if let Some(invariance) = invariance(lines) {
+        if let Some(invariance) = invariance(events) {
             let subject = Subject::Relation(invariance);
             return Self { subject, ..bare };
         }
@@ -189,12 +177,13 @@ impl Symptom {
 
     /// Returns the operations that decide, without those that give an attachment what it holds before all draws,
     /// unless there are no others.
-    pub fn of_draws(&self) -> Vec<&str> {
-        let all = || self.operations.iter().map(String::as_str);
-        let drawn: Vec<&str> = all().filter(|o| !INITIAL.contains(o)).collect();
-        match drawn.is_empty() {
-            true => all().collect(),
-            false => drawn,
+    pub fn of_draws(&self) -> Vec<Operation> {
+        let mut drawn = self.operations.clone();
+        drawn.retain(|operation| !INITIAL.contains(operation));
+        if drawn.is_empty() {
+            self.operations.clone()
+        } else {
+            drawn
         }
     }
 
@@ -207,8 +196,8 @@ impl Symptom {
             other => vec![other.to_string()],
         };
         words.extend(self.direction.map(|d| d.words().to_owned()));
-        if !self.last.is_empty() {
-            words.extend(["after".to_owned(), self.last.clone()]);
+        if let Some(last) = self.last {
+            words.extend(["after".to_owned(), last.name().to_owned()]);
         }
         words.join(" ")
     }
@@ -220,15 +209,11 @@ impl fmt::Display for Symptom {
         match (&self.subject, self.direction) {
             (Subject::Picture(aspect), _) => {
                 let attachment = self.attachment.as_deref().unwrap_or_default();
-                let operations = self.operations.join(", ");
+                let operations = names(&self.operations);
                 write!(f, "{} of {attachment} ({operations})", aspect.name())
             }
             (Subject::Counter(_), Some(direction)) => {
-                let much = match direction {
-                    Direction::Low => "little",
-                    Direction::High | Direction::Both => "much",
-                };
-                write!(f, "{} counts too {much}", self.subject)
+                write!(f, "{} counts too {}", self.subject, direction.amount())
             }
             (Subject::Unknown, _) => f.write_str(self.verdict.name()),
             (subject, _) => subject.fmt(f),
@@ -264,6 +249,14 @@ impl fmt::Display for Subject {
 }
 
 impl Direction {
+    /// Returns the amount that a counter counts too much.
+    pub(crate) fn amount(self) -> &'static str {
+        match self {
+            Self::Low => "little",
+            Self::High | Self::Both => "much",
+        }
+    }
+
     fn words(self) -> &'static str {
         match self {
             Self::High => "too high",
@@ -273,12 +266,18 @@ impl Direction {
     }
 }
 
-/// Returns the name of the invariance of a story about two pictures that must be the same; no name where it was
-/// told by an earlier version.
-fn invariance(lines: &[StoryLine]) -> Option<String> {
-    let of = |operation| lines.iter().find(|l| l.operation == operation);
-    let named = of("relation").map(|line| line.detail.clone());
-    named.or_else(|| of("alone").map(|_| String::new()))
+/// Returns names of operations: `blend, store color`.
+pub(crate) fn names(operations: &[Operation]) -> String {
+    let names: Vec<&str> = operations.iter().map(|o| o.name()).collect();
+    names.join(", ")
+}
+
+/// Returns the name of the invariance of a story about two pictures that must be the same.
+fn invariance(events: &[Event]) -> Option<String> {
+    events.iter().find_map(|event| match &event.step {
+        Step::Relation(name) => Some(name.clone()),
+        _ => None,
+    })
 }
 
 /// Returns the side on which the wrong values of an aspect lie.
@@ -296,120 +295,218 @@ fn direction(record: &Record, aspect: Aspect) -> Direction {
 }
 
 /// Returns the operations that decide what an aspect of an attachment holds at the sample of a story.
-fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<String> {
-    let [stores, keeps] = ["store", "keep"].map(|word| format!("{word} {}", aspect.name()));
-    let mut deciding: Vec<String> = Vec::new();
-    let add = |deciding: &mut Vec<String>, operation: &str| {
-        if !deciding.iter().any(|o| o == operation) {
-            deciding.push(operation.to_owned());
+fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
+    let mut deciding: Vec<Operation> = Vec::new();
+    let add = |deciding: &mut Vec<Operation>, operation: Operation| {
+        if !deciding.contains(&operation) {
+            deciding.push(operation);
         }
     };
     let mut drawn = false;
-    let lines = story.operations();
-    for group in lines.chunk_by(|a, b| a.at == b.at) {
-        let place = group[0].at.as_str();
-        if !is_draw(place) {
-            // Clears, resolves and uploads, of which stories tell those of all attachments.
-            let other = place.strip_prefix("attachment ");
-            if other.is_some_and(|name| name != attachment) {
-                continue;
-            }
-            let initial = |line: &&StoryLine| INITIAL.contains(&line.operation.as_str());
-            for line in group.iter().filter(initial) {
-                if other.is_some() || names(&line.detail, attachment) {
-                    deciding = vec![line.operation.clone()];
+    for group in story.events.chunk_by(Event::is_beside) {
+        if group[0].origin.draw().is_none() {
+            for event in group {
+                if gives(event, attachment) {
+                    deciding = vec![event.operation()];
                     drawn = false;
-                } else if line.detail.contains("outside its rectangle") {
-                    add(&mut deciding, &line.operation);
+                } else if event.step == Step::ClearElsewhere {
+                    add(&mut deciding, event.operation());
                 }
             }
             continue;
         }
-        // Several attachments are stored one after the other, each behind what computes it.
-        let of = |line: &StoryLine, operation: &str| {
-            let own = aspect != Aspect::Color || names(&line.detail, attachment);
-            line.operation == operation && own
+        // Several attachments are stored one after the other, each after the operations that compute it.
+        let concerns = |target: &Target| {
+            target.aspect == aspect && (aspect != Aspect::Color || target.attachment == attachment)
         };
-        let stored = group.iter().position(|line| of(line, &stores));
+        let stores = |e: &Event| matches!(&e.effect, Effect::Stores(target) if concerns(target));
+        let keeps = |e: &Event| matches!(&e.effect, Effect::Keeps(target) if concerns(target));
         drawn = true;
-        if let Some(at) = stored {
+        if let Some(at) = group.iter().position(stores) {
             deciding.clear();
-            let ends = |l: &&StoryLine| l.operation == stores || l.operation == keeps;
-            let before = group[..at].iter().rev().take_while(|l| !ends(l));
+            let ends = |e: &&Event| match &e.effect {
+                Effect::Stores(target) | Effect::Keeps(target) => target.aspect == aspect,
+                _ => false,
+            };
+            let before = group[..at].iter().rev().take_while(|e| !ends(e));
+            let mut before = before.map(Event::operation);
             if aspect == Aspect::Color
-                && let Some(line) = before.clone().find(is_computed)
+                && let Some(operation) = before.find(|o| COMPUTED.contains(o))
             {
-                add(&mut deciding, &line.operation);
+                add(&mut deciding, operation);
             }
-            add(&mut deciding, &stores);
-        } else if group.iter().any(|line| of(line, &keeps)) {
-            add(&mut deciding, &keeps);
-        } else if let Some(line) = rejection(group) {
-            add(&mut deciding, &line.operation);
+            add(&mut deciding, group[at].operation());
+        } else if let Some(kept) = group.iter().find(|e| keeps(e)) {
+            add(&mut deciding, kept.operation());
+        } else if let Some(event) = rejection(group) {
+            add(&mut deciding, event.operation());
         }
     }
-    // Where the driver left what was there, nothing was computed that could be wrong.
-    let kept = story.verdict();
-    if kept.is_some_and(|v| v.detail.contains("the driver kept ")) {
-        deciding.retain(|o| !COMPUTED.contains(&o.as_str()));
+    // If the driver left earlier contents, no computation could be wrong.
+    if story.keeps_earlier_contents() {
+        deciding.retain(|o| !COMPUTED.contains(o));
     }
-    // Every draw has primitives elsewhere: coverage decides where nothing else does.
-    if drawn && deciding.iter().all(|o| INITIAL.contains(&o.as_str())) {
-        add(&mut deciding, "coverage");
+    // Every draw has primitives elsewhere: coverage decides if nothing else does.
+    if drawn && deciding.iter().all(|o| INITIAL.contains(o)) {
+        add(&mut deciding, Operation::Coverage);
     }
     deciding
 }
 
-/// True if a line says what an attachment holds: `target holds 1, 0, 0, 1`, `write mask 0x0: target still holds 0`,
-/// `samples into target, average`.
-fn names(detail: &str, attachment: &str) -> bool {
-    let stored = detail.strip_prefix(attachment);
-    stored.is_some_and(|rest| rest.starts_with(" holds "))
-        || detail.contains(&format!(": {attachment} still holds "))
-        || detail.contains(&format!(" into {attachment}, "))
-}
-
-fn is_computed(line: &&StoryLine) -> bool {
-    COMPUTED.contains(&line.operation.as_str())
-}
-
-/// True if a place is a draw: `pass 0, draw 2, primitive 1`, in a frame that may be named before.
-fn is_draw(at: &str) -> bool {
-    let number = |word: &str| {
-        let rest = at.split_once(word).map(|(_, rest)| rest);
-        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-    };
-    number("pass ") && number(", draw ")
-}
-
-/// Returns the last operation of a group of lines that ends the draw. Tests that pass are told too.
-fn rejection(group: &[StoryLine]) -> Option<&StoryLine> {
-    let passes = |line: &StoryLine| match line.operation.as_str() {
-        "stencil test" => line.detail.contains(" passes"),
-        "depth test" => line.detail.ends_with(" is true"),
+/// True if an operation between draws gives an attachment its contents.
+fn gives(event: &Event, attachment: &str) -> bool {
+    match &event.step {
+        Step::Upload(contents) | Step::Clear(contents) => {
+            contents.iter().any(|c| c.attachment == attachment)
+        }
+        Step::Resolve { to, .. } | Step::ResolveDepthStencil { to, .. } => to == attachment,
         _ => false,
-    };
-    let mut lines = group.iter().rev();
-    lines.find(|line| REJECTIONS.contains(&line.operation.as_str()) && !passes(line))
+    }
+}
+
+/// Returns the last operation of a group that ends the draw at the sample. Coverage stands apart: every draw has
+/// primitives elsewhere.
+fn rejection(group: &[Event]) -> Option<&Event> {
+    group
+        .iter()
+        .rev()
+        .find(|event| match event.effect.rejection() {
+            Some(rejection) => rejection != Rejection::Coverage,
+            None => event.step == Step::LostAfterEarlyTests,
+        })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_frame::{ChannelEncoding, CounterOutcome, WrongTexel};
+    use etalon_frame::{
+        ChannelEncoding, Contents, CounterOutcome, Coverage, DepthTest, Initial, Origin, Returned,
+        Ruling, SceneName, Source, ValueRange, Values, WrongTexel,
+    };
+    use etalon_frame::{Demand, ResolveChoice};
 
-    fn line(at: &str, operation: &str, detail: &str) -> StoryLine {
-        StoryLine {
-            at: at.to_owned(),
-            operation: operation.to_owned(),
-            detail: detail.to_owned(),
+    fn event(origin: Origin, step: Step, effect: Effect) -> Event {
+        Event {
+            scene: None,
+            origin,
+            step,
+            effect,
             citation: None,
         }
     }
 
-    fn record(actual: u32, lines: Vec<StoryLine>) -> Record {
+    /// An event of the only primitive of a draw.
+    fn drawn(draw: usize, step: Step, effect: Effect) -> Event {
+        let origin = Origin::Fragment {
+            pass: 0,
+            draw,
+            primitive: 0,
+            world: None,
+        };
+        event(origin, step, effect)
+    }
+
+    fn contents(attachment: &str) -> Contents {
+        Contents {
+            attachment: attachment.to_owned(),
+            aspect: Aspect::Color,
+            codes: Vec::new(),
+        }
+    }
+
+    fn target(attachment: &str) -> Target {
+        Target {
+            attachment: attachment.to_owned(),
+            aspect: Aspect::Color,
+        }
+    }
+
+    fn clear(attachment: &str) -> Event {
+        let origin = Origin::Attachment(attachment.to_owned());
+        event(
+            origin,
+            Step::Clear(vec![contents(attachment)]),
+            Effect::None,
+        )
+    }
+
+    fn logic(draw: usize) -> Event {
+        let step = Step::Logic {
+            operation: "xor".to_owned(),
+            stored: contents("c"),
+        };
+        drawn(draw, step, Effect::None)
+    }
+
+    fn blend(draw: usize) -> Event {
+        let any = || ValueRange {
+            low: 0.0,
+            high: 1.0,
+        };
+        let step = Step::AdvancedBlend {
+            operation: "multiply".to_owned(),
+            src: [any(); 4],
+            dst: [any(); 4],
+            result: [any(); 4],
+        };
+        drawn(draw, step, Effect::None)
+    }
+
+    fn store(draw: usize, attachment: &str) -> Event {
+        let step = Step::StoreColor {
+            contents: contents(attachment),
+            write_mask: None,
+        };
+        drawn(draw, step, Effect::Stores(target(attachment)))
+    }
+
+    fn keep(draw: usize, attachment: &str) -> Event {
+        let step = Step::KeepColor {
+            contents: contents(attachment),
+            write_mask: 0,
+        };
+        drawn(draw, step, Effect::Keeps(target(attachment)))
+    }
+
+    fn depth_test(draw: usize, effect: Effect) -> Event {
+        let compare = "less".to_owned();
+        drawn(draw, Step::DepthTest(DepthTest::Same { compare }), effect)
+    }
+
+    fn scissor(draw: usize) -> Event {
+        let origin = Origin::Draw {
+            pass: 0,
+            draw,
+            primitives: Vec::new(),
+        };
+        let effect = Effect::Rejects(Rejection::Scissor);
+        event(origin, Step::Scissor([0; 4]), effect)
+    }
+
+    fn coverage(draw: usize) -> Event {
+        let effect = Effect::Rejects(Rejection::Coverage);
+        drawn(draw, Step::Coverage(Coverage::Outside), effect)
+    }
+
+    fn read_back() -> Event {
+        let step = Step::ReadBack {
+            attachment: "c".to_owned(),
+            contents: Vec::new(),
+            depth_by_shader: false,
+        };
+        event(Origin::End { world: None }, step, Effect::None)
+    }
+
+    fn story(events: Vec<Event>) -> Story {
+        Story {
+            events,
+            ..Story::default()
+        }
+    }
+
+    fn record(actual: u32, events: Vec<Event>) -> Record {
         let mut record = Record::new("a/b", "cpu", Verdict::Fail);
-        record.story = Some(Story { lines });
+        record.story = Some(story(events));
         record.wrong = vec![WrongTexel {
             x: actual,
             y: 0,
@@ -428,21 +525,23 @@ mod tests {
         record
     }
 
-    /// The symptom of a record whose story has these operations.
-    fn seen(actual: u32, operations: &[&str]) -> Symptom {
-        let lines = operations.iter().map(|o| line("pass 0", o, "")).collect();
-        Symptom::of(&record(actual, lines))
+    #[test]
+    fn records_of_one_bug_have_one_broad_symptom() {
+        let broad = |actual, events| Symptom::of(&record(actual, events)).broad();
+        let high = broad(30, vec![blend(0), store(0, "c"), read_back()]);
+        assert_eq!(high.text(), "color too high after advanced blend");
+        assert_eq!(high, broad(200, vec![blend(0), coverage(0)]));
+        assert_ne!(high, broad(3, vec![blend(0)]));
+        assert_ne!(high, broad(30, vec![depth_test(0, Effect::None)]));
+        assert_eq!(broad(3, vec![]).text(), "color too low");
     }
 
     #[test]
-    fn records_of_one_bug_have_one_broad_symptom() {
-        let of = |actual, operations: &[&str]| seen(actual, operations).broad();
-        let high = of(30, &["shade", "blend", "store color", "read back"]);
-        assert_eq!(high.text(), "color too high after blend");
-        assert_eq!(high, of(200, &["blend", "coverage"]));
-        assert_ne!(high, of(3, &["blend"]));
-        assert_ne!(high, of(30, &["depth test"]));
-        assert_eq!(of(3, &[]).text(), "color too low");
+    fn a_story_of_an_earlier_format_decides_nothing() {
+        let told = r#"[{"at":"pass 0, draw 0","operation":"blend","detail":"c holds 1"}]"#;
+        let mut old = record(30, Vec::new());
+        old.story = Some(serde_json::from_str(told).unwrap());
+        assert_eq!(Symptom::of(&old).broad().text(), "color too high");
     }
 
     #[test]
@@ -475,135 +574,151 @@ mod tests {
         assert_eq!(error("a").broad(), error("b").broad());
     }
 
-    /// The operations that decide a colour of the attachment `c`.
-    fn found(lines: &[(&str, &str, &str)]) -> Vec<String> {
-        let lines = lines.iter().map(|(at, o, detail)| line(at, o, detail));
-        let story = Story {
-            lines: lines.collect(),
-        };
-        deciding(&story, "c", Aspect::Color)
+    /// The names of the operations that decide a colour of the attachment `c`.
+    fn found(events: &[&Event]) -> String {
+        let events = events.iter().map(|event| (*event).clone()).collect();
+        names(&deciding(&story(events), "c", Aspect::Color))
     }
 
     #[test]
     fn the_last_store_and_later_rejections_decide() {
-        let clear = ("attachment c", "clear", "");
-        let draw = "pass 0, draw 0, primitive 0";
-        let logic = (draw, "logic operation", "xor onto 0");
-        let store = (draw, "store color", "c holds 1");
-        let upload = ("attachment d", "upload", "");
-        let scissor = ("pass 0, draw 1", "scissor", "");
-        let coverage = ("pass 0, draw 2", "coverage", "");
-        assert_eq!(found(&[clear]), ["clear"]);
-        let worked = ["logic operation", "store color"];
-        assert_eq!(found(&[clear, logic, store]), worked);
-        assert_eq!(found(&[clear, scissor, logic, store]), worked);
+        let [clear, logic, store] = [clear("c"), logic(0), store(0, "c")];
+        let upload = event(
+            Origin::Attachment("d".to_owned()),
+            Step::Upload(vec![contents("d")]),
+            Effect::None,
+        );
+        let [scissor, coverage] = [scissor(1), coverage(2)];
+        assert_eq!(found(&[&clear]), "clear");
+        let worked = "logic operation, store color";
+        assert_eq!(found(&[&clear, &logic, &store]), worked);
+        let behind = self::scissor(0);
+        assert_eq!(found(&[&clear, &behind, &logic, &store]), worked);
         assert_eq!(
-            found(&[clear, logic, store, scissor, coverage]),
-            ["logic operation", "store color", "scissor"]
+            found(&[&clear, &logic, &store, &scissor, &coverage]),
+            "logic operation, store color, scissor"
         );
-        assert_eq!(found(&[clear, upload, scissor]), ["clear", "scissor"]);
-        assert_eq!(found(&[clear, coverage]), ["clear", "coverage"]);
-        let before = ("pass 0, before draw 1", "clear", "c holds color 1");
-        assert_eq!(found(&[clear, logic, store, before]), ["clear"]);
-        let resolve = |detail| ("after pass 0", "resolve", detail);
-        let own = resolve("d into c, sample 0");
-        assert_eq!(found(&[store, own]), ["resolve"]);
-        assert_eq!(
-            found(&[store, resolve("c into d, sample 0")]),
-            ["store color"]
-        );
-        let beside = (
-            "pass 0, at the end",
-            "clear",
-            "the texel lies outside its rectangle",
-        );
-        assert_eq!(found(&[store, beside]), ["store color", "clear"]);
-        let plain = ("pass 0, draw 2, primitive 1", "store color", "c holds 1");
-        assert_eq!(found(&[clear, logic, store, plain]), ["store color"]);
+        assert_eq!(found(&[&clear, &upload, &scissor]), "clear, scissor");
+        assert_eq!(found(&[&clear, &coverage]), "clear, coverage");
+        let before = Event {
+            origin: Origin::BeforeDraw { pass: 0, draw: 1 },
+            ..clear.clone()
+        };
+        assert_eq!(found(&[&clear, &logic, &store, &before]), "clear");
+        let resolve = |from: &str, to: &str| {
+            let step = Step::Resolve {
+                from: from.to_owned(),
+                to: to.to_owned(),
+                by: ResolveChoice::Average,
+                samples: Vec::new(),
+                results: Vec::new(),
+            };
+            event(Origin::AfterPass(0), step, Effect::Stores(target(to)))
+        };
+        assert_eq!(found(&[&store, &resolve("d", "c")]), "resolve");
+        assert_eq!(found(&[&store, &resolve("c", "d")]), "store color");
+        let beside = event(Origin::PassEnd(0), Step::ClearElsewhere, Effect::None);
+        assert_eq!(found(&[&store, &beside]), "store color, clear");
+        let plain = self::store(2, "c");
+        assert_eq!(found(&[&clear, &logic, &store, &plain]), "store color");
     }
 
     #[test]
-    fn what_computes_one_attachment_is_not_told_of_another() {
-        let draw = "in variant twice: pass 0, draw 0, primitive 0";
-        let blended = [
-            (draw, "blend", ""),
-            (draw, "store color", "d holds 1"),
-            (draw, "store color", "c holds 1"),
-        ];
-        assert_eq!(found(&blended), ["store color"]);
-        let kept = [
-            (draw, "store color", "d holds 1"),
-            (draw, "keep color", "write mask 0x0: c still holds 1"),
-        ];
-        assert_eq!(found(&kept), ["keep color"]);
+    fn what_computes_one_attachment_does_not_decide_another() {
+        let blended = [blend(0), store(0, "d"), store(0, "c")];
+        let in_variant = blended.map(|event| Event {
+            scene: Some(SceneName::Variant("twice".to_owned())),
+            ..event
+        });
+        assert_eq!(found(&in_variant.each_ref()), "store color");
+        assert_eq!(found(&[&store(0, "d"), &keep(0, "c")]), "keep color");
     }
 
     #[test]
     fn a_draw_that_does_not_arrive_is_the_same_however_it_blends() {
-        let of = |detail: &str, last: (&str, &str)| {
-            let [at, by] = ["texel 0,0", "judged"].map(str::to_owned);
-            let draw = "pass 0, draw 0, primitive 0";
-            let lines = vec![
-                StoryLine::verdict(at, detail.to_owned(), by),
-                line("attachment c", "clear", ""),
-                line(draw, "logic operation", "xor onto 0"),
-                line(draw, last.0, last.1),
-            ];
-            deciding(&Story { lines }, "c", Aspect::Color)
+        let with = |returned: Returned, last: Event| {
+            let values = Values {
+                yardstick: false,
+                allowed: Vec::new(),
+                more_outcomes: 0,
+                reasons: Vec::new(),
+                more_draws: 0,
+                returned: Some(returned),
+                several_colors: false,
+                several_passes: false,
+            };
+            let ruling = Ruling {
+                variant: None,
+                texel: [0, 0],
+                samples: Vec::new(),
+                demand: Demand::Values(Box::new(values)),
+                rules: "Vulkan".to_owned(),
+                after: Vec::new(),
+                band: None,
+            };
+            let story = Story {
+                ruling: Some(ruling),
+                events: vec![clear("c"), logic(0), last],
+                ..Story::default()
+            };
+            names(&deciding(&story, "c", Aspect::Color))
         };
-        let kept = "must be 1; the driver kept the clear colour 0";
-        let store = ("store color", "c holds 1");
-        assert_eq!(of(kept, store), ["store color"]);
-        assert_eq!(of(kept, ("scissor", "")), ["clear", "scissor"]);
+        let kept = || Returned::Kept {
+            contents: contents("c"),
+            from: Source::Initial(Initial::Clear),
+        };
+        assert_eq!(with(kept(), store(0, "c")), "store color");
+        assert_eq!(with(kept(), scissor(1)), "clear, scissor");
         assert_eq!(
-            of("must be 1; the driver wrote 0", store),
-            ["logic operation", "store color"]
+            with(Returned::Wrote(Vec::new()), store(0, "c")),
+            "logic operation, store color"
         );
     }
 
     #[test]
     fn a_test_that_passes_rejects_nothing() {
-        let mut lines = vec![
-            line(
-                "pass 0, draw 1",
-                "depth test",
-                "0 greater stored 1 is false",
-            ),
-            line(
-                "pass 0, draw 1",
-                "stencil test",
-                "reference 0 always stored 0 passes, depth fails",
-            ),
-        ];
-        let ends = rejection(&lines).map(|l| l.operation.as_str());
-        assert_eq!(ends, Some("depth test"));
-        lines[0].detail = "1 greater stored 0 is true".to_owned();
-        assert_eq!(rejection(&lines), None);
+        let stencil = Step::StencilTest {
+            reference: 0,
+            exported: false,
+            compare: "always".to_owned(),
+            stored: 0,
+            read_mask: 0xff,
+            depth_fails: true,
+        };
+        let stencil = drawn(0, stencil, Effect::None);
+        let ends = |effect| {
+            let group = [depth_test(0, effect), stencil.clone()];
+            rejection(&group).map(Event::operation)
+        };
+        let fails = Effect::Rejects(Rejection::Depth);
+        assert_eq!(ends(fails), Some(Operation::DepthTest));
+        assert_eq!(ends(Effect::None), None);
     }
 
     #[test]
     fn a_smaller_case_has_no_new_operation() {
-        let symptom = |operations: &[&str], attachment: &str, verdict| Symptom {
+        use Operation::{Blend, Scissor, StoreColor};
+        let symptom = |operations: &[Operation], attachment: &str, verdict| Symptom {
             verdict,
             subject: Subject::Picture(Aspect::Color),
             attachment: Some(attachment.to_owned()),
-            operations: operations.iter().map(|o| (*o).to_owned()).collect(),
-            last: operations.concat(),
+            operations: operations.to_vec(),
+            last: operations.last().copied(),
             direction: Some(match operations.len() {
                 1 => Direction::High,
                 _ => Direction::Low,
             }),
         };
-        let fail = |operations: &[&str]| symptom(operations, "c", Verdict::Fail);
-        let whole = fail(&["blend", "scissor"]);
+        let fail = |operations: &[Operation]| symptom(operations, "c", Verdict::Fail);
+        let whole = fail(&[Blend, Scissor]);
         assert!(whole.covers(&whole));
-        assert!(whole.covers(&fail(&["blend"])));
-        assert!(!whole.covers(&fail(&["store color"])));
-        assert!(!whole.covers(&fail(&["blend", "store color"])));
+        assert!(whole.covers(&fail(&[Blend])));
+        assert!(!whole.covers(&fail(&[StoreColor])));
+        assert!(!whole.covers(&fail(&[Blend, StoreColor])));
         assert!(!whole.covers(&fail(&[])));
-        assert!(!fail(&["blend"]).covers(&whole));
-        assert!(!whole.covers(&symptom(&["blend"], "d", Verdict::Fail)));
-        assert!(!whole.covers(&symptom(&["blend"], "c", Verdict::Disputed)));
+        assert!(!fail(&[Blend]).covers(&whole));
+        assert!(!whole.covers(&symptom(&[Blend], "d", Verdict::Fail)));
+        assert!(!whole.covers(&symptom(&[Blend], "c", Verdict::Disputed)));
         let counter = |actual| {
             let mut record = Record::new("a/b", "cpu", Verdict::Fail);
             record.counters = vec![CounterOutcome {
@@ -623,14 +738,12 @@ mod tests {
 
     #[test]
     fn a_relation_is_one_whatever_its_pictures_hold() {
-        let scene = "in the scene: pass 0, draw 0, primitive 0";
-        let told = |invariance: Option<&str>| {
-            let mut lines = vec![line("in the scene", "alone", "texel 0,0 may be 1")];
-            lines.extend(invariance.map(|name| line("in the scene", "relation", name)));
-            lines.push(line(scene, "store color", "c holds 1"));
-            Symptom::of(&record(3, lines)).to_string()
-        };
-        assert_eq!(told(Some("repeat")), "relation repeat");
-        assert_eq!(told(None), "relation");
+        let relation = Step::Relation("repeat".to_owned());
+        let mut events = vec![event(Origin::Scene, relation, Effect::None)];
+        events.push(store(0, "c"));
+        assert_eq!(
+            Symptom::of(&record(3, events)).to_string(),
+            "relation repeat"
+        );
     }
 }

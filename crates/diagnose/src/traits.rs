@@ -5,21 +5,72 @@
 //! side of 0 and 1.
 
 use crate::signature::Signature;
-use crate::symptom::{Subject, Symptom};
-use etalon_frame::Aspect;
+use crate::symptom::{Direction, Subject, Symptom, names};
+use etalon_frame::{Aspect, Operation};
+use etalon_record::Verdict;
 use serde_json::Value;
+use std::fmt;
 
 /// The traits of a failing scene.
 #[derive(Clone, Debug)]
 pub struct Traits {
-    /// The violation, without names of attachments and what was there before.
-    pub way: String,
-    subject: Subject,
-    operations: Vec<String>,
+    /// The violation.
+    pub way: Violation,
     /// Its states.
     pub states: Signature,
     /// Its states with their words.
     pub words: Signature,
+}
+
+/// What is wrong, without names of attachments and without what was there before.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Violation {
+    subject: Subject,
+    /// Of a picture, the operations of draws that decide, in the order of their names.
+    operations: Vec<Operation>,
+    /// Of a counter, the side on which it lies.
+    direction: Option<Direction>,
+    /// The verdict, if nothing else is known.
+    verdict: Option<Verdict>,
+}
+
+impl Violation {
+    fn of(symptom: &Symptom) -> Self {
+        let mut operations = match symptom.subject {
+            Subject::Picture(_) => symptom.of_draws(),
+            _ => Vec::new(),
+        };
+        operations.sort_unstable_by_key(|operation| operation.name());
+        let counter = matches!(symptom.subject, Subject::Counter(_));
+        let unknown = symptom.subject == Subject::Unknown;
+        Self {
+            subject: symptom.subject.clone(),
+            operations,
+            direction: symptom.direction.filter(|_| counter),
+            verdict: unknown.then_some(symptom.verdict),
+        }
+    }
+
+    fn may_be_left_of(&self, larger: &Self) -> bool {
+        let has = |operation: &Operation| larger.operations.contains(operation);
+        self.subject == larger.subject && self.operations.iter().all(has)
+    }
+}
+
+/// The subject and what decides: `color (blend, store color)`.
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.subject, self.direction, self.verdict) {
+            (Subject::Picture(aspect), ..) => {
+                write!(f, "{} ({})", aspect.name(), names(&self.operations))
+            }
+            (Subject::Counter(_), Some(direction), _) => {
+                write!(f, "{} counts too {}", self.subject, direction.amount())
+            }
+            (_, _, Some(verdict)) => f.write_str(verdict.name()),
+            (subject, ..) => subject.fmt(f),
+        }
+    }
 }
 
 /// The likeness of a failure to one that is known.
@@ -36,19 +87,8 @@ pub enum Likeness {
 impl Traits {
     /// Returns the traits of a document that fails with a symptom.
     pub fn of(document: &Value, symptom: &Symptom) -> Self {
-        let mut operations: Vec<String> = match symptom.subject {
-            Subject::Picture(_) => symptom.of_draws().into_iter().map(str::to_owned).collect(),
-            _ => Vec::new(),
-        };
-        operations.sort_unstable();
-        let way = match symptom.subject {
-            Subject::Picture(aspect) => format!("{} ({})", aspect.name(), operations.join(", ")),
-            _ => symptom.to_string(),
-        };
         Self {
-            way,
-            subject: symptom.subject.clone(),
-            operations,
+            way: Violation::of(symptom),
             states: Signature::of(document),
             words: Signature::exact(document),
         }
@@ -74,24 +114,22 @@ impl Traits {
         if !states.is_within(&self.states.coarse()) {
             return None;
         }
-        let has = known.operations.iter().all(|o| self.operations.contains(o));
-        let picture = matches!(self.subject, Subject::Picture(_));
-        let same = match picture {
-            true => self.subject == known.subject && has,
-            false => self.way == known.way,
+        let same = if self.aspect().is_some() {
+            known.way.may_be_left_of(&self.way)
+        } else {
+            self.way == known.way
         };
-        let pictures = picture && matches!(known.subject, Subject::Picture(_));
-        match same {
-            true => Some(Likeness::Alike),
-            false => {
-                (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
-            }
+        let pictures = self.aspect().is_some() && known.aspect().is_some();
+        if same {
+            Some(Likeness::Alike)
+        } else {
+            (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
         }
     }
 
     /// The aspect of a picture that is wrong.
     pub fn aspect(&self) -> Option<Aspect> {
-        match self.subject {
+        match self.way.subject {
             Subject::Picture(aspect) => Some(aspect),
             _ => None,
         }
@@ -99,15 +137,13 @@ impl Traits {
 
     /// True if a failure with these traits may be what is left of one with others when it is reduced.
     pub fn may_be_left_of(&self, larger: &Self) -> bool {
-        let has = |o: &String| larger.operations.contains(o);
-        self.subject == larger.subject && self.operations.iter().all(has)
+        self.way.may_be_left_of(&larger.way)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::Verdict;
     use serde_json::json;
 
     fn traits(aspect: Aspect, operations: &[&str], draw: Value) -> Traits {
@@ -115,8 +151,8 @@ mod tests {
             verdict: Verdict::Fail,
             subject: Subject::Picture(aspect),
             attachment: Some("target".to_owned()),
-            operations: operations.iter().map(|o| (*o).to_owned()).collect(),
-            last: String::new(),
+            operations: operations.iter().map(named).collect(),
+            last: None,
             direction: None,
         };
         let document = json!({ "scene": {
@@ -124,6 +160,11 @@ mod tests {
             "passes": [{ "color": ["target"], "draws": [draw] }], "read": ["target"]
         } });
         Traits::of(&document, &symptom)
+    }
+
+    fn named(name: &&str) -> Operation {
+        let mut operations = Operation::ALL.iter();
+        *operations.find(|o| o.name() == *name).unwrap()
     }
 
     fn logic(operation: &str) -> Value {
@@ -134,7 +175,7 @@ mod tests {
     fn the_same_words_and_violation_are_the_same() {
         let logics = ["logic operation", "store color"];
         let one = traits(Aspect::Color, &logics, logic("xor"));
-        assert_eq!(one.way, "color (logic operation, store color)");
+        assert_eq!(one.way.to_string(), "color (logic operation, store color)");
         assert_eq!(one.likeness(&one), Some(Likeness::Same));
         let other = traits(Aspect::Color, &logics, logic("nor"));
         assert_eq!(one.likeness(&other), Some(Likeness::Alike));

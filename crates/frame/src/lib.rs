@@ -10,9 +10,11 @@ mod api;
 mod band;
 mod code_bytes;
 mod compare;
+mod contents;
 mod counter;
 mod distance;
 mod encoding;
+mod event;
 mod feature;
 mod format;
 mod grade;
@@ -21,6 +23,7 @@ mod legal;
 mod limits;
 mod message;
 mod names;
+mod operation;
 mod path;
 mod property;
 mod samples;
@@ -32,9 +35,14 @@ pub use accuracy::Accuracy;
 pub use api::Api;
 pub use band::Band;
 pub use compare::{ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
+pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use distance::Distance;
 pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
+pub use event::{
+    BlendedChannel, Coverage, DepthTest, Effect, Event, Origin, Rejection, ResolveChoice,
+    SceneName, Side, Step, Target,
+};
 pub use feature::Feature;
 pub use format::{Aspect, TextureFormat};
 pub use grade::Grade;
@@ -45,12 +53,15 @@ pub use legal::{
 };
 pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::shortened;
+pub use operation::Operation;
 pub use path::{
     PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart, PathState,
     PathTarget, PathValue, PathViewport,
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;
-pub use story::{Story, StoryLine};
+pub use story::{
+    Allowed, Demand, Initial, Reason, Returned, Ruling, Source, Story, ToldLine, Values,
+};
 pub use version::ApiVersion;
 pub use work::Work;

@@ -1,93 +1,281 @@
-//! The story of one sample: the verdict in one sentence, then the reference's operations on it, step by
-//! step.
+//! The story of one sample: the ruling on it, then the reference's operations on it as typed events.
 //!
-//! The verdict is a line like the others, the first one, so that a story stays a plain list: stories
-//! without a verdict, of older records, are read as they are.
+//! A story holds facts and no sentences. `etalon-report` makes the words; symptoms, groups and reductions read the
+//! facts.
 
-use serde::{Deserialize, Serialize};
-use std::fmt;
+use crate::band::Band;
+use crate::compare::ChannelMismatch;
+use crate::contents::Contents;
+use crate::event::{Event, Side};
+use crate::format::Aspect;
+use serde::{Deserialize, Deserializer, Serialize};
 
-/// The operation of the line that holds the verdict.
-const VERDICT: &str = "verdict";
+/// The ruling on one sample, and the operations on it in order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Story {
+    /// The ruling, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ruling: Option<Ruling>,
+    /// The operations.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
+    /// True if later events were left out because the record was too long.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub cut: bool,
+    /// The sentences of a story from a run folder before format 4. They are shown, and nothing is decided on them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub told: Vec<ToldLine>,
+}
 
-/// One operation on one sample.
+/// One line of a story from a run folder before format 4.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StoryLine {
-    /// The place in the scene: `pass 0, draw 2, primitive 1`.
+pub struct ToldLine {
+    /// The place in the scene; of a verdict, its subject.
     pub at: String,
-    /// The operation: `depth test`, `blend`, `store`.
+    /// The operation; `verdict` for the first line of most stories.
     pub operation: String,
-    /// Inputs and outcome in words and numbers.
+    /// The inputs and the outcome; of a verdict, its predicate.
     pub detail: String,
-    /// The section of the specification that permits this outcome, where one was applied.
+    /// The section of the specification, or the text by which a verdict was judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub citation: Option<String>,
 }
 
-impl StoryLine {
-    /// Returns the line of a verdict: its subject (`sample 2 of texel 1,1`), the rest of the sentence, and
-    /// the text by which it is judged.
-    pub fn verdict(subject: String, predicate: String, judged_by: String) -> Self {
-        Self {
-            at: subject,
-            operation: VERDICT.to_owned(),
-            detail: predicate,
-            citation: Some(judged_by),
+/// Stories of format 4 are objects; earlier ones are lists of lines.
+impl<'de> Deserialize<'de> for Story {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Fields {
+            ruling: Option<Ruling>,
+            #[serde(default)]
+            events: Vec<Event>,
+            #[serde(default)]
+            cut: bool,
+            #[serde(default)]
+            told: Vec<ToldLine>,
         }
+
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = Story;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a story")
+            }
+
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, seq: A) -> Result<Story, A::Error> {
+                let lines = serde::de::value::SeqAccessDeserializer::new(seq);
+                Ok(Story {
+                    told: Vec::deserialize(lines)?,
+                    ..Story::default()
+                })
+            }
+
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Story, A::Error> {
+                let fields = serde::de::value::MapAccessDeserializer::new(map);
+                let Fields {
+                    ruling,
+                    events,
+                    cut,
+                    told,
+                } = Fields::deserialize(fields)?;
+                Ok(Story {
+                    ruling,
+                    events,
+                    cut,
+                    told,
+                })
+            }
+        }
+
+        deserializer.deserialize_any(Visitor)
     }
 }
 
-/// The operations on one sample, in order, after the verdict on it.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Story {
-    /// The verdict, if there is one, and the operations.
-    pub lines: Vec<StoryLine>,
+/// The value that the rules demand of a sample, why, and the value that came back.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ruling {
+    /// The variant that is drawn; `None` for the case's own scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
+    /// The texel.
+    pub texel: [u32; 2],
+    /// The samples, if the attachments have several. More than one share this ruling.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<u32>,
+    /// The demand.
+    pub demand: Demand,
+    /// The text by which the sample is judged.
+    pub rules: String,
+    /// The cases that had to be drawn before in the same process.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub after: Vec<String>,
+    /// The strength of the evidence against the value that came back.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub band: Option<Band>,
+}
+
+/// A demand on a sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Demand {
+    /// The rules leave too many outcomes to assert any.
+    Open {
+        /// The values that came back, if there is a frame.
+        returned: Option<Vec<Contents>>,
+        /// True if several colour attachments are read back.
+        several_colors: bool,
+    },
+    /// The sample holds one of these values.
+    Values(Box<Values>),
+    /// Two pictures hold the same values.
+    Same {
+        /// The two pictures; the first one's texel is the ruling's.
+        sides: [Side; 2],
+        /// The texel of the second picture.
+        texel: [u32; 2],
+        /// The channels that differ: the first side's value as the legal one, the second side's as the actual one.
+        channels: Vec<ChannelMismatch>,
+        /// The clause that demands it.
+        citation: String,
+    },
+}
+
+/// The values that the rules allow at a sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Values {
+    /// True for the yardstick, which demands quality and not legality.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub yardstick: bool,
+    /// The first outcomes: of each, the attachments' aspects that the ruling is about.
+    pub allowed: Vec<Vec<Allowed>>,
+    /// The number of further outcomes.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub more_outcomes: usize,
+    /// The operations that decide, in order.
+    pub reasons: Vec<Reason>,
+    /// The number of further draws that end before the sample.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub more_draws: usize,
+    /// The values that came back, if there is a frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub returned: Option<Returned>,
+    /// True if several colour attachments are read back, so that a colour needs the name of its own.
+    pub several_colors: bool,
+    /// True if the scene has several passes, so that a draw needs the number of its own.
+    pub several_passes: bool,
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
+}
+
+/// An allowed value of one aspect.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Allowed {
+    /// The value.
+    pub contents: Contents,
+    /// The source of the first contents, if the value is still that one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept: Option<Initial>,
+}
+
+/// The source of an attachment's first contents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Initial {
+    /// It was cleared.
+    Clear,
+    /// Texels were uploaded.
+    Upload,
+}
+
+/// An operation that decides the value of a sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Reason {
+    /// A draw stores the value in some outcomes only; the event leaves it open.
+    Open(Event),
+    /// A draw stores the value.
+    Stored {
+        /// The store.
+        store: Event,
+        /// The output of the shader, of a stored colour.
+        shade: Option<Event>,
+        /// True if the colour is blended.
+        blended: bool,
+    },
+    /// A clear stores the value.
+    Cleared(Event),
+    /// A resolve stores the value.
+    Resolved(Event),
+    /// A draw passes its tests and leaves the value as it was.
+    Kept(Event),
+    /// Draws end before the sample for the same reason.
+    Ended {
+        /// The end of the first of them.
+        by: Event,
+        /// The number of draws.
+        draws: usize,
+    },
+    /// A draw does not write the aspect.
+    Unwritten {
+        /// The number of the pass.
+        pass: usize,
+        /// The number of the draw in its pass.
+        draw: usize,
+        /// The aspect.
+        aspect: Aspect,
+    },
+}
+
+/// The values that a driver returned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Returned {
+    /// An allowed outcome.
+    Allowed(Vec<Contents>),
+    /// A forbidden outcome.
+    Wrote(Vec<Contents>),
+    /// The contents from before, although a later draw had to store others.
+    Kept {
+        /// The contents.
+        contents: Contents,
+        /// The operation that stored them.
+        from: Source,
+    },
+}
+
+/// The operation that stored contents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Source {
+    /// The first contents.
+    Initial(Initial),
+    /// A clear or a resolve between draws.
+    Operation,
+    /// A draw.
+    Draw {
+        /// The number of the pass.
+        pass: usize,
+        /// The number of the draw in its pass.
+        draw: usize,
+    },
 }
 
 impl Story {
-    /// Returns the line of the verdict.
-    pub fn verdict(&self) -> Option<&StoryLine> {
-        self.lines.first().filter(|l| l.operation == VERDICT)
-    }
-
-    /// Returns the line of the verdict, to be changed.
-    pub fn verdict_mut(&mut self) -> Option<&mut StoryLine> {
-        self.lines.first_mut().filter(|l| l.operation == VERDICT)
-    }
-
-    /// Returns the verdict as a sentence.
-    pub fn sentence(&self) -> Option<String> {
-        self.verdict().map(|l| format!("{} {}", l.at, l.detail))
-    }
-
-    /// Returns the operations, without the verdict.
-    pub fn operations(&self) -> &[StoryLine] {
-        &self.lines[usize::from(self.verdict().is_some())..]
-    }
-}
-
-impl fmt::Display for Story {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let (Some(sentence), Some(line)) = (self.sentence(), self.verdict()) {
-            writeln!(f, "{sentence}")?;
-            if let Some(judged_by) = &line.citation {
-                writeln!(f, "  {judged_by}")?;
-            }
+    /// True if the driver left earlier contents where a later draw had to store.
+    pub fn keeps_earlier_contents(&self) -> bool {
+        match self.ruling.as_ref().map(|ruling| &ruling.demand) {
+            Some(Demand::Values(values)) => matches!(values.returned, Some(Returned::Kept { .. })),
+            _ => false,
         }
-        let mut place = "";
-        for line in self.operations() {
-            if line.at != place {
-                place = &line.at;
-                writeln!(f, "{place}")?;
-            }
-            writeln!(f, "  {}: {}", line.operation, line.detail)?;
-            if let Some(citation) = &line.citation {
-                writeln!(f, "      [{citation}]")?;
-            }
-        }
-        Ok(())
     }
 }
 
@@ -96,31 +284,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_verdict_leads_and_is_no_operation() {
-        let operation = StoryLine {
-            at: "pass 0, draw 0".to_owned(),
-            operation: "scissor".to_owned(),
-            detail: "outside".to_owned(),
-            citation: Some("Vulkan: Scissor Test".to_owned()),
-        };
-        let mut story = Story {
-            lines: vec![operation.clone()],
-        };
-        assert_eq!(story.sentence(), None);
-        assert_eq!(story.operations(), std::slice::from_ref(&operation));
-        let text = |s: &str| s.to_owned();
-        let verdict = StoryLine::verdict(
-            text("sample 2 of texel 1,1"),
-            text("must be 0"),
-            text("judged by Vulkan 1.3"),
-        );
-        story.lines.insert(0, verdict);
-        assert_eq!(story.operations(), [operation]);
-        assert_eq!(
-            story.to_string(),
-            "sample 2 of texel 1,1 must be 0\n  judged by Vulkan 1.3\npass 0, draw 0\n  \
-             scissor: outside\n      [Vulkan: Scissor Test]\n"
-        );
-        assert_eq!(Story::default().operations(), []);
+    fn lines_of_earlier_formats_are_read_as_text() {
+        let old = r#"[{"at":"texel 1,1","operation":"verdict","detail":"must be 0"}]"#;
+        let story: Story = serde_json::from_str(old).unwrap();
+        assert_eq!((story.told.len(), story.events.len()), (1, 0));
+        assert!(story.ruling.is_none() && !story.keeps_earlier_contents());
+        let again = serde_json::to_string(&story).unwrap();
+        assert_eq!(serde_json::from_str::<Story>(&again).unwrap(), story);
+        assert!(serde_json::from_str::<Story>(r#"{"sentence":""}"#).is_err());
     }
 }

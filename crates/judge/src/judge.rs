@@ -62,7 +62,7 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
-            story::tell_relation(&mut judged.record, case, relation, limits, (frames, &found));
+            story::add_relation(&mut judged.record, case, relation, limits, (frames, &found));
             note_differences(&mut judged.record, relation, limits, found);
         }
         judged

@@ -14,5 +14,5 @@ mod story;
 mod texel;
 
 pub use judge::{Judge, Judged, is_due_to_fail};
-pub use story::{story_of_relation, story_of_sample, tell_chain};
+pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;

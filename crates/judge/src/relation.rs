@@ -17,12 +17,12 @@ pub(crate) struct Differences {
     /// band is Fail; the caller replaces it by that of the permission.
     pub(crate) wrong: Vec<WrongTexel>,
     /// Both sides of the first difference.
-    pub(crate) sides: Option<[Side; 2]>,
+    pub(crate) sides: Option<[Compared; 2]>,
 }
 
 /// One of two texels that must be the same.
 #[derive(Clone, Debug)]
-pub(crate) struct Side {
+pub(crate) struct Compared {
     /// 0 for the case's own scene, else the variant's number plus 1.
     pub(crate) scene: usize,
     /// The attachment, if attachments of one frame are compared.
@@ -102,7 +102,7 @@ impl Differences {
                     self.differing += 1;
                     if self.between.is_empty() {
                         between.clone_into(&mut self.between);
-                        let side = |image: &Image, scene, at| Side {
+                        let side = |image: &Image, scene, at| Compared {
                             scene,
                             attachment: (!relation.attachments.is_empty())
                                 .then(|| image.attachment.clone()),

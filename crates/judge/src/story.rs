@@ -1,14 +1,14 @@
-//! Stories of wrong samples: of one frame, of two that a relation ties to each other, and of a case that
-//! goes wrong only after others. The judge tells them for records, `etalon explain` for any texel.
+//! Stories of wrong samples: of one frame, and of two that a relation ties to each other. The judge makes them for
+//! records, `etalon explain` for any texel.
 
 use crate::judgement_cache::judged_scene;
-use crate::relation::{self, Differences, Side};
+use crate::relation::{self, Differences};
 use etalon_case::{Case, Relation};
 use etalon_frame::{
-    Band, ChannelMismatch, CodeInterval, Frame, Limits, Story, StoryLine, WrongTexel,
+    Band, Demand, Effect, Event, Frame, Limits, Origin, Ruling, SceneName, Side, Step, Story,
 };
 use etalon_record::Record;
-use etalon_reference::{Rules, Sample, codes_text, explain};
+use etalon_reference::{Rules, Sample, explain};
 
 /// Returns the story of a sample of one of a case's scenes, with what its frame holds there.
 pub fn story_of_sample(
@@ -19,11 +19,12 @@ pub fn story_of_sample(
     (frame, band): (Option<&Frame>, Option<Band>),
 ) -> Story {
     let mut story = explain(judged_scene(case, index), limits, rules, at, frame);
-    if let Some(verdict) = story.verdict_mut() {
-        if index > 0 {
-            verdict.at = format!("{}, {}", in_scene(case, index), verdict.at);
-        }
-        add_grade(verdict, band);
+    if let Some(ruling) = &mut story.ruling {
+        ruling.band = band;
+        ruling.variant = match scene_name(case, index) {
+            SceneName::Own => None,
+            SceneName::Variant(name) => Some(name),
+        };
     }
     story
 }
@@ -52,7 +53,7 @@ pub fn story_of_relation(
 }
 
 /// Gives a record the story of what a relation forbids, unless a sample of one frame is as wrong alone.
-pub(crate) fn tell_relation(
+pub(crate) fn add_relation(
     record: &mut Record,
     case: &Case,
     relation: &Relation,
@@ -70,37 +71,9 @@ pub(crate) fn tell_relation(
     }
 }
 
-/// Adds to a record's story the cases that had to be drawn before.
-pub fn tell_chain(record: &mut Record) {
-    let after = record.after.join(", then ");
-    if let Some(verdict) = record.story.as_mut().and_then(Story::verdict_mut)
-        && !after.is_empty()
-    {
-        verdict.detail = format!("{}; only when drawn after {after}", verdict.detail);
-    }
-}
-
-fn in_scene(case: &Case, index: usize) -> String {
+fn scene_name(case: &Case, index: usize) -> SceneName {
     let variant = index.checked_sub(1).and_then(|i| case.variants.get(i));
-    match variant {
-        Some(variant) => format!("in variant {}", variant.name),
-        None => "in the scene".to_owned(),
-    }
-}
-
-fn add_grade(verdict: &mut StoryLine, band: Option<Band>) {
-    let grade = match band {
-        None => return,
-        Some(Band::Fail) => "proven: the text forbids it",
-        Some(Band::RequiredByCts) => {
-            "required by the CTS: the text is open, a Khronos mustpass case is not"
-        }
-        Some(Band::Disputed) => "disputed: only one reading of the text forbids it",
-        Some(Band::Imprecise) => "imprecise: legal, but not as good as it should be",
-    };
-    if let Some(judged_by) = &mut verdict.citation {
-        *judged_by = format!("{judged_by}; {grade}");
-    }
+    variant.map_or(SceneName::Own, |v| SceneName::Variant(v.name.clone()))
 }
 
 /// Returns the story of the first difference, with the operations on both sides.
@@ -111,45 +84,46 @@ fn of_differences(
     frames: &[Frame],
     found: &Differences,
 ) -> Option<Story> {
-    let (first, sides) = (found.wrong.first()?, found.sides.as_ref()?);
+    let (first, compared) = (found.wrong.first()?, found.sides.as_ref()?);
     let permission = Rules::invariance(limits, relation.invariance);
     let rules = Rules::of(limits);
-    let name = |side: &Side| match &side.attachment {
-        Some(name) => format!("in attachment {name}"),
-        None => in_scene(case, side.scene),
-    };
-    let names = [name(&sides[0]), name(&sides[1])];
-    let samples = sides[0].samples;
-    let texel = |side: &Side| {
-        let [x, y] = side.at;
-        match samples {
-            1 => format!("texel {x},{y}"),
-            _ => format!("sample {} of texel {x},{y}", first.sample),
-        }
-    };
-    let (subject, same) = if sides[0].at == sides[1].at {
-        (texel(&sides[0]), format!("{} and {}", names[0], names[1]))
-    } else {
-        let moved = format!("{} and, as {}, {}", names[0], texel(&sides[1]), names[1]);
-        (texel(&sides[0]), moved)
-    };
-    let predicate = format!("must be the same {same}: {}", differences(first, &names));
-    let judged_by = format!("judged by {}: {}", rules.text, permission.citation);
-    let mut verdict = StoryLine::verdict(subject, predicate, judged_by);
-    add_grade(&mut verdict, permission.value());
-    let relation = StoryLine {
-        at: format!("{} and {}", names[0], names[1]),
-        operation: "relation".to_owned(),
-        detail: relation.invariance.name().to_owned(),
+    let sides = compared.each_ref().map(|side| match &side.attachment {
+        Some(name) => Side::Attachment(name.clone()),
+        None => Side::Scene(scene_name(case, side.scene)),
+    });
+    let samples = compared[0].samples;
+    let event = |scene, origin, step| Event {
+        scene,
+        origin,
+        step,
+        effect: Effect::None,
         citation: None,
     };
-    let mut lines = vec![verdict, relation];
-    let mut told = Vec::new();
-    for (side, name) in sides.iter().zip(&names) {
-        if told.contains(&(side.scene, side.at)) {
+    let invariance = Step::Relation(relation.invariance.name().to_owned());
+    let mut story = Story {
+        ruling: Some(Ruling {
+            variant: None,
+            texel: compared[0].at,
+            samples: (samples > 1).then_some(first.sample).into_iter().collect(),
+            demand: Demand::Same {
+                sides: sides.clone(),
+                texel: compared[1].at,
+                channels: first.channels.clone(),
+                citation: permission.citation.to_owned(),
+            },
+            rules: rules.text.to_string(),
+            after: Vec::new(),
+            band: permission.value(),
+        }),
+        events: vec![event(None, Origin::Sides(sides), invariance)],
+        ..Story::default()
+    };
+    let mut seen = Vec::new();
+    for side in compared {
+        if seen.contains(&(side.scene, side.at)) {
             continue;
         }
-        told.push((side.scene, side.at));
+        seen.push((side.scene, side.at));
         let at = Sample {
             size: side.size,
             samples,
@@ -158,40 +132,17 @@ fn of_differences(
             sample: first.sample,
         };
         let scene = judged_scene(case, side.scene);
-        let story = explain(scene, limits, &rules, at, frames.get(side.scene));
-        let name = match side.attachment {
-            Some(_) => in_scene(case, side.scene),
-            None => name.clone(),
-        };
-        lines.push(StoryLine {
-            at: name.clone(),
-            operation: "alone".to_owned(),
-            detail: story.sentence().unwrap_or_default(),
-            citation: None,
-        });
-        lines.extend(story.operations().iter().map(|line| StoryLine {
-            at: format!("{name}: {}", line.at),
-            ..line.clone()
+        let alone = explain(scene, limits, &rules, at, frames.get(side.scene));
+        let name = scene_name(case, side.scene);
+        story.events.extend(alone.ruling.map(|ruling| {
+            let step = Step::Alone(Box::new(ruling));
+            event(Some(name.clone()), Origin::Scene, step)
+        }));
+        let events = alone.events.into_iter();
+        story.events.extend(events.map(|event| Event {
+            scene: Some(name.clone()),
+            ..event
         }));
     }
-    Some(Story { lines })
-}
-
-/// Returns the values on both sides: `red is 51 in the scene and 52 in variant twice`.
-fn differences(texel: &WrongTexel, names: &[String; 2]) -> String {
-    let one = |m: &ChannelMismatch| {
-        let channel = m.aspect.channel(m.channel.into());
-        let value = |code: u32| {
-            let order = m.encoding.order_of_code(code);
-            codes_text(m.encoding, CodeInterval::exact(order))
-        };
-        let (due, actual) = (value(m.low), value(m.actual));
-        format!("{channel} is {due} {} and {actual} {}", names[0], names[1])
-    };
-    texel
-        .channels
-        .iter()
-        .map(one)
-        .collect::<Vec<_>>()
-        .join(", ")
+    Some(story)
 }

@@ -6,9 +6,10 @@ use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The format of run folders that this crate writes. It reads this one and all before: format 2 has no verdicts
-/// `required-by-cts`, `disputed` and `blocked`, and limits without version and properties.
-pub const FORMAT: u32 = 3;
+/// The format of run folders that this crate writes. It also reads earlier ones: format 3 has
+/// stories as sentences, format 2 no verdicts `required-by-cts`, `disputed` and `blocked`, and limits without version and
+/// properties.
+pub const FORMAT: u32 = 4;
 
 /// The cases, adapters, machine and time of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

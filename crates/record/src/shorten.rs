@@ -3,7 +3,6 @@
 use crate::error::RecordError;
 use crate::json::json_line;
 use crate::record::{MAX_LINE, MAX_WRONG_TEXELS, Record};
-use etalon_frame::StoryLine;
 
 /// The record's line, shortened until it has at most [`MAX_LINE`] bytes.
 pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
@@ -22,17 +21,13 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
     while line.len() > MAX_LINE
         && let Some(story) = &mut short.story
     {
-        let kept = story.lines.len() / 2;
-        if kept < 3 {
+        let kept = story.events.len().max(story.told.len()) / 2;
+        if kept < 2 {
             short.story = None;
         } else {
-            story.lines.truncate(kept);
-            story.lines.push(StoryLine {
-                at: "end of the record".to_owned(),
-                operation: "cut".to_owned(),
-                detail: "the rest of the story did not fit".to_owned(),
-                citation: None,
-            });
+            story.events.truncate(kept);
+            story.told.truncate(kept);
+            story.cut = true;
         }
         line = write(&short)?;
     }

@@ -2,211 +2,131 @@
 //! nothing, and so they are no part of [`rules`](crate::rules): only stories need them.
 
 use crate::rules::Rules;
-use etalon_frame::{Api, ApiVersion, Limits};
+use etalon_frame::{Api, ApiVersion, Limits, Rejection};
 use etalon_scene::PrimitiveTopology;
 
-/// The operation that keeps a draw, a primitive or a fragment from a sample, in the order of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Rejection {
-    /// Nothing is rasterized.
-    RasterizerDiscard,
-    /// The primitive does not cover the sample.
-    Coverage,
-    /// The sides of the view volume clip the primitive.
-    Viewport,
-    /// The near or the far plane clips it.
-    NearFar,
-    /// A clip distance clips it.
-    ClipDistance,
-    /// Its face is culled.
-    Culling,
-    /// The scissor rectangle leaves the texel out.
-    Scissor,
-    /// Sample coverage leaves the sample out.
-    SampleCoverage,
-    /// The sample mask leaves the sample out.
-    SampleMask,
-    /// The shader discards the fragment.
-    Discard,
-    /// The shader's own sample mask leaves the sample out.
-    ShaderMask,
-    /// Alpha to coverage leaves the sample out.
-    AlphaToCoverage,
-    /// The stored depth is out of bounds.
-    DepthBounds,
-    /// The stencil test fails.
-    Stencil,
-    /// The depth test fails.
-    Depth,
+/// Returns the clause of a rejection, with document, version and section.
+pub(crate) fn clause(
+    rejection: Rejection,
+    rules: &Rules,
+    limits: &Limits,
+    topology: PrimitiveTopology,
+) -> String {
+    match rejection {
+        Rejection::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
+        Rejection::SampleCoverage => return rules.sample_coverage.citation.to_owned(),
+        Rejection::Stencil => return rules.stencil.to_owned(),
+        _ => {}
+    }
+    match limits.api {
+        Api::Vulkan => format!("Vulkan: {}", vulkan(rejection, topology)),
+        Api::WebGpu => format!("WebGPU: {}", webgpu(rejection, topology)),
+        Api::OpenGl => {
+            let (name, edition) = Edition::of_opengl(limits.version);
+            opengl(rejection, name, edition, topology)
+        }
+        Api::OpenGlEs => {
+            let (name, edition) = Edition::of_opengl_es(limits.version);
+            opengl(rejection, name, edition, topology)
+        }
+    }
 }
 
-impl Rejection {
-    /// Returns the name of the operation in a story.
-    pub(crate) fn operation(self) -> &'static str {
-        match self {
-            Self::RasterizerDiscard => "rasterizer discard",
-            Self::Coverage => "coverage",
-            Self::Viewport => "viewport",
-            Self::NearFar | Self::ClipDistance => "clipping",
-            Self::Culling => "culling",
-            Self::Scissor => "scissor",
-            Self::SampleCoverage => "sample coverage",
-            Self::SampleMask => "sample mask",
-            Self::Discard => "discard",
-            Self::ShaderMask => "shader's sample mask",
-            Self::AlphaToCoverage => "alpha to coverage",
-            Self::DepthBounds => "depth bounds",
-            Self::Stencil => "stencil test",
-            Self::Depth => "depth test",
-        }
-    }
-
-    /// Returns what is said of a draw that ends here, with the detail of the story's line.
-    pub(crate) fn predicate(self, detail: &str) -> String {
-        match self {
-            Self::RasterizerDiscard => "is discarded before rasterization".to_owned(),
-            Self::Coverage => "does not cover it".to_owned(),
-            Self::Viewport | Self::Scissor => format!("is {detail}"),
-            Self::NearFar | Self::ClipDistance => format!("is clipped there: {detail}"),
-            Self::Culling => format!("is culled: {detail}"),
-            Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
-            Self::SampleMask => format!("is masked: {detail}"),
-            Self::Discard => format!("is discarded by its shader: {detail}"),
-            Self::ShaderMask => format!("is masked by its shader: {detail}"),
-            Self::AlphaToCoverage => format!("loses it to alpha to coverage: {detail}"),
-            Self::DepthBounds => format!("fails its depth bounds test: {detail}"),
-            Self::Stencil => format!("fails its stencil test: {detail}"),
-            Self::Depth => format!("fails its depth test: {detail}"),
-        }
-    }
-
-    /// Returns what is said of several draws that do not reach a sample; `None` for those that come to it.
-    pub(crate) fn elsewhere(self) -> Option<&'static str> {
-        match self {
-            Self::Coverage => Some("do not cover it"),
-            Self::Viewport => Some("are outside their viewports"),
-            Self::Scissor => Some("are outside their scissor rectangles"),
-            _ => None,
-        }
-    }
-
-    /// Returns the clause, with document, version and section.
-    pub(crate) fn clause(
-        self,
-        rules: &Rules,
-        limits: &Limits,
-        topology: PrimitiveTopology,
-    ) -> String {
-        match self {
-            Self::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
-            Self::SampleCoverage => return rules.sample_coverage.citation.to_owned(),
-            Self::Stencil => return rules.stencil.to_owned(),
-            _ => {}
-        }
-        match limits.api {
-            Api::Vulkan => format!("Vulkan: {}", self.vulkan(topology)),
-            Api::WebGpu => format!("WebGPU: {}", self.webgpu(topology)),
-            Api::OpenGl => {
-                let (name, edition) = Edition::of_opengl(limits.version);
-                self.opengl(name, edition, topology)
-            }
-            Api::OpenGlEs => {
-                let (name, edition) = Edition::of_opengl_es(limits.version);
-                self.opengl(name, edition, topology)
-            }
-        }
-    }
-
-    fn vulkan(self, topology: PrimitiveTopology) -> &'static str {
-        match self {
-            Self::RasterizerDiscard => {
-                "Rasterization: with rasterizerDiscardEnable, primitives are discarded immediately \
+fn vulkan(rejection: Rejection, topology: PrimitiveTopology) -> &'static str {
+    match rejection {
+        Rejection::RasterizerDiscard => {
+            "Rasterization: with rasterizerDiscardEnable, primitives are discarded immediately \
                  before rasterization"
-            }
-            Self::Coverage => match topology {
-                PrimitiveTopology::PointList => {
-                    "Basic Point Rasterization: a fragment for each texel whose centre lies inside the \
+        }
+        Rejection::Coverage => match topology {
+            PrimitiveTopology::PointList => {
+                "Basic Point Rasterization: a fragment for each texel whose centre lies inside the \
                      point's square"
-                }
-                PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => {
-                    "Basic Line Segment Rasterization"
-                }
-                _ => {
-                    "Basic Polygon Rasterization: a sample outside of the polygon's projection is not \
+            }
+            PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => {
+                "Basic Line Segment Rasterization"
+            }
+            _ => {
+                "Basic Polygon Rasterization: a sample outside of the polygon's projection is not \
                      covered"
-                }
-            },
-            Self::Viewport => {
-                "Primitive Clipping: primitives are clipped to the view volume, whose sides map to the \
+            }
+        },
+        Rejection::Viewport => {
+            "Primitive Clipping: primitives are clipped to the view volume, whose sides map to the \
                  viewport's"
-            }
-            Self::NearFar => {
-                "Primitive Clipping: primitives are clipped to the view volume, 0 to 1 in depth"
-            }
-            Self::ClipDistance => {
-                "Primitive Clipping: clip half-space i holds the points whose distance is 0 or more"
-            }
-            Self::Culling => "Basic Polygon Rasterization: culled by facing and cullMode",
-            Self::Scissor => {
-                "Scissor Test: coverage of samples outside of the rectangle is set to 0"
-            }
-            Self::SampleMask => "Sample Mask Test: coverage is ANDed with the sample mask",
-            Self::ShaderMask => "Multisample Coverage: coverage is ANDed with SampleMask",
-            Self::Discard => {
-                "Shader Termination and Demotion: a terminated or demoted fragment leaves no coverage"
-            }
-            Self::DepthBounds => {
-                "Depth Bounds Test: a stored depth outside of the bounds sets coverage to 0"
-            }
-            _ => "Depth Test: a comparison that is false sets the sample's coverage to 0",
         }
+        Rejection::NearFar => {
+            "Primitive Clipping: primitives are clipped to the view volume, 0 to 1 in depth"
+        }
+        Rejection::ClipDistance => {
+            "Primitive Clipping: clip half-space i holds the points whose distance is 0 or more"
+        }
+        Rejection::Culling => "Basic Polygon Rasterization: culled by facing and cullMode",
+        Rejection::Scissor => {
+            "Scissor Test: coverage of samples outside of the rectangle is set to 0"
+        }
+        Rejection::SampleMask => "Sample Mask Test: coverage is ANDed with the sample mask",
+        Rejection::ShaderMask => "Multisample Coverage: coverage is ANDed with SampleMask",
+        Rejection::Discard => {
+            "Shader Termination and Demotion: a terminated or demoted fragment leaves no coverage"
+        }
+        Rejection::DepthBounds => {
+            "Depth Bounds Test: a stored depth outside of the bounds sets coverage to 0"
+        }
+        _ => "Depth Test: a comparison that is false sets the sample's coverage to 0",
     }
+}
 
-    fn webgpu(self, topology: PrimitiveTopology) -> &'static str {
-        match self {
-            Self::RasterizerDiscard => "Rasterization",
-            Self::Coverage => match topology {
-                PrimitiveTopology::PointList => "Point Rasterization",
-                PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => "Line Rasterization",
-                _ => "Polygon Rasterization: a point outside of the polygon gives no fragment",
-            },
-            Self::Viewport => "Primitive Clipping: -w to w in x and y, the viewport's sides",
-            Self::NearFar => "Primitive Clipping: depth is clipped to 0 to w",
-            Self::ClipDistance => {
-                "Primitive Clipping: what has an interpolated distance below 0 is clipped"
-            }
-            Self::Culling => "Polygon Rasterization: culled by facing and cullMode",
-            Self::Scissor => {
-                "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
-            }
-            Self::SampleMask | Self::ShaderMask => {
-                "Sample Masking: a sample whose bit is 0 is neither tested nor written"
-            }
-            Self::Discard => "Fragment Processing; WGSL: Discard Statement",
-            Self::DepthBounds => "no depth bounds test",
-            _ => "Fragment Processing: depthCompare that is false discards the fragment",
+fn webgpu(rejection: Rejection, topology: PrimitiveTopology) -> &'static str {
+    match rejection {
+        Rejection::RasterizerDiscard => "Rasterization",
+        Rejection::Coverage => match topology {
+            PrimitiveTopology::PointList => "Point Rasterization",
+            PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => "Line Rasterization",
+            _ => "Polygon Rasterization: a point outside of the polygon gives no fragment",
+        },
+        Rejection::Viewport => "Primitive Clipping: -w to w in x and y, the viewport's sides",
+        Rejection::NearFar => "Primitive Clipping: depth is clipped to 0 to w",
+        Rejection::ClipDistance => {
+            "Primitive Clipping: what has an interpolated distance below 0 is clipped"
         }
+        Rejection::Culling => "Polygon Rasterization: culled by facing and cullMode",
+        Rejection::Scissor => {
+            "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
+        }
+        Rejection::SampleMask | Rejection::ShaderMask => {
+            "Sample Masking: a sample whose bit is 0 is neither tested nor written"
+        }
+        Rejection::Discard => "Fragment Processing; WGSL: Discard Statement",
+        Rejection::DepthBounds => "no depth bounds test",
+        _ => "Fragment Processing: depthCompare that is false discards the fragment",
     }
+}
 
-    fn opengl(self, name: &str, edition: Edition, topology: PrimitiveTopology) -> String {
-        use Edition::{Es30, Es31, Es32, Gl33, Gl45, Gl46};
-        if self == Self::Discard {
-            let language = match edition {
-                Gl33 => "GLSL 3.30",
-                Gl45 => "GLSL 4.50",
-                Gl46 => "GLSL 4.60",
-                Es30 => "GLSL ES 3.00",
-                Es31 => "GLSL ES 3.10",
-                Es32 => "GLSL ES 3.20",
-            };
-            return format!("{language}: 6.4 Jumps: discard abandons the fragment");
-        }
-        if self == Self::DepthBounds {
-            return "GL_EXT_depth_bounds_test: a stored depth outside of the bounds discards the fragment"
+fn opengl(
+    rejection: Rejection,
+    name: &str,
+    edition: Edition,
+    topology: PrimitiveTopology,
+) -> String {
+    use Edition::{Es30, Es31, Es32, Gl33, Gl45, Gl46};
+    if rejection == Rejection::Discard {
+        let language = match edition {
+            Gl33 => "GLSL 3.30",
+            Gl45 => "GLSL 4.50",
+            Gl46 => "GLSL 4.60",
+            Es30 => "GLSL ES 3.00",
+            Es31 => "GLSL ES 3.10",
+            Es32 => "GLSL ES 3.20",
+        };
+        return format!("{language}: 6.4 Jumps: discard abandons the fragment");
+    }
+    if rejection == Rejection::DepthBounds {
+        return "GL_EXT_depth_bounds_test: a stored depth outside of the bounds discards the fragment"
                 .to_owned();
-        }
-        if self == Self::ShaderMask {
-            return match edition {
+    }
+    if rejection == Rejection::ShaderMask {
+        return match edition {
                 Gl33 => "GL_ARB_sample_shading: gl_SampleMask: bits that are 0 leave samples uncovered",
                 Gl45 => "OpenGL 4.5: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
                 Gl46 => "OpenGL 4.6: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
@@ -214,62 +134,61 @@ impl Rejection {
                 Es32 => "OpenGL ES 3.2: 14.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
             }
             .to_owned();
-        }
-        if self == Self::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
-            return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"
+    }
+    if rejection == Rejection::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
+        return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"
                 .to_owned();
-        }
-        // Sections in the order of the editions.
-        let (sections, words) = match self {
-            Self::RasterizerDiscard => (
-                ["3.1", "14.1", "14.1", "3.1", "13.1", "13.1"],
-                "Discarding Primitives Before Rasterization",
+    }
+    // Sections in the order of the editions.
+    let (sections, words) = match rejection {
+        Rejection::RasterizerDiscard => (
+            ["3.1", "14.1", "14.1", "3.1", "13.1", "13.1"],
+            "Discarding Primitives Before Rasterization",
+        ),
+        Rejection::Coverage => match topology {
+            PrimitiveTopology::PointList => (
+                ["3.4.1", "14.4.1", "14.4.1", "3.4.1", "13.3.1", "13.5.1"],
+                "Basic Point Rasterization",
             ),
-            Self::Coverage => match topology {
-                PrimitiveTopology::PointList => (
-                    ["3.4.1", "14.4.1", "14.4.1", "3.4.1", "13.3.1", "13.5.1"],
-                    "Basic Point Rasterization",
-                ),
-                PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => (
-                    ["3.5.1", "14.5.1", "14.5.1", "3.5.1", "13.4.1", "13.6.1"],
-                    "Basic Line Segment Rasterization",
-                ),
-                _ => (
-                    ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],
-                    "Basic Polygon Rasterization: a sample outside of the polygon is not covered",
-                ),
-            },
-            Self::Viewport => (
-                ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
-                "Primitive Clipping: to the view volume, whose sides map to the viewport's",
-            ),
-            Self::NearFar => (
-                ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
-                "Primitive Clipping: to the view volume, near to far",
-            ),
-            Self::ClipDistance => (
-                ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
-                "Primitive Clipping: half-space i holds the points whose distance is 0 or more",
-            ),
-            Self::Culling => (
-                ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],
-                "Basic Polygon Rasterization: culled by facing and CullFace",
-            ),
-            Self::Scissor => (
-                ["4.1.2", "14.9.2", "14.9.2", "4.1.2", "13.6.2", "13.8.2"],
-                "Scissor Test: outside of the rectangle, the fragment is discarded",
-            ),
-            Self::SampleMask => (
-                ["4.1.3", "14.9.3", "14.9.3", "4.1.3", "13.6.3", "13.8.3"],
-                "Multisample Fragment Operations: coverage is ANDed with SAMPLE_MASK_VALUE",
+            PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => (
+                ["3.5.1", "14.5.1", "14.5.1", "3.5.1", "13.4.1", "13.6.1"],
+                "Basic Line Segment Rasterization",
             ),
             _ => (
-                ["4.1.5", "17.3.4", "17.3.4", "4.1.5", "15.1.3", "15.1.3"],
-                "Depth Buffer Test: a comparison that is false discards the fragment",
+                ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],
+                "Basic Polygon Rasterization: a sample outside of the polygon is not covered",
             ),
-        };
-        format!("{name}: {} {words}", sections[edition as usize])
-    }
+        },
+        Rejection::Viewport => (
+            ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
+            "Primitive Clipping: to the view volume, whose sides map to the viewport's",
+        ),
+        Rejection::NearFar => (
+            ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
+            "Primitive Clipping: to the view volume, near to far",
+        ),
+        Rejection::ClipDistance => (
+            ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
+            "Primitive Clipping: half-space i holds the points whose distance is 0 or more",
+        ),
+        Rejection::Culling => (
+            ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],
+            "Basic Polygon Rasterization: culled by facing and CullFace",
+        ),
+        Rejection::Scissor => (
+            ["4.1.2", "14.9.2", "14.9.2", "4.1.2", "13.6.2", "13.8.2"],
+            "Scissor Test: outside of the rectangle, the fragment is discarded",
+        ),
+        Rejection::SampleMask => (
+            ["4.1.3", "14.9.3", "14.9.3", "4.1.3", "13.6.3", "13.8.3"],
+            "Multisample Fragment Operations: coverage is ANDed with SAMPLE_MASK_VALUE",
+        ),
+        _ => (
+            ["4.1.5", "17.3.4", "17.3.4", "4.1.5", "15.1.3", "15.1.3"],
+            "Depth Buffer Test: a comparison that is false discards the fragment",
+        ),
+    };
+    format!("{name}: {} {words}", sections[edition as usize])
 }
 
 /// An edition of OpenGL's text, by the numbers of its sections.

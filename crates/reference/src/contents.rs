@@ -2,12 +2,12 @@
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::notes::{Effect, Note, Notes};
+use crate::notes::{Note, Notes};
 use crate::rules::Resolve;
 use crate::sample::Sample;
-use crate::walk::{Walk, codes_text};
+use crate::walk::Walk;
 use crate::world::{Cell, World};
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Codes, Origin, ResolveChoice, Step};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::Contents;
 
@@ -54,14 +54,11 @@ impl Walk<'_> {
         if attachment.format.is_integer() {
             single.sort_unstable();
             single.dedup();
-            let all = || single.iter().map(|one| codes_list(encodings, one));
-            self.note_resolve(notes, [source, target], passes, &single, || {
-                let which = match self.rules.resolve.value() {
-                    Resolve::CoarseAverage => "the first of the samples",
-                    _ => "one of the samples",
-                };
-                format!("{which}: {}", all().collect::<Vec<_>>().join(" or "))
-            });
+            let by = match self.rules.resolve.value() {
+                Resolve::CoarseAverage => ResolveChoice::First,
+                _ => ResolveChoice::Any,
+            };
+            self.note_resolve(notes, [source, target], passes, by, [&single, &single]);
             return Some(single);
         }
         let mut judging = Judging::new(self.rules);
@@ -117,12 +114,8 @@ impl Walk<'_> {
             all.push(of_codes);
         }
         single.dedup();
-        self.note_resolve(notes, [source, target], passes, &all, || {
-            let samples: Vec<String> = single.iter().map(|s| codes_list(encodings, s)).collect();
-            let samples = samples.join("; ");
-            let results: Vec<String> = all.iter().map(|r| codes_list(encodings, r)).collect();
-            format!("of samples ({samples}) gives {}", results.join(" or "))
-        });
+        let by = ResolveChoice::Average;
+        self.note_resolve(notes, [source, target], passes, by, [&single, &all]);
         Some(all)
     }
 
@@ -131,33 +124,33 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
         [source, target]: [usize; 2],
         passes: usize,
-        outcomes: &[[CodeInterval; 4]],
-        detail: impl FnOnce() -> String,
+        by: ResolveChoice,
+        [samples, results]: [&[[CodeInterval; 4]]; 2],
     ) {
-        notes.push(|| Note {
-            line: StoryLine {
-                at: format!("after pass {}", passes - 1),
-                operation: "resolve".to_owned(),
-                detail: {
-                    let [source, target] =
-                        [source, target].map(|i| &self.scene.attachments[i].name);
-                    format!("{source} into {target}, {}", detail())
-                },
-                citation: Some(self.rules.resolve.citation.to_owned()),
-            },
-            origin: None,
-            effect: Effect::Stores {
-                attachment: target,
-                aspect: Aspect::Color,
-                contents: Cell {
-                    channels: outcomes
-                        .first()
-                        .copied()
-                        .unwrap_or([CodeInterval::exact(0); 4]),
-                    stencil: 0,
-                    origin: None,
-                },
-            },
+        notes.push(|| {
+            let encodings = self.scene.attachments[source].format.color_channels();
+            let codes = |all: &[[CodeInterval; 4]]| {
+                let each = all.iter().map(|one| Codes::of_channels(encodings, *one));
+                each.collect()
+            };
+            let into = self.target(target, Aspect::Color);
+            let step = Step::Resolve {
+                from: self.scene.attachments[source].name.clone(),
+                to: into.attachment.clone(),
+                by,
+                samples: codes(samples),
+                results: codes(results),
+            };
+            let stored = Cell {
+                channels: results
+                    .first()
+                    .copied()
+                    .unwrap_or([CodeInterval::exact(0); 4]),
+                stencil: 0,
+                origin: None,
+            };
+            let citation = self.rules.resolve.citation;
+            Note::store(Origin::AfterPass(passes - 1), step, into, stored, citation)
         });
     }
 
@@ -205,18 +198,16 @@ impl Walk<'_> {
                 let same = attachment.size == at.size;
                 let place = if same { [at.x, at.y] } else { [0, 0] };
                 let cell = self.first_contents(index, place.map(|v| v as usize));
-                let text = || self.cell_text(index, &cell);
-                let how = match &attachment.contents {
-                    Contents::Texels(_) => "upload",
-                    _ => "clear",
-                };
-                let citation = match &attachment.contents {
-                    Contents::Texels(_) => None,
-                    _ => Some(self.rules.store.citation),
-                };
-                let name = || format!("attachment {}", attachment.name);
-                if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    notes.add(name, how, text, citation);
+                if self.has_shape(index, at) {
+                    let contents = || self.all_contents(index, &cell);
+                    let origin = || Origin::Attachment(attachment.name.clone());
+                    match &attachment.contents {
+                        Contents::Texels(_) => notes.add(origin, || Step::Upload(contents()), None),
+                        _ => {
+                            let citation = self.rules.store.citation;
+                            notes.add(origin, || Step::Clear(contents()), Some(citation));
+                        }
+                    }
                 }
                 cell
             })
@@ -227,13 +218,6 @@ impl Walk<'_> {
             events: Vec::new(),
         }
     }
-}
-
-fn codes_list(encodings: &[ChannelEncoding], codes: &[CodeInterval; 4]) -> String {
-    let each = encodings.iter().zip(codes);
-    each.map(|(e, c)| codes_text(*e, *c))
-        .collect::<Vec<_>>()
-        .join(", ")
 }
 
 /// Returns the code that the value of a code is stored as.

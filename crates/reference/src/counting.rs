@@ -1,7 +1,7 @@
 //! Counters: the range of each that the worlds of all samples leave.
 
 use crate::rules::{Rules, SamplesCounted};
-use crate::world::{Event, World};
+use crate::world::{Increment, World};
 use etalon_frame::{CountRange, CounterKind, CounterSet};
 use etalon_scene::Scene;
 
@@ -73,12 +73,13 @@ impl<'a> Tally<'a> {
                 count.possible = None;
                 continue;
             };
-            let own = |world: &World| -> Vec<Event> {
+            let own = |world: &World| -> Vec<Increment> {
                 let all = world.events.iter().copied();
                 all.filter(|e| usize::from(e.counter) == index).collect()
             };
-            let each: Vec<Vec<Event>> = worlds.iter().map(own).collect();
-            let certain = |events: &Vec<Event>| events.iter().filter(|e| e.certain).count() as u64;
+            let each: Vec<Vec<Increment>> = worlds.iter().map(own).collect();
+            let certain =
+                |events: &Vec<Increment>| events.iter().filter(|e| e.certain).count() as u64;
             count.certain += each.iter().map(certain).min().unwrap_or(0);
             let most = each.iter().map(|events| events.len() as u64).max();
             count.possible = count.possible.map(|p| p + most.unwrap_or(0));
@@ -87,8 +88,8 @@ impl<'a> Tally<'a> {
                 if !count.may.contains(&event.fragment) {
                     count.may.push(event.fragment);
                 }
-                let sure = |events: &Vec<Event>| {
-                    let same = |e: &Event| e.certain && e.fragment == event.fragment;
+                let sure = |events: &Vec<Increment>| {
+                    let same = |e: &Increment| e.certain && e.fragment == event.fragment;
                     events.iter().any(same)
                 };
                 if !here.contains(&event.fragment) && each.iter().all(sure) {

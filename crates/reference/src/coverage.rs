@@ -1,11 +1,11 @@
 //! Coverage of a sample by primitives, world by world.
 
-use crate::clause::Rejection;
-use crate::notes::{Effect, Notes};
+use crate::notes::Notes;
 use crate::primitive::{Shape, Side, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
 use crate::walk::{Place, Walk};
 use crate::world::{Decision, World, Worlds};
+use etalon_frame::{Coverage, Effect, Rejection, Step};
 use etalon_pipeline::{front_facing, is_top_left};
 use etalon_scene::Draw;
 use smallvec::SmallVec;
@@ -73,12 +73,11 @@ impl Walk<'_> {
     ) {
         let (least, most) = place.primitive.times(place.point, self.units);
         if most == 0 || least < most {
-            self.note_rejection(notes, place, Rejection::Coverage, most == 0, &|| match (
-                least, most,
-            ) {
-                (_, 0) => "it does not cover the sample".to_owned(),
-                (0, 1) => "it may or may not cover the sample: two worlds".to_owned(),
-                _ => format!("it may cover the sample {least} to {most} times: a world for each"),
+            self.note_rejection(notes, place, Rejection::Coverage, most == 0, || {
+                Step::Coverage(match most {
+                    0 => Coverage::Outside,
+                    _ => Coverage::Times { least, most },
+                })
             });
         }
         let mut worlds: Worlds = SmallVec::new();
@@ -118,18 +117,13 @@ impl Walk<'_> {
         }
         // Legal snapping can flatten it: then it covers nothing.
         let certain = least == 0 && most == 0;
-        self.note_rejection(
-            notes,
-            place,
-            Rejection::Coverage,
-            certain,
-            &|| match certain {
-                true => "it has no area".to_owned(),
-                false => {
-                    "snapping may leave it without area: it covers nothing in one world".to_owned()
-                }
-            },
-        );
+        self.note_rejection(notes, place, Rejection::Coverage, certain, || {
+            Step::Coverage(if certain {
+                Coverage::NoArea
+            } else {
+                Coverage::PerhapsNoArea
+            })
+        });
         result.push(world);
     }
 
@@ -157,18 +151,13 @@ impl Walk<'_> {
         {
             let (least, most) = primitive.area;
             let certain = least > 0 || most < 0;
-            self.note_rejection(
-                notes,
-                place,
-                Rejection::Coverage,
-                certain,
-                &|| match certain {
-                    true => "it does not cover the sample".to_owned(),
-                    false => {
-                        "facing one of its possible ways, it does not cover the sample".to_owned()
-                    }
-                },
-            );
+            self.note_rejection(notes, place, Rejection::Coverage, certain, || {
+                Step::Coverage(if certain {
+                    Coverage::Outside
+                } else {
+                    Coverage::OutsideOneWay
+                })
+            });
             result.append(&mut pending);
             return;
         }
@@ -180,8 +169,8 @@ impl Walk<'_> {
                 let (p, q) = primitive.edge(i);
                 let (p, q) = if positive_area { (q, p) } else { (p, q) };
                 if !is_top_left(p, q) {
-                    self.note_rejection(notes, place, Rejection::Coverage, true, &|| {
-                        format!("the sample lies on edge {i}, neither a top nor a left one")
+                    self.note_rejection(notes, place, Rejection::Coverage, true, || {
+                        Step::Coverage(Coverage::NotTopLeft { edge: i })
                     });
                     result.append(&mut pending);
                     return;
@@ -227,60 +216,34 @@ impl Walk<'_> {
     fn note_world(&self, notes: &mut Notes<'_>, place: Place<'_>, world: &World) {
         let pass = &self.scene.passes[place.pass];
         let targets = pass.color.iter().chain(&pass.depth_stencil);
+        let contents = |i: &usize| self.all_contents(*i, &world.cells[*i]);
         notes.add(
-            || place.name(),
-            "world",
-            || {
-                let holds = |i: &usize| {
-                    let name = &self.scene.attachments[*i].name;
-                    format!("{name} holds {}", self.cell_text(*i, &world.cells[*i]))
-                };
-                let all: Vec<String> = targets.map(holds).collect();
-                all.join("; ")
-            },
+            || place.origin(),
+            || Step::World(targets.flat_map(contents).collect()),
             None,
         );
     }
 
     /// Notes the outcome at an edge that may or may not leave the sample inside: decided by an earlier
     /// primitive of the same edge, or open.
-    fn note_edge(
-        &self,
-        notes: &mut Notes<'_>,
-        place: Place<'_>,
-        edge: Edge,
-        decided: Option<bool>,
-    ) {
-        let effect = match decided {
-            Some(true) => Effect::Plain,
+    fn note_edge(&self, notes: &mut Notes<'_>, place: Place<'_>, edge: Edge, covers: Option<bool>) {
+        let effect = match covers {
+            Some(true) => Effect::None,
             Some(false) => Effect::Rejects(Rejection::Coverage),
             None => Effect::MayReject(Rejection::Coverage),
         };
-        let detail = || {
-            let number = edge.number;
-            match (decided, edge.side) {
-                (Some(true), _) => format!(
-                    "edge {number} is shared, and its other primitive did not cover the sample in this \
-                     world: this one does"
-                ),
-                (Some(false), _) => format!(
-                    "edge {number} is shared, and its other primitive covered the sample in this world: \
-                     this one does not"
-                ),
-                (None, Side::On) => format!(
-                    "the sample lies on edge {number}: two worlds, covered (told on) and not covered"
-                ),
-                (None, _) => format!(
-                    "the sample is within the snapping distance of edge {number}: two worlds, covered \
-                     (told on) and not covered"
-                ),
-            }
+        let citation = match edge.side {
+            Side::On => self.rules.shared_edge.citation,
+            _ => self.rules.snap.citation,
         };
-        let citation = || match edge.side {
-            Side::On => self.rules.shared_edge.citation.to_owned(),
-            _ => self.rules.snap.citation.to_owned(),
-        };
-        self.note_effect(notes, place, effect, "coverage", [&detail, &citation]);
+        self.note_effect(notes, place, citation, None, || {
+            let step = Step::Coverage(Coverage::Edge {
+                edge: edge.number,
+                exact: edge.side == Side::On,
+                covers,
+            });
+            (effect, step)
+        });
     }
 }
 

@@ -6,12 +6,12 @@
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::notes::{Effect, Note, Notes};
+use crate::notes::{Note, Notes};
 use crate::rules::Resolve;
 use crate::sample::Sample;
-use crate::walk::{Walk, codes_text};
+use crate::walk::Walk;
 use crate::world::{Cell, Worlds, merge};
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Origin, Step};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::{DepthStencilResolve, ResolveMode};
 use std::collections::BTreeSet;
@@ -196,25 +196,16 @@ impl Walk<'_> {
                 continue;
             }
             notes.push(|| {
-                let [from, to] = [source, resolve.to].map(|i| &self.scene.attachments[i].name);
-                let value = match aspect {
-                    Aspect::Stencil => contents.stencil.to_string(),
-                    _ => codes_text(self.depth_encoding(resolve.to), contents.channels[0]),
+                let target = self.target(resolve.to, aspect);
+                let step = Step::ResolveDepthStencil {
+                    from: self.scene.attachments[source].name.clone(),
+                    to: target.attachment.clone(),
+                    mode: mode.to_string(),
+                    result: self.contents(resolve.to, aspect, &contents).codes[0],
+                    aspect,
                 };
-                Note {
-                    line: StoryLine {
-                        at: format!("after pass {p}"),
-                        operation: "resolve".to_owned(),
-                        detail: format!("{from} into {to}, {aspect} by {mode}: {value}"),
-                        citation: Some(self.rules.resolve.citation.to_owned()),
-                    },
-                    origin: None,
-                    effect: Effect::Stores {
-                        attachment: resolve.to,
-                        aspect,
-                        contents,
-                    },
-                }
+                let citation = self.rules.resolve.citation;
+                Note::store(Origin::AfterPass(p), step, target, contents, citation)
             });
         }
     }

@@ -1,21 +1,23 @@
 //! One fragment in one world: culling, shading, tests, blending, stores.
 
-use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::notes::{Effect, Notes};
+use crate::notes::Notes;
 use crate::possible::Possible;
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
 use crate::stencil_face::Face;
 use crate::walk::{Place, Walk};
-use crate::world::{Cell, Event, World, Worlds};
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
+use crate::world::{Cell, Increment, World, Worlds};
+use etalon_frame::{
+    Aspect, ChannelEncoding, CodeInterval, CounterKind, DepthTest, Effect, Rejection, Step,
+    ValueRange,
+};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
-use etalon_scene::{CompareFunction, EarlyTests, Shader};
+use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilOperation};
 use smallvec::SmallVec;
 
 impl Walk<'_> {
@@ -35,9 +37,9 @@ impl Walk<'_> {
             Shape::Triangle(_) | Shape::Outline(_)
         );
         if polygon && is_culled(draw.cull, front) {
-            self.note_rejection(notes, place, Rejection::Culling, true, &|| {
-                let face = if front { "front" } else { "back" };
-                format!("a {face} face, and the cull mode is {}", draw.cull.name())
+            self.note_rejection(notes, place, Rejection::Culling, true, || Step::Culling {
+                front,
+                mode: draw.cull.name().to_owned(),
             });
             result.push(world);
             return;
@@ -198,21 +200,19 @@ impl Walk<'_> {
         };
         let output = fragment(&mut judging, draw.shader, &input);
         notes.add(
-            || place.name(),
-            "shade",
+            || place.origin(),
             || {
-                let color = output.color.map(|c| c.hull().to_string()).join(", ");
-                let face = if front { "front" } else { "back" };
-                if !draw.shader.has_fragment() {
-                    return format!("{face} face, without a fragment shader");
+                let texture = |(t, index): (usize, &usize)| {
+                    let name = self.scene.attachments[*index].name.clone();
+                    (name, input.texels[t].map(ValueRange::from))
+                };
+                let shader = draw.shader.has_fragment();
+                Step::Shade {
+                    front,
+                    shader: shader.then(|| draw.shader.name().to_owned()),
+                    color: output.color.map(ValueRange::from),
+                    texels: draw.textures.iter().enumerate().map(texture).collect(),
                 }
-                let read = (0..draw.textures.len()).map(|t| {
-                    let name = &self.scene.attachments[draw.textures[t]].name;
-                    let texel = input.texels[t].map(|c| c.hull().to_string()).join(", ");
-                    format!(" from texel ({texel}) of {name}")
-                });
-                let read: String = read.collect();
-                format!("{face} face, {} gives ({color}){read}", draw.shader.name())
             },
             None,
         );
@@ -275,16 +275,11 @@ impl Walk<'_> {
             }
         };
         if let (Some(condition), false) = (output.kept, kept.must()) {
-            self.note_rejection(notes, place, Rejection::Discard, !kept.can(), &|| {
-                let (value, limit) = (condition.value.hull(), condition.limit.hull());
-                let relation = if condition.strict {
-                    "above"
-                } else {
-                    "at least"
-                };
-                match kept.can() {
-                    true => format!("{value} may or may not be {relation} {limit}: two worlds"),
-                    false => format!("{value} is not {relation} {limit}"),
+            self.note_rejection(notes, place, Rejection::Discard, !kept.can(), || {
+                Step::Discard {
+                    value: condition.value.into(),
+                    limit: condition.limit.into(),
+                    strict: condition.strict,
                 }
             });
         }
@@ -292,11 +287,9 @@ impl Walk<'_> {
         let (sample, alpha) = (place.at.sample, output.color[3]);
         let masked = self.shader_mask_keeps(place, output);
         if let (Some(mask), false) = (&output.mask, masked.must()) {
-            self.note_rejection(notes, place, Rejection::ShaderMask, !masked.can(), &|| {
-                let bits = mask.bits.hull().low;
-                match masked.can() {
-                    true => format!("the mask {bits} may or may not keep the sample: two worlds"),
-                    false => format!("the mask {bits} leaves it out"),
+            self.note_rejection(notes, place, Rejection::ShaderMask, !masked.can(), || {
+                Step::ShaderMask {
+                    bits: mask.bits.into(),
                 }
             });
         }
@@ -305,18 +298,14 @@ impl Walk<'_> {
             // Whether forced early tests come before the mask is for the rules to say.
             let forced = place.draw.early_tests == EarlyTests::Forced;
             let certain = !forced || self.rules.mask_acts_first.value();
-            self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
-                format!("the sample mask {:#x} leaves it out", state.mask)
+            self.note_rejection(notes, place, Rejection::SampleMask, certain, || {
+                Step::SampleMask { mask: state.mask }
             });
         } else if !coverage.must() {
             let lost = !coverage.can();
-            self.note_rejection(notes, place, Rejection::AlphaToCoverage, lost, &|| {
-                let alpha = alpha.hull();
-                match coverage.can() {
-                    true => {
-                        format!("alpha {alpha} may or may not keep the sample: two worlds")
-                    }
-                    false => format!("alpha {alpha} keeps no sample"),
+            self.note_rejection(notes, place, Rejection::AlphaToCoverage, lost, || {
+                Step::AlphaToCoverage {
+                    alpha: alpha.into(),
                 }
             });
         }
@@ -360,9 +349,8 @@ impl Walk<'_> {
             return;
         }
         notes.add(
-            || place.name(),
-            "early tests",
-            || "the fragment goes away after its tests".to_owned(),
+            || place.origin(),
+            || Step::LostAfterEarlyTests,
             Some(self.rules.early_updates.citation),
         );
         let counted = self.rules.early_counts.value() == EarlyUpdates::Happen;
@@ -393,7 +381,7 @@ impl Walk<'_> {
     ) {
         for counter in &place.draw.counters {
             if kinds(self.scene.counters[*counter].kind) {
-                world.events.push(Event {
+                world.events.push(Increment {
                     counter: *counter as u16,
                     fragment: (place.draw_id, place.primitive_index as u32),
                     certain,
@@ -435,15 +423,7 @@ impl Walk<'_> {
             let either = !self.rules.masks_reference.value() && masked != unmasked;
             if !masked || either {
                 let new = stencil_write(state, state.fail_op, stored);
-                self.note_stencil(
-                    place,
-                    &face,
-                    stored,
-                    "fails",
-                    state.fail_op.name(),
-                    new,
-                    notes,
-                );
+                self.note_stencil(place, &face, [stored, new], StencilOutcome::Fails, notes);
                 let mut failed = world.clone();
                 failed.cells[index].stencil = new;
                 result.push((failed, false));
@@ -466,14 +446,14 @@ impl Walk<'_> {
             }
             let mut world = world.clone();
             if let (Some(face), Some(index)) = (face, depth_stencil) {
-                let (operation, word) = if passes {
-                    (face.state.pass_op, "passes")
+                let outcome = if passes {
+                    StencilOutcome::Passes
                 } else {
-                    (face.state.depth_fail_op, "passes, depth fails")
+                    StencilOutcome::DepthFails
                 };
                 let stored = world.cells[index].stencil;
-                let new = stencil_write(&face.state, operation, stored);
-                self.note_stencil(place, &face, stored, word, operation.name(), new, notes);
+                let new = stencil_write(&face.state, outcome.operation(&face), stored);
+                self.note_stencil(place, &face, [stored, new], outcome, notes);
                 world.cells[index].stencil = new;
             }
             result.push((world, passes));
@@ -593,79 +573,63 @@ impl Walk<'_> {
         let can = stored.high >= low.low && stored.low <= high.high;
         let must = stored.low >= low.high && stored.high <= high.low;
         let inside = Possible::of(can, must);
-        let detail = || {
-            let word = match inside {
-                Possible::Always => "inside",
-                Possible::Maybe => "perhaps inside",
-                Possible::Never => "outside",
-            };
-            format!("stored {stored} is {word} {low} to {high}")
+        let step = || Step::DepthBounds {
+            stored: stored.into(),
+            low: low.into(),
+            high: high.into(),
         };
         match inside {
-            Possible::Always => notes.add(|| place.name(), "depth bounds", detail, None),
-            _ => self.note_rejection(notes, place, Rejection::DepthBounds, !inside.can(), &detail),
+            Possible::Always => notes.add(|| place.origin(), step, None),
+            _ => self.note_rejection(notes, place, Rejection::DepthBounds, !inside.can(), step),
         }
         inside
     }
 
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one line of the story, all of it"
-    )]
+    /// Notes a stencil test and the update from the first value to the second.
     fn note_stencil(
         &self,
         place: Place<'_>,
         face: &Face,
-        stored: u8,
-        outcome: &str,
-        operation: &str,
-        new: u8,
+        [before, after]: [u8; 2],
+        outcome: StencilOutcome,
         notes: &mut Notes<'_>,
     ) {
-        let detail = || {
-            let state = &face.state;
-            format!(
-                "{} {} stored {stored} under read mask {:#04x} {outcome}",
-                face.reference(),
-                state.compare.name(),
-                state.read_mask
-            )
+        let step = || Step::StencilTest {
+            reference: face.state.reference,
+            exported: face.exported,
+            compare: face.state.compare.name().to_owned(),
+            stored: before,
+            read_mask: face.state.read_mask,
+            depth_fails: outcome == StencilOutcome::DepthFails,
         };
-        if outcome == "fails" {
-            self.note_rejection(notes, place, Rejection::Stencil, true, &detail);
+        if outcome == StencilOutcome::Fails {
+            self.note_rejection(notes, place, Rejection::Stencil, true, step);
         } else {
-            notes.add(
-                || place.name(),
-                "stencil test",
-                detail,
-                Some(self.rules.stencil),
-            );
+            notes.add(|| place.origin(), step, Some(self.rules.stencil));
         }
         let Some(attachment) = self.scene.passes[place.pass].depth_stencil else {
             return;
         };
-        let aspect = Aspect::Stencil;
-        let (effect, word) = if new == stored {
-            (Effect::Keeps { attachment, aspect }, "keep stencil")
-        } else {
-            let contents = Cell {
-                channels: [CodeInterval::exact(0); 4],
-                stencil: new,
-                origin: None,
+        let stored = (after != before).then_some(Cell {
+            channels: [CodeInterval::exact(0); 4],
+            stencil: after,
+            origin: None,
+        });
+        self.note_effect(notes, place, self.rules.stencil, stored, || {
+            let target = self.target(attachment, Aspect::Stencil);
+            let effect = if after == before {
+                Effect::Keeps(target)
+            } else {
+                Effect::Stores(target)
             };
-            let effect = Effect::Stores {
-                attachment,
-                aspect,
-                contents,
+            let step = Step::StencilUpdate {
+                operation: outcome.operation(face).name().to_owned(),
+                write_mask: face.state.write_mask,
+                before,
+                after,
             };
-            (effect, "store stencil")
-        };
-        let detail = || {
-            let mask = face.state.write_mask;
-            format!("{operation} under write mask {mask:#04x}: {stored} becomes {new}")
-        };
-        let citation = || self.rules.stencil.to_owned();
-        self.note_effect(notes, place, effect, word, [&detail, &citation]);
+            (effect, step)
+        });
     }
 
     /// Returns whether a depth test can pass, and whether it can fail.
@@ -680,13 +644,16 @@ impl Walk<'_> {
     ) -> [bool; 2] {
         if incoming.origin.is_some() && incoming.origin == stored.origin {
             let passes = compare(function, 0, 0);
-            let effect = match passes {
-                true => Effect::Plain,
-                false => Effect::Rejects(Rejection::Depth),
-            };
-            let detail = || format!("the same depth {} itself is {passes}", function.name());
-            let citation = || self.rules.same_depth.citation.to_owned();
-            self.note_effect(notes, place, effect, "depth test", [&detail, &citation]);
+            let citation = self.rules.same_depth.citation;
+            self.note_effect(notes, place, citation, None, || {
+                let effect = if passes {
+                    Effect::None
+                } else {
+                    Effect::Rejects(Rejection::Depth)
+                };
+                let compare = function.name().to_owned();
+                (effect, Step::DepthTest(DepthTest::Same { compare }))
+            });
             return [passes, !passes];
         }
         let (incoming, stored) = (incoming.depth, stored.channels[0]);
@@ -701,22 +668,22 @@ impl Walk<'_> {
             DepthOrder::ConvertedFirst => (of_codes(codes), of_codes(stored)),
         };
         let outcomes = possible(function, left, right);
-        let detail = || {
-            let word = match outcomes {
-                [true, true] => "may be true or false: two worlds",
-                [true, false] => "is true",
-                _ => "is false",
-            };
-            format!("{left} {} stored {right} {word}", function.name())
+        let step = || {
+            Step::DepthTest(DepthTest::Compared {
+                compare: function.name().to_owned(),
+                incoming: left.into(),
+                stored: right.into(),
+            })
         };
-        let open = || self.rules.depth_order.citation.to_owned();
         match outcomes {
-            [true, false] => notes.add(|| place.name(), "depth test", detail, None),
+            [true, false] => notes.add(|| place.origin(), step, None),
             [true, true] => {
-                let effect = Effect::MayReject(Rejection::Depth);
-                self.note_effect(notes, place, effect, "depth test", [&detail, &open]);
+                let citation = self.rules.depth_order.citation;
+                self.note_effect(notes, place, citation, None, || {
+                    (Effect::MayReject(Rejection::Depth), step())
+                });
             }
-            _ => self.note_rejection(notes, place, Rejection::Depth, true, &detail),
+            _ => self.note_rejection(notes, place, Rejection::Depth, true, step),
         }
         outcomes
     }
@@ -734,6 +701,25 @@ struct Covered {
 impl Covered {
     fn survives(self) -> Possible {
         self.kept.and(self.masked).and(self.coverage)
+    }
+}
+
+/// The outcome of stencil and depth test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum StencilOutcome {
+    Fails,
+    DepthFails,
+    Passes,
+}
+
+impl StencilOutcome {
+    /// Returns the operation that updates the stencil value.
+    fn operation(self, face: &Face) -> StencilOperation {
+        match self {
+            Self::Fails => face.state.fail_op,
+            Self::DepthFails => face.state.depth_fail_op,
+            Self::Passes => face.state.pass_op,
+        }
     }
 }
 

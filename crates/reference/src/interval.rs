@@ -1,6 +1,6 @@
 //! Closed intervals of real numbers.
 
-use etalon_frame::{ChannelEncoding, CodeInterval};
+use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange};
 use std::fmt;
 
 /// The real numbers from `low` to `high`, both included.
@@ -163,6 +163,15 @@ impl Interval {
     /// Restricts both ends to a range.
     pub fn clamp(self, low: f64, high: f64) -> Self {
         self.map_increasing(|v| v.clamp(low, high))
+    }
+}
+
+impl From<Interval> for ValueRange {
+    fn from(interval: Interval) -> Self {
+        Self {
+            low: interval.low,
+            high: interval.high,
+        }
     }
 }
 

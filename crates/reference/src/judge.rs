@@ -6,14 +6,14 @@ use crate::notes::{Note, Notes};
 use crate::picture::shapes;
 use crate::read_back::as_read;
 use crate::rules::Rules;
+use crate::ruling::ruling;
 use crate::sample::{Sample, Shape};
 use crate::states::{OPEN, State};
 use crate::texels::Texels;
-use crate::verdict::verdict;
 use crate::walk::Walk;
 use etalon_frame::{
     Api, ApiVersion, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, ReadPath,
-    Story, StoryLine, TexelSet,
+    Ruling, Story, TexelSet,
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
@@ -215,9 +215,9 @@ fn counted(scene: &Scene) -> BTreeSet<Shape> {
         .collect()
 }
 
-/// Returns the story of one sample: the verdict in one sentence, then every operation on it with its
-/// outcome and the citation of each permission that was used, and every draw and primitive that ends
-/// before it with its clause. With the frame that a driver returned, the verdict tells what came back.
+/// Returns the story of one sample: the ruling, then every operation on it with its outcome and the citation of each
+/// permission that was used, and every draw and primitive that ends before it with its clause. With the frame that a
+/// driver returned, the ruling holds the values that came back.
 pub fn explain(
     scene: &Scene,
     limits: &Limits,
@@ -225,32 +225,36 @@ pub fn explain(
     at: Sample,
     frame: Option<&Frame>,
 ) -> Story {
-    let (_, mut lines, notes) = told(scene, limits, rules, at, frame);
-    lines.extend(notes.into_iter().map(|note| note.line));
-    Story { lines }
+    let (_, ruling, notes) = explained(scene, limits, rules, at, frame);
+    Story {
+        ruling: Some(ruling),
+        events: notes.into_iter().map(|note| note.event).collect(),
+        ..Story::default()
+    }
 }
 
-/// Returns the legal values of one sample, the line of its verdict, and its notes.
-fn told(
+/// Returns the legal values of one sample, its ruling, and its notes.
+fn explained(
     scene: &Scene,
     limits: &Limits,
     rules: &Rules,
     at: Sample,
     frame: Option<&Frame>,
-) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
+) -> (TexelSet, Ruling, Vec<Note>) {
     // A sampler may read what was drawn to other texels.
     let samples = |draw: &Draw| draw.sampler.is_some();
     let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
-    let texels = match later.any(samples) {
-        true => Texels::All,
-        false => Texels::One([at.x, at.y]),
+    let texels = if later.any(samples) {
+        Texels::All
+    } else {
+        Texels::One([at.x, at.y])
     };
     let walk = Walk::new(scene, limits, rules, texels);
     let mut notes = Vec::new();
     let set = walk.sample(at, &mut notes);
     let initial = walk.initial(at, &mut Notes(None));
-    let verdict = verdict(&walk, at, &set, &initial, &notes, frame);
-    (set, vec![verdict], notes)
+    let ruling = ruling(&walk, at, &set, &initial, &notes, frame);
+    (set, ruling, notes)
 }
 
 #[cfg(test)]

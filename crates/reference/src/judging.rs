@@ -2,7 +2,7 @@
 
 use crate::interval::Interval;
 use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules, SignedClamp};
-use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
+use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
 
@@ -18,6 +18,12 @@ pub struct Range {
     pub float: Interval,
     /// Rounded to destination codes at every step.
     pub coarse: Interval,
+}
+
+impl From<Range> for ValueRange {
+    fn from(range: Range) -> Self {
+        range.hull().into()
+    }
 }
 
 impl Range {

@@ -1,71 +1,67 @@
-//! The notes of a walk, of which the story of a sample is made. Each tells the effect of its operation
-//! beside the words, so that the verdict can name the operation that decided without reading prose.
+//! The notes of a walk, of which the story of a sample is made. Each holds an event, and the contents that a store
+//! leaves.
 
-use crate::clause::Rejection;
+use crate::clause::clause;
+use crate::sample::Sample;
+use crate::walk::{Place, Walk};
 use crate::world::Cell;
-use etalon_frame::{Aspect, StoryLine};
-
-/// The effect of a noted operation on the sample.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Effect {
-    /// None that the verdict asks for.
-    Plain,
-    /// The draw, the primitives or the fragment end here.
-    Rejects(Rejection),
-    /// The rules leave two outcomes open, of which one ends here.
-    MayReject(Rejection),
-    /// A fragment that passed leaves an aspect of an attachment as it was.
-    Keeps { attachment: usize, aspect: Aspect },
-    /// An aspect of an attachment gets new contents.
-    Stores {
-        attachment: usize,
-        aspect: Aspect,
-        contents: Cell,
-    },
-}
-
-/// The part of the scene that a note speaks of.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Origin {
-    pub(crate) pass: usize,
-    pub(crate) draw: usize,
-    /// In order; empty stands for all.
-    pub(crate) primitives: Vec<u32>,
-}
+use etalon_frame::{
+    Aspect, CodeInterval, Codes, Contents, Effect, Event, Origin, Rejection, Step, Target,
+};
 
 /// One operation with its effect.
 #[derive(Clone, Debug)]
 pub(crate) struct Note {
-    pub(crate) line: StoryLine,
-    /// `None` where no draw is the cause.
-    pub(crate) origin: Option<Origin>,
-    pub(crate) effect: Effect,
+    pub(crate) event: Event,
+    /// The new contents of the attachment, of a store.
+    pub(crate) stored: Option<Cell>,
 }
 
-/// The notes, if a story is told; without one, they cost nothing.
+impl Note {
+    /// Returns the note of a store between draws: a clear or a resolve.
+    pub(crate) fn store(
+        origin: Origin,
+        step: Step,
+        target: Target,
+        stored: Cell,
+        citation: &str,
+    ) -> Self {
+        Self {
+            event: Event {
+                scene: None,
+                origin,
+                step,
+                effect: Effect::Stores(target),
+                citation: Some(citation.to_owned()),
+            },
+            stored: Some(stored),
+        }
+    }
+}
+
+/// The notes, if a story is made; without one, they cost nothing.
 pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Vec<Note>>);
 
 impl Notes<'_> {
+    /// Adds an operation without an effect.
     pub(crate) fn add(
         &mut self,
-        at: impl FnOnce() -> String,
-        operation: &str,
-        detail: impl FnOnce() -> String,
+        origin: impl FnOnce() -> Origin,
+        step: impl FnOnce() -> Step,
         citation: Option<&str>,
     ) {
         self.push(|| Note {
-            line: StoryLine {
-                at: at(),
-                operation: operation.to_owned(),
-                detail: detail(),
+            event: Event {
+                scene: None,
+                origin: origin(),
+                step: step(),
+                effect: Effect::None,
                 citation: citation.map(str::to_owned),
             },
-            origin: None,
-            effect: Effect::Plain,
+            stored: None,
         });
     }
 
-    /// Adds a note with an effect.
     pub(crate) fn push(&mut self, note: impl FnOnce() -> Note) {
         if let Some(notes) = &mut self.0 {
             notes.push(note());
@@ -74,7 +70,7 @@ impl Notes<'_> {
 }
 
 /// The primitives of a draw that do not come to a fragment at the sample, with the reason; without a
-/// reason, those that have notes of their own. Collected only where a story is told.
+/// reason, those that have notes of their own. Collected only if a story is made.
 pub(crate) struct Skipped(pub(crate) Option<Vec<(u32, Option<Rejection>)>>);
 
 impl Skipped {
@@ -87,4 +83,111 @@ impl Skipped {
             all.push((primitive, reason));
         }
     }
+}
+
+impl Walk<'_> {
+    /// Notes an operation on a fragment that has an effect; a store gives the new contents of its attachment.
+    pub(crate) fn note_effect(
+        &self,
+        notes: &mut Notes<'_>,
+        place: Place<'_>,
+        citation: &str,
+        stored: Option<Cell>,
+        operation: impl FnOnce() -> (Effect, Step),
+    ) {
+        notes.push(|| {
+            let (effect, step) = operation();
+            Note {
+                event: Event {
+                    scene: None,
+                    origin: place.origin(),
+                    step,
+                    effect,
+                    citation: Some(citation.to_owned()),
+                },
+                stored,
+            }
+        });
+    }
+
+    /// Notes that a fragment ends by an operation, or may end.
+    pub(crate) fn note_rejection(
+        &self,
+        notes: &mut Notes<'_>,
+        place: Place<'_>,
+        rejection: Rejection,
+        certain: bool,
+        step: impl FnOnce() -> Step,
+    ) {
+        notes.push(|| Note {
+            event: Event {
+                scene: None,
+                origin: place.origin(),
+                step: step(),
+                effect: if certain {
+                    Effect::Rejects(rejection)
+                } else {
+                    Effect::MayReject(rejection)
+                },
+                citation: Some(clause(
+                    rejection,
+                    self.rules,
+                    self.limits,
+                    place.draw.topology,
+                )),
+            },
+            stored: None,
+        });
+    }
+
+    /// Returns an aspect of an attachment by its name.
+    pub(crate) fn target(&self, attachment: usize, aspect: Aspect) -> Target {
+        Target {
+            attachment: self.scene.attachments[attachment].name.clone(),
+            aspect,
+        }
+    }
+
+    /// Returns the contents of an aspect of an attachment as they are stored.
+    pub(crate) fn contents(&self, attachment: usize, aspect: Aspect, cell: &Cell) -> Contents {
+        let Target {
+            attachment: name, ..
+        } = self.target(attachment, aspect);
+        let format = self.scene.attachments[attachment].format;
+        let codes = match aspect {
+            Aspect::Color => Codes::of_channels(format.color_channels(), cell.channels),
+            Aspect::Depth => vec![Codes::new(
+                self.depth_encoding(attachment),
+                cell.channels[0],
+            )],
+            Aspect::Stencil => vec![stencil_codes(cell.stencil)],
+        };
+        Contents {
+            attachment: name,
+            aspect,
+            codes,
+        }
+    }
+
+    /// Returns the contents of all aspects of an attachment as they are stored.
+    pub(crate) fn all_contents(&self, attachment: usize, cell: &Cell) -> Vec<Contents> {
+        let aspects = self.scene.attachments[attachment].format.aspects().iter();
+        aspects
+            .map(|aspect| self.contents(attachment, *aspect, cell))
+            .collect()
+    }
+
+    /// True if an attachment has the size and the samples of a sample's attachments.
+    pub(crate) fn has_shape(&self, attachment: usize, at: Sample) -> bool {
+        let attachment = &self.scene.attachments[attachment];
+        (attachment.size, attachment.samples) == (at.size, at.samples)
+    }
+}
+
+/// Returns the codes of a stencil value.
+pub(crate) fn stencil_codes(value: u8) -> Codes {
+    Codes::new(
+        etalon_frame::ChannelEncoding::Uint(8),
+        CodeInterval::exact(i64::from(value)),
+    )
 }

@@ -4,11 +4,11 @@
 //! walk goes on with it, and at the end everything that depends on it is opened.
 
 use crate::judging::{Judging, all_codes};
-use crate::notes::{Effect, Note, Notes};
+use crate::notes::{Note, Notes};
 use crate::sample::Sample;
-use crate::walk::{Walk, codes_text};
-use crate::world::{Cell, World, Worlds, merge};
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
+use crate::walk::Walk;
+use crate::world::{World, Worlds, merge};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Origin, Step};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::ClearTarget;
 
@@ -37,7 +37,7 @@ impl Walk<'_> {
         for (location, index) in pass.color.iter().enumerate() {
             if let Some(value) = pass.color_operations(location).load.clear_value() {
                 let filling = self.color(*index, value, 0b1111);
-                self.fill(worlds, &filling, notes, || load_text(p));
+                self.fill(worlds, &filling, notes, &Origin::Load(p));
             }
         }
         if let Some(index) = pass.depth_stencil {
@@ -45,7 +45,7 @@ impl Walk<'_> {
             let stencil = pass.operations.stencil.load.clear_value();
             if depth.is_some() || stencil.is_some() {
                 let filling = self.depth_stencil(index, depth, stencil.map(|v| (v, 0xff)));
-                self.fill(worlds, &filling, notes, || load_text(p));
+                self.fill(worlds, &filling, notes, &Origin::Load(p));
             }
         }
         merge(worlds);
@@ -67,14 +67,14 @@ impl Walk<'_> {
         let inside = |rect: Option<[u32; 4]>| {
             rect.is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
         };
-        let when = match draw == pass.draws.len() {
-            true => format!("pass {p}, at the end"),
-            false => format!("pass {p}, before draw {draw}"),
+        let origin = if draw == pass.draws.len() {
+            Origin::PassEnd(p)
+        } else {
+            Origin::BeforeDraw { pass: p, draw }
         };
         for clear in clears {
             if !inside(clear.rect) {
-                let detail = || "the texel lies outside its rectangle".to_owned();
-                notes.add(|| when.clone(), "clear", detail, None);
+                notes.add(|| origin.clone(), || Step::ClearElsewhere, None);
                 continue;
             }
             let filling = match clear.target {
@@ -96,19 +96,17 @@ impl Walk<'_> {
                     self.depth_stencil(index, depth, stencil.map(|v| (v, stencil_write_mask)))
                 }
             };
-            self.fill(worlds, &filling, notes, || when.clone());
+            self.fill(worlds, &filling, notes, &origin);
         }
         merge(worlds);
     }
 
-    /// Tells what the store operations of a pass discard.
+    /// Notes the aspects that the store operations of a pass discard.
     pub(crate) fn store(&self, p: usize, notes: &mut Notes<'_>) {
         for (index, aspect) in self.scene.passes[p].discarded() {
-            let name = &self.scene.attachments[index].name;
             notes.add(
-                || format!("after pass {p}"),
-                "discard",
-                || format!("{aspect} of {name} is undefined until all of it is cleared"),
+                || Origin::AfterPass(p),
+                || Step::StoreDiscard(self.target(index, aspect)),
                 None,
             );
         }
@@ -163,13 +161,7 @@ impl Walk<'_> {
         }
     }
 
-    fn fill(
-        &self,
-        worlds: &mut Worlds,
-        filling: &Filling,
-        notes: &mut Notes<'_>,
-        when: impl Fn() -> String,
-    ) {
+    fn fill(&self, worlds: &mut Worlds, filling: &Filling, notes: &mut Notes<'_>, origin: &Origin) {
         let format = self.scene.attachments[filling.attachment].format;
         for world in worlds.iter_mut() {
             let cell = &mut world.cells[filling.attachment];
@@ -193,52 +185,14 @@ impl Walk<'_> {
                 Aspect::Stencil => filling.stencil.is_some_and(|(_, mask)| mask != 0),
             };
             if stores {
-                self.note_clear(notes, filling.attachment, *aspect, contents, &when);
+                notes.push(|| {
+                    let step =
+                        Step::Clear(vec![self.contents(filling.attachment, *aspect, &contents)]);
+                    let target = self.target(filling.attachment, *aspect);
+                    let citation = self.rules.store.citation;
+                    Note::store(origin.clone(), step, target, contents, citation)
+                });
             }
         }
     }
-
-    fn note_clear(
-        &self,
-        notes: &mut Notes<'_>,
-        attachment: usize,
-        aspect: Aspect,
-        contents: Cell,
-        when: impl Fn() -> String,
-    ) {
-        notes.push(|| {
-            let Cell {
-                channels, stencil, ..
-            } = contents;
-            let of = &self.scene.attachments[attachment];
-            let text = match aspect {
-                Aspect::Color => {
-                    let each = of.format.color_channels().iter().zip(channels);
-                    let each: Vec<String> = each.map(|(e, c)| codes_text(*e, c)).collect();
-                    each.join(", ")
-                }
-                Aspect::Depth => codes_text(self.depth_encoding(attachment), channels[0]),
-                Aspect::Stencil => stencil.to_string(),
-            };
-            let name = &of.name;
-            Note {
-                line: StoryLine {
-                    at: when(),
-                    operation: "clear".to_owned(),
-                    detail: format!("{name} holds {aspect} {text}"),
-                    citation: Some(self.rules.store.citation.to_owned()),
-                },
-                origin: None,
-                effect: Effect::Stores {
-                    attachment,
-                    aspect,
-                    contents,
-                },
-            }
-        });
-    }
-}
-
-fn load_text(p: usize) -> String {
-    format!("pass {p}, load operation")
 }

@@ -1,6 +1,5 @@
 //! Sample shading and sample coverage: where a fragment's inputs lie, and the samples that a share draws.
 
-use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::Range;
 use crate::notes::Notes;
@@ -9,6 +8,7 @@ use crate::rules::{AlphaToCoverage, FragCoord, Rules};
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};
 use crate::world::{Decision, World};
+use etalon_frame::{Rejection, Step};
 use etalon_pipeline::Point;
 use etalon_scene::{Multisample, SampleCoverage};
 use smallvec::{SmallVec, smallvec};
@@ -106,15 +106,10 @@ impl Walk<'_> {
                 place,
                 Rejection::SampleCoverage,
                 drawn.is_some(),
-                &|| {
-                    let sample = place.at.sample;
-                    let of = if invert { "inverted share" } else { "share" };
-                    let word = if drawn.is_some() {
-                        "leaves"
-                    } else {
-                        "may leave"
-                    };
-                    format!("the {of} {value} {word} sample {sample} out")
+                || Step::SampleCoverage {
+                    share: value,
+                    inverted: invert,
+                    sample: place.at.sample,
                 },
             );
         }

@@ -2,7 +2,6 @@
 //! Samples of equal signature that held the same hold the same afterwards, so that one of them is judged
 //! for all.
 
-use crate::clause::Rejection;
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::judging::Range;
@@ -10,6 +9,7 @@ use crate::primitive::{Shape, Side, SnappedPrimitive};
 use crate::sample::Sample;
 use crate::walk::{Hit, Place, Walk};
 use crate::world::World;
+use etalon_frame::Rejection;
 use etalon_scene::{Contents, Draw, EarlyTests, Multisample};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;

@@ -6,7 +6,7 @@
 use crate::judging::Range;
 use crate::notes::Notes;
 use crate::walk::{Place, Walk};
-use etalon_frame::Api;
+use etalon_frame::{Api, Step};
 use etalon_pipeline::exported_reference;
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_scene::{Draw, StencilFace};
@@ -18,7 +18,7 @@ pub(crate) struct Face {
     /// The state, with the reference that counts.
     pub(crate) state: StencilFace,
     /// True if the shader wrote that reference.
-    exported: bool,
+    pub(crate) exported: bool,
 }
 
 impl Face {
@@ -29,14 +29,6 @@ impl Face {
             state: if front { stencil.front } else { stencil.back },
             exported: false,
         })
-    }
-
-    /// Returns the reference as it is called in a story.
-    pub(crate) fn reference(&self) -> String {
-        match self.exported {
-            true => format!("exported reference {}", self.state.reference),
-            false => format!("reference {}", self.state.reference),
-        }
     }
 }
 
@@ -69,15 +61,11 @@ impl Walk<'_> {
         let written = reference.written(number.low as f32);
         let counts = exported_reference(written);
         notes.add(
-            || place.name(),
-            "stencil export",
-            || {
-                let lost = match i32::from(counts) == written {
-                    true => String::new(),
-                    false => format!(", of which the lowest 8 bits count, {counts}"),
-                };
-                let own = face.state.reference;
-                format!("the shader writes {written}{lost}, in place of the draw's {own}")
+            || place.origin(),
+            || Step::StencilExport {
+                written,
+                reference: counts,
+                draw: face.state.reference,
             },
             Some(replaces(self.limits.api)),
         );
@@ -91,11 +79,9 @@ impl Walk<'_> {
         };
         if place.draw.shader.writes_reference() {
             notes.add(
-                || place.name(),
-                "stencil export",
-                || {
-                    let own = face.state.reference;
-                    format!("forced tests come before the shader: the draw's {own} counts")
+                || place.origin(),
+                || Step::LateStencilExport {
+                    draw: face.state.reference,
                 },
                 Some(comes_late(self.limits.api)),
             );

@@ -2,11 +2,14 @@
 
 use crate::fragment::Incoming;
 use crate::judging::{Judging, Range};
-use crate::notes::{Effect, Notes};
+use crate::notes::Notes;
 use crate::rules::{SignedClamp, SrgbLogic};
-use crate::walk::{Place, Walk, codes_text};
+use crate::walk::{Place, Walk};
 use crate::world::World;
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, TextureFormat};
+use etalon_frame::{
+    Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat,
+    ValueRange,
+};
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, advanced_blend, blend, takes_logic};
 use etalon_scene::AdvancedBlend;
@@ -29,28 +32,22 @@ impl Walk<'_> {
             let codes = judging.encode(encoding, incoming.depth);
             world.cells[index].channels[0] = codes;
             world.cells[index].origin = incoming.origin;
-            let effect = Effect::Stores {
-                attachment: index,
-                aspect: Aspect::Depth,
-                contents: world.cells[index],
-            };
-            let detail = || {
-                let depth = incoming.depth.hull();
-                format!("{depth} as {}", codes_text(encoding, codes))
-            };
-            let citation = || self.rules.store.citation.to_owned();
-            self.note_effect(notes, place, effect, "store depth", [&detail, &citation]);
+            let cell = world.cells[index];
+            self.note_effect(notes, place, self.rules.store.citation, Some(cell), || {
+                let step = Step::StoreDepth {
+                    depth: incoming.depth.hull().into(),
+                    codes: Codes::new(encoding, codes),
+                };
+                (Effect::Stores(self.target(index, Aspect::Depth)), step)
+            });
         } else if let Some(attachment) = pass.depth_stencil
             && self.scene.attachments[attachment].format.has_depth()
         {
-            let aspect = Aspect::Depth;
-            let effect = Effect::Keeps { attachment, aspect };
-            let detail = || match place.draw.depth {
-                Some(_) => "depth writes are off".to_owned(),
-                None => "without a depth test, nothing is written".to_owned(),
-            };
-            let citation = || self.rules.write_mask.to_owned();
-            self.note_effect(notes, place, effect, "keep depth", [&detail, &citation]);
+            self.note_effect(notes, place, self.rules.write_mask, None, || {
+                let tested = place.draw.depth.is_some();
+                let target = self.target(attachment, Aspect::Depth);
+                (Effect::Keeps(target), Step::KeepDepth { tested })
+            });
         }
     }
 
@@ -97,17 +94,12 @@ impl Walk<'_> {
         let mut judging = Judging::of_advanced_blends(self.rules);
         let value = advanced_blend(&mut judging, mode, encodings, src, dst);
         notes.add(
-            || place.name(),
-            "advanced blend",
-            || {
-                let text = |color: [Range; 4]| color.map(|v| v.hull().to_string()).join(", ");
-                format!(
-                    "{} of [{}] onto [{}] = [{}]",
-                    mode.name(),
-                    text(src),
-                    text(dst),
-                    text(value)
-                )
+            || place.origin(),
+            || Step::AdvancedBlend {
+                operation: mode.name().to_owned(),
+                src: src.map(ValueRange::from),
+                dst: dst.map(ValueRange::from),
+                result: value.map(ValueRange::from),
             },
             Some(self.rules.advanced_blend.citation),
         );
@@ -169,23 +161,20 @@ impl Walk<'_> {
                     };
                     let value = blend(&mut judging, state, all, &input);
                     notes.add(
-                        || place.name(),
-                        "blend",
+                        || place.origin(),
                         || {
-                            let side = |c: usize| {
+                            let channel = |c: usize| {
                                 let part = if c == 3 { state.alpha } else { state.color };
-                                format!(
-                                    "{}: {} × {} {} {} × {} = {}",
-                                    Aspect::Color.channel(c),
-                                    color[c].hull(),
-                                    part.src_factor.name(),
-                                    part.operation.name(),
-                                    dst[c].hull(),
-                                    part.dst_factor.name(),
-                                    value[c].hull()
-                                )
+                                BlendedChannel {
+                                    src: color[c].into(),
+                                    src_factor: part.src_factor.name().to_owned(),
+                                    operation: part.operation.name().to_owned(),
+                                    dst: dst[c].into(),
+                                    dst_factor: part.dst_factor.name().to_owned(),
+                                    result: value[c].into(),
+                                }
                             };
-                            [0, 1, 2, 3].map(side).join("; ")
+                            Step::Blend(Box::new([0, 1, 2, 3].map(channel)))
                         },
                         Some(self.rules.blend.citation),
                     );
@@ -196,11 +185,10 @@ impl Walk<'_> {
             if let Some(operation) = place.draw.logic.filter(|_| works) {
                 let before = *cell;
                 notes.add(
-                    || place.name(),
-                    "logic operation",
-                    || {
-                        let stored = self.cell_text(*index, &before);
-                        format!("{} onto {stored}", operation.name())
+                    || place.origin(),
+                    || Step::Logic {
+                        operation: operation.name().to_owned(),
+                        stored: self.contents(*index, Aspect::Color, &before),
                     },
                     None,
                 );
@@ -223,41 +211,33 @@ impl Walk<'_> {
                 }
             }
             let cell = *cell;
-            let contents = || self.cell_text(*index, &cell);
-            let (attachment_index, aspect) = (*index, Aspect::Color);
-            let name = &attachment.name;
+            let target_of = || self.target(*index, Aspect::Color);
+            let contents = || self.contents(*index, Aspect::Color, &cell);
+            let write_mask = target.write_mask;
             let written = target.write_mask & ((1 << encodings.len()) - 1);
             if written == 0 {
-                let effect = Effect::Keeps {
-                    attachment: attachment_index,
-                    aspect,
-                };
-                let detail = || {
-                    let mask = target.write_mask;
-                    format!("write mask {mask:#x}: {name} still holds {}", contents())
-                };
-                let citation = || self.rules.write_mask.to_owned();
-                self.note_effect(notes, place, effect, "keep color", [&detail, &citation]);
+                self.note_effect(notes, place, self.rules.write_mask, None, || {
+                    let step = Step::KeepColor {
+                        contents: contents(),
+                        write_mask,
+                    };
+                    (Effect::Keeps(target_of()), step)
+                });
                 continue;
             }
-            let effect = Effect::Stores {
-                attachment: attachment_index,
-                aspect,
-                contents: cell,
-            };
             let masked = written.count_ones() != encodings.len() as u32;
-            let detail = || {
-                let of = match masked {
-                    true => format!(" (write mask {:#x})", target.write_mask),
-                    false => String::new(),
+            let citation = if masked {
+                self.rules.write_mask
+            } else {
+                self.rules.store.citation
+            };
+            self.note_effect(notes, place, citation, Some(cell), || {
+                let step = Step::StoreColor {
+                    contents: contents(),
+                    write_mask: masked.then_some(write_mask),
                 };
-                format!("{name} holds {}{of}", contents())
-            };
-            let citation = || match masked {
-                true => self.rules.write_mask.to_owned(),
-                false => self.rules.store.citation.to_owned(),
-            };
-            self.note_effect(notes, place, effect, "store color", [&detail, &citation]);
+                (Effect::Stores(target_of()), step)
+            });
         }
     }
 }

@@ -2,7 +2,6 @@
 //! over the others.
 
 use crate::bins::PassSetup;
-use crate::clause::Rejection;
 use crate::context::PassContext;
 use crate::judging::all_codes;
 use crate::notes::{Note, Notes, Skipped};
@@ -15,8 +14,11 @@ use crate::snap::units_per_texel;
 use crate::states::Pictures;
 use crate::texels::Texels;
 use crate::undefined::Undefined;
-use crate::world::{Cell, Decision, World, Worlds, merge};
-use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
+use crate::world::{Decision, World, Worlds, merge};
+use etalon_frame::{
+    Aspect, ChannelEncoding, CodeInterval, Limits, Origin, ReadPath, Rejection, Step, TexelSet,
+    WorldBox,
+};
 use etalon_pipeline::Point;
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
@@ -93,15 +95,15 @@ pub(crate) struct Place<'a> {
 }
 
 impl Place<'_> {
-    pub(crate) fn name(&self) -> String {
-        let world = match self.world {
-            (0, _) => String::new(),
-            (one, all) => format!(", world {one} of {all}"),
-        };
-        format!(
-            "pass {}, draw {}, primitive {}{world}",
-            self.pass, self.draw_index, self.primitive_index
-        )
+    /// Returns the origin of the fragment's events.
+    pub(crate) fn origin(&self) -> Origin {
+        let (world, worlds) = self.world;
+        Origin::Fragment {
+            pass: self.pass,
+            draw: self.draw_index,
+            primitive: self.primitive_index as u32,
+            world: (world > 0).then_some([world, worlds]),
+        }
     }
 }
 
@@ -212,7 +214,12 @@ impl<'a> Walk<'a> {
             let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
             let is_own = shape == (at.size, at.samples);
             if !is_own && !pass.draws.is_empty() {
-                note_other_attachments(notes, p, shape);
+                let (size, samples) = shape;
+                notes.add(
+                    || Origin::Pass(p),
+                    || Step::OtherAttachments { size, samples },
+                    None,
+                );
             }
             if is_own {
                 self.load(p, &mut worlds, notes);
@@ -283,9 +290,10 @@ impl<'a> Walk<'a> {
             worlds.extend(before.into_iter().flatten());
             if !merge(&mut worlds) {
                 notes.add(
-                    || place.name(),
-                    "give up",
-                    || format!("{} worlds: the sample is open", worlds.len()),
+                    || place.origin(),
+                    || Step::GiveUp {
+                        worlds: worlds.len(),
+                    },
                     None,
                 );
                 return None;
@@ -364,22 +372,6 @@ impl<'a> Walk<'a> {
             (attachment.size, attachment.samples) == (at.size, at.samples)
         })
         .collect()
-    }
-
-    pub(crate) fn cell_text(&self, attachment: usize, cell: &Cell) -> String {
-        let format = self.scene.attachments[attachment].format;
-        let mut parts = Vec::new();
-        for (c, encoding) in format.color_channels().iter().enumerate() {
-            parts.push(codes_text(*encoding, cell.channels[c]));
-        }
-        if format.has_depth() {
-            let encoding = self.depth_encoding(attachment);
-            parts.push(format!("depth {}", codes_text(encoding, cell.channels[0])));
-        }
-        if format.has_stencil() {
-            parts.push(format!("stencil {}", cell.stencil));
-        }
-        parts.join(", ")
     }
 
     /// Returns the sides of a triangle's edges on which a sample lies; of other shapes, nothing is known.
@@ -478,24 +470,16 @@ impl<'a> Walk<'a> {
                     }
                     self.open_undefined(*index, *aspect, &mut channels[first..]);
                 }
-                let how = match self.read_encoding(*index, Aspect::Depth).1 {
-                    ReadPath::Shader if attachment.format.has_depth() => {
-                        ", its depth read by a shader"
-                    }
-                    _ => "",
-                };
+                let depth_by_shader = attachment.format.has_depth()
+                    && self.read_encoding(*index, Aspect::Depth).1 == ReadPath::Shader;
                 notes.add(
-                    || match worlds.len() {
-                        1 => "at the end".to_owned(),
-                        n => format!("at the end, world {} of {n}", w + 1),
+                    || Origin::End {
+                        world: (worlds.len() > 1).then_some([w + 1, worlds.len()]),
                     },
-                    "read back",
-                    || {
-                        format!(
-                            "{} holds {}{how}",
-                            attachment.name,
-                            self.cell_text(*index, cell)
-                        )
+                    || Step::ReadBack {
+                        attachment: attachment.name.clone(),
+                        contents: self.all_contents(*index, cell),
+                        depth_by_shader,
                     },
                     None,
                 );
@@ -589,41 +573,4 @@ pub(crate) fn resolved(
     });
     let mut worlds: Worlds = each.collect();
     merge(&mut worlds).then_some(worlds)
-}
-
-/// Notes that no draw of a pass concerns the sample.
-fn note_other_attachments(
-    notes: &mut Notes<'_>,
-    pass: usize,
-    ([width, height], samples): ([u32; 2], u32),
-) {
-    notes.add(
-        || format!("pass {pass}"),
-        "attachments",
-        || {
-            let samples = match samples {
-                1 => String::new(),
-                n => format!(" with {n} samples"),
-            };
-            format!("others: of {width} by {height} texels{samples}")
-        },
-        None,
-    );
-}
-
-/// Returns codes as stories tell them: of a float its value, of wide codes both.
-pub fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {
-    // Codes, but of a float its value. Of many codes, the value tells more than the number.
-    let text = |order: i64| match encoding {
-        ChannelEncoding::Unorm(9..) | ChannelEncoding::Snorm(9..) => {
-            format!("{order} ({})", encoding.value_of_order(order) as f32)
-        }
-        _ if encoding.is_float() => format!("{:?}", encoding.value_of_order(order) as f32),
-        _ => order.to_string(),
-    };
-    if codes.is_exact() {
-        text(codes.low)
-    } else {
-        format!("{}..{}", text(codes.low), text(codes.high))
-    }
 }

@@ -43,7 +43,7 @@ pub(crate) type Worlds = SmallVec<[World; 1]>;
 
 /// An event that a counter counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) struct Event {
+pub(crate) struct Increment {
     /// The counter, by its place in the scene.
     pub(crate) counter: u16,
     /// The draw and the primitive whose fragment counts.
@@ -83,7 +83,7 @@ pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,
     pub(crate) decisions: Vec<(Decision, bool)>,
     /// The events so far, in order.
-    pub(crate) events: Vec<Event>,
+    pub(crate) events: Vec<Increment>,
 }
 
 impl Clone for World {

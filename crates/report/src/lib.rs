@@ -53,4 +53,4 @@ pub use run::{
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;
 pub use versions::{versions_table, write_versions};
-pub use words::plain;
+pub use words::{EventLine, judged_by, operations, operations_text, plain, sentence, story_text};

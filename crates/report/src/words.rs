@@ -1,14 +1,19 @@
 //! Verdicts, records and texels in words; shared by all reports.
 
+mod event;
 mod header;
 mod plain;
 mod record;
+mod story;
 mod texel;
+mod value;
 mod verdict;
 
+pub use event::EventLine;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;
 pub(crate) use record::{headline, process_end};
+pub use story::{judged_by, operations, operations_text, sentence, story_text};
 pub(crate) use texel::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, value_text,
 };

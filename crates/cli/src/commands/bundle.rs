@@ -21,6 +21,7 @@ use etalon_explore::states;
 use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Record, Source};
+use etalon_report::story_text;
 use etalon_runner::{Launch, Recorded, Worker};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -292,11 +293,11 @@ impl Reduced<'_> {
         let shown = self.shown(evidence);
         let record = &evidence.judged.record;
         let known = finding.map(|f| f.clause.clone()).filter(|c| !c.is_empty());
-        let story = record.story.iter().map(ToString::to_string);
+        let story = record.story.iter().map(story_text);
         Report {
             title: self.title(finding),
             sentence: shown.sentence(),
-            clause: known.or_else(|| shown.clause().map(str::to_owned)),
+            clause: known.or_else(|| shown.clause()),
             device: self.device.clone(),
             machine: {
                 let machine = provenance::machine();
@@ -577,8 +578,8 @@ fn expected(record: &Record) -> Vec<Expected> {
 fn search(adapter: &AdapterRecord, symptom: &Symptom) -> Vec<String> {
     let driver = adapter.device.split([' ', '(']).next().unwrap_or_default();
     let mut words = vec![driver.to_owned()];
-    words.extend(symptom.operations.iter().cloned());
-    words.push(symptom.last.clone());
+    let operations = symptom.operations.iter().chain(&symptom.last);
+    words.extend(operations.map(|o| o.name().to_owned()));
     words.retain(|word| !word.is_empty());
     words.dedup();
     words

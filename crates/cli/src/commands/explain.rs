@@ -9,9 +9,10 @@ use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Story, WrongTexel};
+use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Ruling, Story, WrongTexel};
 use etalon_judge::{judge_texel, story_of_relation, story_of_sample};
 use etalon_reference::{Rules, Sample};
+use etalon_report::{judged_by, operations_text, sentence, story_text};
 use etalon_scene::Scene;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -104,7 +105,6 @@ struct Asked<'a> {
 
 /// The story of one or more samples, which all have the same.
 struct Told {
-    samples: Vec<u32>,
     story: Story,
     band: Option<Band>,
 }
@@ -141,7 +141,6 @@ impl Asked<'_> {
             sections.push(Section {
                 heading: Some("pictures that must be the same".to_owned()),
                 told: vec![Told {
-                    samples: Vec::new(),
                     story,
                     band: Some(band),
                 }],
@@ -265,22 +264,14 @@ impl Asked<'_> {
                 let band = band(&at);
                 let frame = self.frames.get(index);
                 let story = story_of_sample(self.case, index, by, at, (frame, band));
-                let same = |other: &&mut Told| {
-                    let rest = |s: &Story| s.verdict().map(|v| v.detail.clone());
-                    rest(&other.story) == rest(&story)
-                        && other.story.operations() == story.operations()
-                };
-                match told[from..].iter_mut().find(same) {
-                    Some(other) => other.samples.push(sample),
-                    None => told.push(Told {
-                        samples: vec![sample],
-                        story,
-                        band,
-                    }),
+                match told[from..].iter_mut().find(|other| other.is_alike(&story)) {
+                    Some(Told { story: other, .. }) => {
+                        if let Some(ruling) = &mut other.ruling {
+                            ruling.samples.push(sample);
+                        }
+                    }
+                    None => told.push(Told { story, band }),
                 }
-            }
-            for one in &mut told[from..] {
-                one.name_samples([x, y]);
             }
         }
         told
@@ -288,20 +279,17 @@ impl Asked<'_> {
 }
 
 impl Told {
-    /// Names all samples in the verdict: `samples 0, 1 and 3 of texel 1,1`.
-    fn name_samples(&mut self, [x, y]: [u32; 2]) {
-        let Some((last, before)) = self.samples.split_last() else {
-            return;
-        };
-        if before.is_empty() {
-            return;
-        }
-        let before: Vec<String> = before.iter().map(u32::to_string).collect();
-        let all = format!("samples {} and {last} of texel {x},{y}", before.join(", "));
-        if let Some(verdict) = self.story.verdict_mut() {
-            let start = verdict.at.find("sample ").unwrap_or(0);
-            verdict.at.replace_range(start.., &all);
-        }
+    /// True if another sample has the same story.
+    fn is_alike(&self, story: &Story) -> bool {
+        let ruling = story.ruling.as_ref().zip(self.story.ruling.as_ref());
+        let same = ruling.is_some_and(|(ruling, mine)| {
+            let mine = Ruling {
+                samples: ruling.samples.clone(),
+                ..mine.clone()
+            };
+            *ruling == mine
+        });
+        same && self.story.events == story.events
     }
 }
 
@@ -327,11 +315,9 @@ impl Explanation {
         let first = all().find(|t| t.band == worst);
         let mut text = String::new();
         // Writing to a string cannot fail.
-        if let Some(line) = first.and_then(|t| t.story.verdict()) {
-            let _ = writeln!(text, "{} {}", line.at, line.detail);
-            if let Some(judged_by) = &line.citation {
-                let _ = writeln!(text, "{judged_by}");
-            }
+        let lines = first.map(|t| [sentence(&t.story), judged_by(&t.story)]);
+        for line in lines.into_iter().flatten().flatten() {
+            let _ = writeln!(text, "{line}");
         }
         let _ = writeln!(text, "\n{}\n{}", case.id, case.about);
         let alone = all().count() == 1 && self.sections.len() == 1;
@@ -344,14 +330,11 @@ impl Explanation {
                 if i > 0 {
                     text.push('\n');
                 }
-                if alone {
-                    let story = Story {
-                        lines: one.story.operations().to_vec(),
-                    };
-                    let _ = write!(text, "{story}");
+                text.push_str(&if alone {
+                    operations_text(&one.story)
                 } else {
-                    let _ = write!(text, "{}", one.story);
-                }
+                    story_text(&one.story)
+                });
             }
             for line in &section.counters.0 {
                 let _ = writeln!(text, "{line}");

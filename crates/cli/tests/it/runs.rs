@@ -101,8 +101,11 @@ fn every_selftest_fails_for_a_stated_reason() {
                 continue;
             }
             let story = record.story.as_ref().unwrap();
-            assert!(!story.lines.is_empty(), "{record:?}");
-            assert!(story.lines.iter().any(|l| l.citation.is_some()), "{story}");
+            assert!(!story.events.is_empty(), "{record:?}");
+            assert!(
+                story.events.iter().any(|e| e.citation.is_some()),
+                "{story:?}"
+            );
             let frame = record.frame.as_ref().unwrap();
             let frame = Run::read_frame(out.path(), frame).unwrap();
             assert_eq!(

@@ -2,7 +2,8 @@
 
 use etalon_frame::{
     Accuracy, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome,
-    Distance, Limits, Story, StoryLine, TexelCounts, WrongTexel,
+    DepthTest, Distance, Effect, Event, Limits, Origin, Rejection, SceneName, Step, Story,
+    TexelCounts, ToldLine, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
@@ -70,9 +71,29 @@ fn wrong_texel(attachment: String, x: u32, code: u32) -> WrongTexel {
 }
 
 prop_compose! {
-    fn story()(lines in prop::collection::vec((".*", ".{0,40}", ".*", prop::option::of(".*")), 0..4)) -> Story {
-        let line = |(at, operation, detail, citation)| StoryLine { at, operation, detail, citation };
-        Story { lines: lines.into_iter().map(line).collect() }
+    fn story()(
+        lines in prop::collection::vec((".*", ".{0,40}", ".*", prop::option::of(".*")), 0..4),
+        events in prop::collection::vec((any::<[usize; 2]>(), ".*", any::<[f64; 2]>(), prop::option::of(".*")), 0..4),
+        cut in any::<bool>(),
+    ) -> Story {
+        let line = |(at, operation, detail, citation)| ToldLine { at, operation, detail, citation };
+        let event = |([pass, draw], compare, [low, high], citation): (_, String, [f64; 2], _)| Event {
+            scene: Some(SceneName::Variant(compare.clone())),
+            origin: Origin::Draw { pass, draw, primitives: vec![0] },
+            step: Step::DepthTest(DepthTest::Compared {
+                compare,
+                incoming: ValueRange { low, high },
+                stored: ValueRange { low: f64::NEG_INFINITY, high: f64::INFINITY },
+            }),
+            effect: Effect::Rejects(Rejection::Depth),
+            citation,
+        };
+        Story {
+            ruling: None,
+            events: events.into_iter().map(event).collect(),
+            cut,
+            told: lines.into_iter().map(line).collect(),
+        }
     }
 }
 
@@ -467,11 +488,12 @@ fn frames_come_back_and_do_not_leave_the_folder() {
 fn long_records_are_shortened_in_order() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
-    let line = StoryLine {
-        at: "draw 0".to_owned(),
-        operation: "blend".to_owned(),
-        detail: "d".repeat(500),
-        citation: None,
+    let event = Event {
+        scene: None,
+        origin: Origin::Pass(0),
+        step: Step::ClearElsewhere,
+        effect: Effect::None,
+        citation: Some("c".repeat(500)),
     };
     let lengths = [(100, 50, 10, 0), (1, 50, 500, 0), (64, 400, 500, 300_000)];
     for (i, (texels, name, lines, message)) in lengths.into_iter().enumerate() {
@@ -479,7 +501,8 @@ fn long_records_are_shortened_in_order() {
         let texel = |x| wrong_texel("n".repeat(name), x, 9);
         record.wrong = (0..texels).map(texel).collect();
         record.story = Some(Story {
-            lines: vec![line.clone(); lines],
+            events: vec![event.clone(); lines],
+            ..Story::default()
         });
         record.message = "ü".repeat(message) + "end";
         writer.append(&record).unwrap();
@@ -487,7 +510,7 @@ fn long_records_are_shortened_in_order() {
     let text = fs::read_to_string(folder.path().join("run.jsonl")).unwrap();
     assert!(text.lines().all(|l| l.len() < MAX_LINE));
     let run = Run::read(folder.path()).unwrap();
-    let story = |i: usize| run.records[i].story.as_ref().map_or(0, |s| s.lines.len());
+    let story = |i: usize| run.records[i].story.as_ref().map_or(0, |s| s.events.len());
     assert_eq!(
         (run.records[0].wrong.len(), story(0)),
         (MAX_WRONG_TEXELS, 10)

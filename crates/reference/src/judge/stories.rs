@@ -1,12 +1,11 @@
 //! Stories of scenes made by chance: nothing is skipped in silence, and no rejection is told that was none.
 
-use super::told;
-use crate::notes::Effect;
+use super::explained;
 use crate::rules::Rules;
 use crate::sample::Sample;
 use crate::test_limits;
 use etalon_case::{CaseFile, Profile};
-use etalon_frame::{Api, Limits, Story};
+use etalon_frame::{Api, Demand, Effect, Limits, Origin, Rejection};
 use etalon_scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -116,38 +115,36 @@ proptest! {
             false => Rules::of(&limits),
         };
         let at = Sample { size: [4, 4], samples, x, y, sample: sample % samples };
-        let (set, lines, notes) = told(&scene, &limits, &rules, at, None);
+        let (set, ruling, notes) = explained(&scene, &limits, &rules, at, None);
         if set.is_open() {
             return Ok(());
         }
         for (d, draw) in scene.passes[0].draws.iter().enumerate() {
-            let own = || notes.iter().filter(|n| {
-                n.effect != Effect::Plain && n.origin.as_ref().is_some_and(|o| o.draw == d)
+            let events = || notes.iter().map(|note| &note.event).filter(|e| {
+                !e.effect.is_none() && e.origin.draw().is_some_and(|(_, draw)| draw == d)
             });
             for primitive in 0..draw.primitives().len() as u32 {
-                let mut of_primitive = own().filter_map(|n| n.origin.as_ref());
                 prop_assert!(
-                    of_primitive.any(|o| o.primitives.is_empty() || o.primitives.contains(&primitive)),
-                    "primitive {primitive} of draw {d} at {at:?} is not explained:\n{}",
-                    Story { lines: notes.iter().map(|n| n.line.clone()).collect() }
+                    events().any(|e| e.origin.includes(primitive)),
+                    "primitive {primitive} of draw {d} at {at:?} is not explained:\n{notes:#?}"
                 );
             }
-            // A draw of which only ends are told does nothing: without it, the same is legal.
-            let ends = |n: &crate::notes::Note| {
-                matches!(n.effect, Effect::Rejects(_) | Effect::Keeps { .. })
-            };
-            if own().all(ends) {
+            // A draw that only ends does nothing: without it, the same is legal.
+            if events().all(|e| matches!(e.effect, Effect::Rejects(_) | Effect::Keeps(_))) {
                 let mut without = scene.clone();
                 without.passes[0].draws.remove(d);
-                let (other, ..) = told(&without, &limits, &rules, at, None);
+                let (other, ..) = explained(&without, &limits, &rules, at, None);
                 prop_assert_eq!(sorted(&set), sorted(&other), "draw {} at {:?}", d, at);
             }
         }
-        for note in notes.iter().filter(|n| n.effect != Effect::Plain) {
-            let cited = note.line.citation.as_ref().is_some_and(|c| c.contains(':'));
+        for note in notes.iter().filter(|n| !n.event.effect.is_none()) {
+            let cited = note.event.citation.as_ref().is_some_and(|c| c.contains(':'));
             prop_assert!(cited, "no clause: {:?}", note);
         }
-        prop_assert!(lines.len() == 1 && !lines[0].detail.is_empty());
+        match ruling.demand {
+            Demand::Values(values) => prop_assert!(!values.allowed.is_empty()),
+            demand => prop_assert!(false, "{:?}", demand),
+        }
     }
 }
 
@@ -159,7 +156,7 @@ fn sorted(set: &etalon_frame::TexelSet) -> Vec<etalon_frame::WorldBox> {
 }
 
 #[test]
-fn a_mesh_elsewhere_is_told_in_one_line() {
+fn a_mesh_elsewhere_is_one_event() {
     let mut positions = Vec::new();
     for i in 0..1000 {
         let x = -1.0 + f64::from(i) / 2000.0;
@@ -180,11 +177,16 @@ fn a_mesh_elsewhere_is_told_in_one_line() {
         y: 1,
         sample: 0,
     };
-    let (_, _, notes) = told(&scene, &limits, &Rules::of(&limits), at, None);
-    let details: Vec<&str> = notes.iter().map(|n| n.line.detail.as_str()).collect();
-    assert!(notes.len() < 12, "{details:#?}");
+    let (_, _, notes) = explained(&scene, &limits, &Rules::of(&limits), at, None);
+    assert!(notes.len() < 12, "{notes:#?}");
+    let elsewhere = Origin::Draw {
+        pass: 0,
+        draw: 0,
+        primitives: (0..1000).collect(),
+    };
+    let mut events = notes.iter().map(|note| &note.event);
     assert!(
-        details.contains(&"primitives 0 to 999 do not cover the sample"),
-        "{details:#?}"
+        events.any(|e| e.origin == elsewhere && e.effect == Effect::Rejects(Rejection::Coverage)),
+        "{notes:#?}"
     );
 }

@@ -2,7 +2,10 @@ use super::{Sample, explain, judge};
 use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
-use etalon_frame::{Api, ApiVersion, ChannelEncoding, Limits};
+use etalon_frame::{
+    Api, ApiVersion, ChannelEncoding, DepthTest, Effect, Limits, Operation, Rejection, Step,
+    ValueRange,
+};
 use etalon_scene::Scene;
 
 fn case(text: &str) -> Case {
@@ -161,12 +164,21 @@ fn a_story_names_operations_and_citations() {
         sample: 0,
     };
     let story = explain(&scene, &limits, &Rules::of(&limits), at, None);
-    let test = story
-        .lines
-        .iter()
-        .find(|l| l.operation == "depth test")
+    let mut events = story.events.iter();
+    let test = events
+        .find(|e| e.operation() == Operation::DepthTest)
         .expect("a depth test");
-    assert_eq!(test.detail, "0.5 less stored 0.25 is false");
+    let exact = |value| ValueRange {
+        low: value,
+        high: value,
+    };
+    let compared = DepthTest::Compared {
+        compare: "less".to_owned(),
+        incoming: exact(0.5),
+        stored: exact(0.25),
+    };
+    assert_eq!(test.step, Step::DepthTest(compared));
+    assert_eq!(test.effect, Effect::Rejects(Rejection::Depth));
     assert!(test.citation.as_ref().is_some_and(|c| c.contains("Depth")));
 }
 
@@ -182,16 +194,25 @@ fn a_story_tells_which_stencil_reference_counts() {
         r#"{COLOR},"depth":{{"format":"stencil8","clear":5}},"t":{{"format":"rgba32float","texels":{{"kind":"rows",
            "values":[[300,0,0,1],[300,0,0,1],[300,0,0,1],[300,0,0,1]]}}}}"#
     );
-    let told = [
-        (
-            "implicit",
-            "the shader writes 300, of which the lowest 8 bits count, 44, in place of the draw's 9",
-            "exported reference 44 greater stored 5 under read mask 0xff passes",
-        ),
+    let test = |reference, exported| Step::StencilTest {
+        reference,
+        exported,
+        compare: "greater".to_owned(),
+        stored: 5,
+        read_mask: 0xff,
+        depth_fails: false,
+    };
+    let written = Step::StencilExport {
+        written: 300,
+        reference: 44,
+        draw: 9,
+    };
+    let steps = [
+        ("implicit", written, test(44, true)),
         (
             "forced",
-            "forced tests come before the shader: the draw's 9 counts",
-            "reference 9 greater stored 5 under read mask 0xff passes",
+            Step::LateStencilExport { draw: 9 },
+            test(9, false),
         ),
     ];
     let at = Sample {
@@ -203,15 +224,17 @@ fn a_story_tells_which_stencil_reference_counts() {
     };
     for api in [Api::Vulkan, Api::OpenGl] {
         let limits = limits(api);
-        for (early, export, test) in told {
+        for (early, export, test) in &steps {
             let scene = scene(&attachments, &draw(early), r#""depth""#);
             let story = explain(&scene, &limits, &Rules::of(&limits), at, None);
-            let line = |operation: &str| {
-                let mut lines = story.lines.iter();
-                lines.find(|l| l.operation == operation).map(|l| &*l.detail)
+            let event = |operation: Operation| {
+                let mut events = story.events.iter();
+                events.find(|e| e.operation() == operation)
             };
-            assert_eq!(line("stencil export"), Some(export));
-            assert_eq!(line("stencil test"), Some(test));
+            let export_event = event(Operation::StencilExport).expect("an export");
+            let test_event = event(Operation::StencilTest).expect("a test");
+            assert_eq!((&export_event.step, &test_event.step), (export, test));
+            assert!(test_event.effect.is_none(), "it passes");
         }
     }
 }

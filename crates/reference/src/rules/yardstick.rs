@@ -6,6 +6,16 @@ use super::permission::{
 };
 use etalon_frame::{Api, Limits};
 
+/// The name of the band's rules.
+const YARDSTICK: &str = "yardstick";
+
+impl Rules {
+    /// True if these rules demand quality and not legality.
+    pub fn is_yardstick(&self) -> bool {
+        self.name == YARDSTICK
+    }
+}
+
 /// Returns the band for an adapter; `text` are the permissions of its API, which the band does not forbid
 /// where Direct3D asks for something else.
 pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
@@ -16,7 +26,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         _ => Snap::Nearest,
     };
     Rules {
-        name: "yardstick",
+        name: YARDSTICK,
         text: "the yardstick",
         // Two units in the last place of a 32-bit float: one rounding each of operand and result.
         float_error: permit(

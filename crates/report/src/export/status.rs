@@ -1,7 +1,7 @@
 //! The conclusion of a record in files for other programs, and the texts beside its verdict.
 
 use crate::numbers::count;
-use crate::words::{name, plain, process_end, repetitions};
+use crate::words::{name, plain, process_end, repetitions, story_text};
 use etalon_record::{Record, Run, Verdict};
 
 /// The conclusion that continuous integration draws from a record.
@@ -129,7 +129,7 @@ pub(crate) fn account(record: &Record) -> String {
         ));
     }
     if let Some(story) = &record.story {
-        parts.push(story.to_string());
+        parts.push(story_text(story));
     }
     if let Some(frame) = &record.frame {
         parts.push(format!("frame: {frame}"));

@@ -1,10 +1,10 @@
 //! Records in one sentence.
 
 use super::plain::plain;
+use super::story::sentence;
 use super::texel::{multisampled, texel_line};
 use super::verdict::{Tone, meaning, name};
 use crate::numbers::duration;
-use etalon_frame::Story;
 use etalon_record::{LossKind, ProcessEnd, Record};
 
 /// The loss of a process in one sentence.
@@ -62,8 +62,8 @@ pub(crate) fn headline(record: &Record) -> String {
             format!("{}, but the selftest is due to fail", name(record.verdict))
         }
         (Some(texel), _) if record.verdict.is_judged() => {
-            let told = record.story.as_ref().and_then(Story::sentence);
-            told.unwrap_or_else(|| texel_line(texel, multisampled(record)))
+            let sentence = record.story.as_ref().and_then(sentence);
+            sentence.unwrap_or_else(|| texel_line(texel, multisampled(record)))
         }
         (_, Some(line)) => line.trim().to_owned(),
         (Some(texel), None) => texel_line(texel, multisampled(record)),

@@ -1,7 +1,7 @@
 //! Reports made from run folders: their structure, their size, and what hostile names do to them.
 
 use crate::synthetic::{self, adapter, header};
-use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, StoryLine};
+use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, ToldLine};
 use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
 use etalon_report::{TableOptions, Written, table, write};
 use roxmltree::{Document, Node};
@@ -174,12 +174,13 @@ fn hostile_names_stay_text() {
     let mut record = synthetic::record(&writer, &id, hostile, Verdict::Fail, 1);
     record.message = hostile.to_owned();
     record.story = Some(Story {
-        lines: vec![StoryLine {
+        told: vec![ToldLine {
             at: hostile.to_owned(),
             operation: hostile.to_owned(),
             detail: hostile.to_owned(),
             citation: Some(hostile.to_owned()),
         }],
+        ..Story::default()
     });
     record.wrong[0].channels[0].attachment = hostile.to_owned();
     writer.append(&record).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::runs_made::{Two, one_adapter, record_all, rich};
 use crate::synthetic::{self, adapter, header};
-use etalon_frame::{Api, CounterKind, CounterOutcome, Story, StoryLine};
+use etalon_frame::{Api, CounterKind, CounterOutcome, Story, ToldLine};
 use etalon_record::{
     Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Shard, Verdict, selection_digest,
     shard_of,
@@ -122,12 +122,13 @@ fn times_messages_and_stories_are_no_change() {
         r.measured.as_mut().unwrap().time.as_mut().unwrap().wall = 1.0;
         r.message = "at 0x7ffd1234".to_owned();
         r.story = Some(Story {
-            lines: vec![StoryLine {
+            told: vec![ToldLine {
                 at: "pass 0".to_owned(),
                 operation: "clear".to_owned(),
                 detail: "in other words".to_owned(),
                 citation: None,
             }],
+            ..Story::default()
         });
     });
     assert_eq!(same, None);

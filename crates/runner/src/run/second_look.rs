@@ -8,7 +8,6 @@ use crate::process::WorkerProcess;
 use crate::supervisor::start;
 use crate::sync::lock;
 use etalon_diagnose::Symptom;
-use etalon_judge::tell_chain;
 use etalon_record::{LossKind, Verdict};
 use std::time::{Duration, Instant};
 
@@ -61,7 +60,10 @@ pub(super) fn confirm(
             Cause::Cases(cases) => {
                 let named = cases.iter().take(MAX_NAMED);
                 first.record.after = named.map(|n| run.case(*n).id.clone()).collect();
-                tell_chain(&mut first.record);
+                let story = first.record.story.as_mut();
+                if let Some(ruling) = story.and_then(|story| story.ruling.as_mut()) {
+                    ruling.after.clone_from(&first.record.after);
+                }
                 first.record.message = format!(
                     "only after {} in the same process: {}",
                     match cases.len() {

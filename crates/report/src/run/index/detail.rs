@@ -6,8 +6,8 @@ use crate::numbers::count;
 use crate::page::link;
 use crate::picture::{self, Strip};
 use crate::words::{
-    allowed, channel_of, code_and_value, code_text, multisampled, place, process_end, repetitions,
-    value_text,
+    allowed, channel_of, code_and_value, code_text, judged_by, multisampled, operations, place,
+    process_end, repetitions, sentence, value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, RecordError, Run};
@@ -68,7 +68,7 @@ pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) 
         }
         @if !record.counters.is_empty() { (counters(record)) }
         @if !record.wrong.is_empty() { (texels(record)) }
-        @if let Some(story) = &record.story { (operations(story, record)) }
+        @if let Some(story) = &record.story { (story_section(story, record)) }
         @if !record.wrong.is_empty() {
             p.again { "Explain it: " code { (command::explain(record)) } }
             @if record.adapter != "cpu" {
@@ -233,24 +233,26 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
     }
 }
 
-/// The verdict as a heading, the text that it follows from, and the operations.
-fn operations(story: &Story, record: &Record) -> Markup {
-    let mut at = "";
+/// The ruling as a heading, the text that it follows from, and the operations.
+fn story_section(story: &Story, record: &Record) -> Markup {
+    let lines = operations(story);
     html! {
-        @match (story.sentence(), record.wrong.first()) {
+        @match (sentence(story), record.wrong.first()) {
             (Some(sentence), _) => h5 { (sentence) },
             (None, Some(texel)) => h5 { "Expected operations at " (place(texel, multisampled(record))) },
             (None, None) => h5 { "Expected operations" },
         }
-        @if let Some(judged_by) = story.verdict().and_then(|v| v.citation.as_ref()) {
+        @if let Some(judged_by) = judged_by(story) {
             p.note { (judged_by) }
         }
         ol.story {
-            @for line in story.operations() {
-                @if line.at != at { li.at { ({ at = &line.at; at }) } }
-                li {
-                    b { (line.operation) } ": " (line.detail)
-                    @if let Some(citation) = &line.citation { " " cite { "[" (citation) "]" } }
+            @for group in lines.chunk_by(|a, b| a.at == b.at) {
+                li.at { (group[0].at) }
+                @for line in group {
+                    li {
+                        b { (line.operation) } ": " (line.detail)
+                        @if let Some(citation) = &line.citation { " " cite { "[" (citation) "]" } }
+                    }
                 }
             }
         }

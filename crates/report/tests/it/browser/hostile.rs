@@ -2,7 +2,9 @@
 
 use super::driver::Chromium;
 use crate::synthetic::{self, adapter, header};
-use etalon_frame::{Api, Story, StoryLine};
+use etalon_frame::{
+    Api, Aspect, Contents, Effect, Event, Origin, SceneName, Step, Story, ToldLine,
+};
 use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Verdict};
 
 /// Texts that would run as a script, each alone and all of them together.
@@ -147,12 +149,24 @@ fn record(writer: &RunWriter, id: &str, name: &str, verdict: Verdict, all: &str)
         record.frame = Some("javascript:window.hacked=9".to_owned());
         record.wrong[0].channels[0].attachment = all.to_owned();
         record.story = Some(Story {
-            lines: vec![StoryLine {
+            told: vec![ToldLine {
                 at: all.to_owned(),
                 operation: all.to_owned(),
                 detail: all.to_owned(),
                 citation: Some(all.to_owned()),
             }],
+            events: vec![Event {
+                scene: Some(SceneName::Variant(all.to_owned())),
+                origin: Origin::Attachment(all.to_owned()),
+                step: Step::Upload(vec![Contents {
+                    attachment: all.to_owned(),
+                    aspect: Aspect::Stencil,
+                    codes: Vec::new(),
+                }]),
+                effect: Effect::None,
+                citation: Some(all.to_owned()),
+            }],
+            ..Story::default()
         });
     }
     record

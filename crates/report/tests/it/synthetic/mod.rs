@@ -4,8 +4,9 @@ pub(crate) mod large;
 pub(crate) mod methods;
 
 use etalon_frame::{
-    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, Feature, FormatSupport, Limits, ReadPath,
-    Story, StoryLine, TextureFormat, WrongTexel,
+    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CodeInterval, Codes, Contents, DepthTest,
+    Effect, Event, Feature, FormatSupport, Limits, Origin, ReadPath, Rejection, Step, Story,
+    TextureFormat, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header,
@@ -269,29 +270,71 @@ pub(crate) fn record(
 }
 
 fn story() -> Story {
-    let line = |at: &str, operation: &str, detail: &str, citation: Option<&str>| StoryLine {
-        at: at.to_owned(),
-        operation: operation.to_owned(),
-        detail: detail.to_owned(),
+    let event = |origin, step, effect, citation: Option<&str>| Event {
+        scene: None,
+        origin,
+        step,
+        effect,
         citation: citation.map(str::to_owned),
     };
+    let fragment = || Origin::Fragment {
+        pass: 0,
+        draw: 1,
+        primitive: 0,
+        world: None,
+    };
+    let black = || {
+        let zero = CodeInterval::exact(0);
+        Contents {
+            attachment: "color".to_owned(),
+            aspect: Aspect::Color,
+            codes: Codes::of_channels(&[ChannelEncoding::Unorm(8); 4], [zero; 4]),
+        }
+    };
+    let exact = |value| ValueRange {
+        low: value,
+        high: value,
+    };
+    let test = Step::DepthTest(DepthTest::Compared {
+        compare: "less".to_owned(),
+        incoming: exact(0.5),
+        stored: exact(0.25),
+    });
     Story {
-        lines: vec![
-            line("pass 0", "clear", "color is [0, 0, 0, 0], depth is 1", None),
-            line(
-                "pass 0, draw 1, primitive 0",
-                "coverage",
-                "the sample at (0.5, 0.5) is inside",
+        events: vec![
+            event(
+                Origin::Load(0),
+                Step::Clear(vec![black()]),
+                Effect::None,
+                None,
+            ),
+            event(
+                fragment(),
+                Step::Culling {
+                    front: true,
+                    mode: "none".to_owned(),
+                },
+                Effect::None,
                 Some("Vulkan: Basic Polygon Rasterization"),
             ),
-            line(
-                "pass 0, draw 1, primitive 0",
-                "depth test",
-                "0.5 less 0.25 is false: the fragment ends here",
+            event(
+                fragment(),
+                test,
+                Effect::Rejects(Rejection::Depth),
                 Some("OpenGL 4.6: 17.3.4"),
             ),
-            line("read", "store", "color must stay [0, 0, 0, 0]", None),
+            event(
+                Origin::End { world: None },
+                Step::ReadBack {
+                    attachment: "color".to_owned(),
+                    contents: vec![black()],
+                    depth_by_shader: false,
+                },
+                Effect::None,
+                None,
+            ),
         ],
+        ..Story::default()
     }
 }
 

@@ -1,0 +1,539 @@
+//! The events of a story: operations of the reference on one sample, with their values and their effect.
+//!
+//! Names of functions, factors, operations, modes and shaders are those of the scene's types, which this crate does not
+//! know.
+
+use crate::contents::{Codes, Contents, ValueRange};
+use crate::format::Aspect;
+use crate::story::Ruling;
+use serde::{Deserialize, Serialize};
+
+/// One operation on one sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Event {
+    /// The scene, in a story that holds several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneName>,
+    /// The part of the scene that causes the operation.
+    pub origin: Origin,
+    /// The operation with its values.
+    pub step: Step,
+    /// The effect on the sample.
+    #[serde(default, skip_serializing_if = "Effect::is_none")]
+    pub effect: Effect,
+    /// The section of the specification that permits or demands the outcome.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub citation: Option<String>,
+}
+
+/// One of a case's scenes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SceneName {
+    /// The case's own.
+    Own,
+    /// That of a variant.
+    Variant(String),
+}
+
+/// One of two pictures that must be the same.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Side {
+    /// The picture of a scene.
+    Scene(SceneName),
+    /// An attachment of one scene.
+    Attachment(String),
+}
+
+/// The part of a scene that causes an operation. Passes, draws and primitives are counted from 0.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Origin {
+    /// The first contents of an attachment.
+    Attachment(String),
+    /// A pass.
+    Pass(usize),
+    /// The load operations of a pass.
+    Load(usize),
+    /// The clear commands before a draw of a pass.
+    BeforeDraw {
+        /// The pass.
+        pass: usize,
+        /// The draw.
+        draw: usize,
+    },
+    /// The clear commands at the end of a pass.
+    PassEnd(usize),
+    /// The resolves and store operations after a pass.
+    AfterPass(usize),
+    /// A draw, or some of its primitives.
+    Draw {
+        /// The pass.
+        pass: usize,
+        /// The draw.
+        draw: usize,
+        /// The primitives in order; empty for all.
+        primitives: Vec<u32>,
+    },
+    /// A primitive's fragment at the sample.
+    Fragment {
+        /// The pass.
+        pass: usize,
+        /// The draw.
+        draw: usize,
+        /// The primitive.
+        primitive: u32,
+        /// The number of the world, from 1, and the number of worlds; `None` if there is one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        world: Option<[usize; 2]>,
+    },
+    /// Reading back.
+    End {
+        /// The number of the world, from 1, and the number of worlds; `None` if there is one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        world: Option<[usize; 2]>,
+    },
+    /// A whole scene.
+    Scene,
+    /// Two pictures that must be the same.
+    Sides([Side; 2]),
+}
+
+impl Event {
+    /// True if both events have one place in one scene: all of a draw's primitives are one.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        let place = match (&self.origin, &other.origin) {
+            (Origin::Draw { .. }, Origin::Draw { .. }) => self.origin.draw() == other.origin.draw(),
+            (here, there) => here == there,
+        };
+        place && self.scene == other.scene
+    }
+}
+
+impl Origin {
+    /// Returns the pass and the draw, of a draw or a fragment.
+    pub fn draw(&self) -> Option<(usize, usize)> {
+        match self {
+            Self::Draw { pass, draw, .. } | Self::Fragment { pass, draw, .. } => {
+                Some((*pass, *draw))
+            }
+            _ => None,
+        }
+    }
+
+    /// True if this is a draw or a fragment that includes the primitive.
+    pub fn includes(&self, number: u32) -> bool {
+        match self {
+            Self::Draw { primitives, .. } => primitives.is_empty() || primitives.contains(&number),
+            Self::Fragment { primitive, .. } => *primitive == number,
+            _ => false,
+        }
+    }
+}
+
+/// The effect of an operation on the sample.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Effect {
+    /// It decides nothing about the sample.
+    #[default]
+    None,
+    /// The draw, the primitives or the fragment end here.
+    Rejects(Rejection),
+    /// The rules leave two outcomes open; in one of them, the fragment ends here.
+    MayReject(Rejection),
+    /// A fragment that passed leaves an aspect of an attachment as it was.
+    Keeps(Target),
+    /// An aspect of an attachment gets new contents.
+    Stores(Target),
+}
+
+impl Effect {
+    /// True if the operation decides nothing about the sample.
+    pub fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+
+    /// Returns the rejection, if the operation rejects or may reject.
+    pub fn rejection(&self) -> Option<Rejection> {
+        match self {
+            Self::Rejects(rejection) | Self::MayReject(rejection) => Some(*rejection),
+            Self::None | Self::Keeps(_) | Self::Stores(_) => None,
+        }
+    }
+}
+
+/// One aspect of one attachment.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    /// The attachment.
+    pub attachment: String,
+    /// The aspect.
+    pub aspect: Aspect,
+}
+
+/// The operation that keeps a draw, a primitive or a fragment from a sample, in the order of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rejection {
+    /// Nothing is rasterized.
+    RasterizerDiscard,
+    /// The primitive does not cover the sample.
+    Coverage,
+    /// The sides of the view volume clip the primitive.
+    Viewport,
+    /// The near or the far plane clips it.
+    NearFar,
+    /// A clip distance clips it.
+    ClipDistance,
+    /// Its face is culled.
+    Culling,
+    /// The scissor rectangle leaves the texel out.
+    Scissor,
+    /// Sample coverage leaves the sample out.
+    SampleCoverage,
+    /// The sample mask leaves the sample out.
+    SampleMask,
+    /// The shader discards the fragment.
+    Discard,
+    /// The shader's own sample mask leaves the sample out.
+    ShaderMask,
+    /// Alpha to coverage leaves the sample out.
+    AlphaToCoverage,
+    /// The stored depth is out of bounds.
+    DepthBounds,
+    /// The stencil test fails.
+    Stencil,
+    /// The depth test fails.
+    Depth,
+}
+
+/// An operation of the reference with its values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Step {
+    /// A pass draws to attachments of another size or sample count than the sample's.
+    OtherAttachments {
+        /// Width and height in texels.
+        size: [u32; 2],
+        /// The sample count.
+        samples: u32,
+    },
+    /// Texels are uploaded to an attachment.
+    Upload(Vec<Contents>),
+    /// An attachment, or an aspect of one, is cleared.
+    Clear(Vec<Contents>),
+    /// A clear command whose rectangle leaves the texel out.
+    ClearElsewhere,
+    /// A store operation leaves an aspect of an attachment undefined.
+    StoreDiscard(Target),
+    /// A colour attachment is resolved.
+    Resolve {
+        /// The multisampled attachment.
+        from: String,
+        /// The single-sampled attachment.
+        to: String,
+        /// The way to one value.
+        by: ResolveChoice,
+        /// The contents of the samples, channel by channel.
+        samples: Vec<Vec<Codes>>,
+        /// The possible results, channel by channel.
+        results: Vec<Vec<Codes>>,
+    },
+    /// Depth or stencil is resolved.
+    ResolveDepthStencil {
+        /// The multisampled attachment.
+        from: String,
+        /// The single-sampled attachment.
+        to: String,
+        /// The resolve mode.
+        mode: String,
+        /// The result.
+        result: Codes,
+        /// Depth or stencil.
+        aspect: Aspect,
+    },
+    /// Primitives are discarded before rasterization.
+    RasterizerDiscard,
+    /// The texel lies outside of the scissor rectangle `[x, y, width, height]`.
+    Scissor([u32; 4]),
+    /// Primitives of a draw do not reach the sample; the origin numbers them.
+    Primitives {
+        /// The number of primitives of the draw.
+        count: usize,
+        /// The viewport `[x, y, width, height]`, if primitives lie outside of it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        viewport: Option<[f32; 4]>,
+    },
+    /// A primitive may be clipped away at the sample.
+    Clipping,
+    /// Coverage of the sample by a primitive.
+    Coverage(Coverage),
+    /// The contents of the pass's attachments in one world.
+    World(Vec<Contents>),
+    /// The face of a primitive is culled.
+    Culling {
+        /// True if the face is a front face.
+        front: bool,
+        /// The cull mode.
+        mode: String,
+    },
+    /// Sample coverage by a share.
+    SampleCoverage {
+        /// The share of samples that are covered.
+        share: f32,
+        /// True if the covered samples are left out.
+        inverted: bool,
+        /// The sample.
+        sample: u32,
+    },
+    /// The fragment shader.
+    Shade {
+        /// True if the fragment's face is a front face.
+        front: bool,
+        /// The shader; `None` without a fragment shader.
+        shader: Option<String>,
+        /// The colour that it returns.
+        color: [ValueRange; 4],
+        /// The attachments that it reads, and the texel of each.
+        texels: Vec<(String, [ValueRange; 4])>,
+    },
+    /// The shader's discard.
+    Discard {
+        /// The value that is compared.
+        value: ValueRange,
+        /// The limit that it must reach.
+        limit: ValueRange,
+        /// True if the value must exceed the limit.
+        strict: bool,
+    },
+    /// The shader's own sample mask.
+    ShaderMask {
+        /// The bits that it writes.
+        bits: ValueRange,
+    },
+    /// The sample mask of the draw.
+    SampleMask {
+        /// The mask.
+        mask: u32,
+    },
+    /// Alpha to coverage.
+    AlphaToCoverage {
+        /// The alpha.
+        alpha: ValueRange,
+    },
+    /// Forced early tests have passed, and the fragment is lost afterwards.
+    LostAfterEarlyTests,
+    /// The depth bounds test.
+    DepthBounds {
+        /// The stored depth.
+        stored: ValueRange,
+        /// The lower bound.
+        low: ValueRange,
+        /// The upper bound.
+        high: ValueRange,
+    },
+    /// The stencil test. It fails if the effect rejects.
+    StencilTest {
+        /// The reference.
+        reference: u8,
+        /// True if the shader wrote the reference.
+        exported: bool,
+        /// The compare function.
+        compare: String,
+        /// The stored value.
+        stored: u8,
+        /// The read mask.
+        read_mask: u8,
+        /// True if the stencil test passes and the depth test fails.
+        depth_fails: bool,
+    },
+    /// The stencil operation.
+    StencilUpdate {
+        /// The operation.
+        operation: String,
+        /// The write mask.
+        write_mask: u8,
+        /// The stored value before.
+        before: u8,
+        /// The stored value after.
+        after: u8,
+    },
+    /// The depth test. It passes without an effect, fails if the effect rejects, and is open if it may reject.
+    DepthTest(DepthTest),
+    /// Depth is stored.
+    StoreDepth {
+        /// The depth.
+        depth: ValueRange,
+        /// Its codes in the attachment.
+        codes: Codes,
+    },
+    /// Depth is not stored.
+    KeepDepth {
+        /// True if the draw has a depth test, so that writes are off.
+        tested: bool,
+    },
+    /// An advanced blend operation.
+    AdvancedBlend {
+        /// The operation.
+        operation: String,
+        /// The source colour.
+        src: [ValueRange; 4],
+        /// The destination colour.
+        dst: [ValueRange; 4],
+        /// The result.
+        result: [ValueRange; 4],
+    },
+    /// Blending, channel by channel.
+    Blend(Box<[BlendedChannel; 4]>),
+    /// A logic operation.
+    Logic {
+        /// The operation.
+        operation: String,
+        /// The stored contents.
+        stored: Contents,
+    },
+    /// Colour is stored.
+    StoreColor {
+        /// The contents afterwards.
+        contents: Contents,
+        /// The write mask, if it leaves channels out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        write_mask: Option<u8>,
+    },
+    /// The write mask leaves all channels out.
+    KeepColor {
+        /// The contents.
+        contents: Contents,
+        /// The write mask.
+        write_mask: u8,
+    },
+    /// The shader writes the stencil reference.
+    StencilExport {
+        /// The number that it writes.
+        written: i32,
+        /// Its lowest 8 bits.
+        reference: u8,
+        /// The reference of the draw.
+        draw: u8,
+    },
+    /// The stencil reference that the shader writes comes after the test.
+    LateStencilExport {
+        /// The reference of the draw.
+        draw: u8,
+    },
+    /// There are too many worlds, and the sample is open.
+    GiveUp {
+        /// The number of worlds.
+        worlds: usize,
+    },
+    /// An attachment is read back.
+    ReadBack {
+        /// The attachment.
+        attachment: String,
+        /// The contents of all its aspects.
+        contents: Vec<Contents>,
+        /// True if a shader reads its depth.
+        depth_by_shader: bool,
+    },
+    /// Two pictures must be the same, by the name of the invariance.
+    Relation(String),
+    /// The ruling on one of two pictures alone.
+    Alone(Box<Ruling>),
+}
+
+/// The way from the samples of a texel to one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ResolveChoice {
+    /// An average of all samples.
+    Average,
+    /// The first sample.
+    First,
+    /// One of the samples.
+    Any,
+}
+
+/// Coverage of a sample by one primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Coverage {
+    /// The sample lies outside.
+    Outside,
+    /// The sample lies outside if the primitive faces one of its possible ways.
+    OutsideOneWay,
+    /// The primitive covers the sample this many times.
+    Times {
+        /// At least.
+        least: u32,
+        /// At most.
+        most: u32,
+    },
+    /// The primitive has no area.
+    NoArea,
+    /// Snapping may leave the primitive without area.
+    PerhapsNoArea,
+    /// The sample lies on an edge that is neither a top nor a left one.
+    NotTopLeft {
+        /// The number of the edge.
+        edge: usize,
+    },
+    /// The sample lies on an edge, or within the snapping distance of one.
+    Edge {
+        /// The number of the edge.
+        edge: usize,
+        /// True if the sample lies on it exactly.
+        exact: bool,
+        /// True if the primitive covers the sample, because the edge's other primitive does not; `None` if neither has
+        /// decided.
+        covers: Option<bool>,
+    },
+}
+
+impl Coverage {
+    /// True if an edge of the primitive decides.
+    pub fn is_edge(self) -> bool {
+        matches!(self, Self::NotTopLeft { .. } | Self::Edge { .. })
+    }
+}
+
+/// A depth test.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum DepthTest {
+    /// Two depths are compared.
+    Compared {
+        /// The compare function.
+        compare: String,
+        /// The fragment's depth.
+        incoming: ValueRange,
+        /// The stored depth.
+        stored: ValueRange,
+    },
+    /// A depth is compared with itself.
+    Same {
+        /// The compare function.
+        compare: String,
+    },
+}
+
+/// The blending of one channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlendedChannel {
+    /// The source value.
+    pub src: ValueRange,
+    /// The source factor.
+    pub src_factor: String,
+    /// The blend operation.
+    pub operation: String,
+    /// The destination value.
+    pub dst: ValueRange,
+    /// The destination factor.
+    pub dst_factor: String,
+    /// The result.
+    pub result: ValueRange,
+}
