@@ -43,20 +43,18 @@ impl Judge {
         frames: &[Frame],
     ) -> Judged {
         let mut judged: Option<Judged> = None;
-        for (index, frame) in frames.iter().enumerate() {
-            let one = self.judge_scene(number, case, index, adapter, limits, frame);
+        let each = self.compare_each(number, case, limits, frames, |compared| {
+            judge_scene(case, adapter, limits, compared)
+        });
+        for (index, scene) in each.enumerate() {
+            let scene = scene.unwrap_or_else(|message| unjudged(case, adapter, limits, message));
             judged = Some(match judged {
-                None => one,
-                Some(first) => worse(first, one, case, index),
+                None => scene,
+                Some(first) => worse(first, scene, case, index),
             });
         }
         let Some(mut judged) = judged else {
-            let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
-            record.message = "no frame came back".to_owned();
-            return Judged {
-                record,
-                frame: None,
-            };
+            return unjudged(case, adapter, limits, "no frame came back".to_owned());
         };
         if let Some(relation) = &case.relation
             && judged.record.verdict != Verdict::InternalError
@@ -68,85 +66,29 @@ impl Judge {
         judged
     }
 
-    /// Judges the frame of one of a case's scenes.
-    fn judge_scene(
+    /// Compares each frame of a case with the legal sets that it fits best, and gives what `then` makes of that; the message
+    /// if a frame is not one of the case.
+    fn compare_each<T>(
         &self,
         number: usize,
         case: &Case,
-        index: usize,
-        adapter: &str,
         limits: &Limits,
-        frame: &Frame,
-    ) -> Judged {
-        let judgements = self.cache.get(number, case, index, limits);
-        let mut record = Record::new(&case.id, adapter, Verdict::Pass);
-        record.due_fail = is_due_to_fail(case, limits);
-        let scene = judged_scene(case, index);
-        let sets = self.cache.sets(number, case, index);
-        let (comparison, judgement) = match best(scene, &judgements, frame, &sets) {
-            Ok(best) => best,
-            Err(message) => {
-                record.verdict = Verdict::InternalError;
-                record.message = message;
-                return Judged {
-                    record,
-                    frame: None,
-                };
-            }
-        };
-        let mut comparison = comparison;
-        let mut worst = comparison.worst();
-        if worst == Some(Band::Fail)
-            && let Some(grades) = Grades::of(scene, limits, frame, &sets)
-        {
-            worst = Some(grades.frame());
-            regrade(&mut comparison, &grades);
-        }
-        record.texels = comparison.texels;
-        record.wrong = comparison.wrong;
-        record.counters = comparison.counters;
-        record.accuracy = comparison.accuracy;
-        let judgement = judgement.as_ref();
-        record.assertions = assertions(judgement);
-        let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
-        let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
-        // Where the rules leave a method's outcome open, only its distance from the truth is reported.
-        let unasserted =
-            record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
-        record.verdict = match worst {
-            Some(band) if band > Band::Imprecise => violation(band),
-            _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
-            _ if texels == 0 && counters == 0 => Verdict::Open,
-            Some(_) => Verdict::Imprecise,
-            None => Verdict::Pass,
-        };
-        if let Some(message) = counter_message(&record.counters) {
-            record.message = message;
-        } else if judgement.looked_at < record.texels.total {
-            record.message = share_message(judgement.looked_at, record.texels.total);
-        }
-        if index == 0 {
-            expected_values(case, frame, &judgement.legal, &mut record);
-        }
-        let mut file = None;
-        if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
-            if let Some(wrong) = record.wrong.first() {
-                let rules = match wrong.band {
-                    Band::Imprecise => Rules::yardstick(&judgement.limits),
-                    _ => judgement.rules.clone(),
-                };
-                if let Some(at) = sample_of(case, wrong) {
-                    let by = (&judgement.limits, &rules);
-                    let came = (Some(frame), Some(wrong.band));
-                    record.story = Some(story::story_of_sample(case, index, by, at, came));
-                }
-            }
-            file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
-        }
-        Judged {
-            record,
-            frame: file,
-        }
+        frames: &[Frame],
+        then: impl Fn(Compared<'_>) -> T,
+    ) -> impl Iterator<Item = Result<T, String>> {
+        frames.iter().enumerate().map(move |(index, frame)| {
+            let judgements = self.cache.get(number, case, index, limits);
+            let sets = self.cache.sets(number, case, index);
+            let scene = judged_scene(case, index);
+            let (comparison, judgement) = best(scene, &judgements, frame, &sets)?;
+            Ok(then(Compared {
+                index,
+                frame,
+                comparison,
+                judgement: &judgement,
+                sets: &sets,
+            }))
+        })
     }
 
     /// The verdict and the first texel outside: [`Judge::judge`] without story, figures and literal
@@ -163,10 +105,9 @@ impl Judge {
     ) -> Result<(Verdict, Option<WrongTexel>), String> {
         let mut worst: Option<Band> = None;
         let mut first = None;
-        for (index, frame) in frames.iter().enumerate() {
-            let judgements = self.cache.get(number, case, index, limits);
-            let sets = self.cache.sets(number, case, index);
-            let (comparison, _) = best(judged_scene(case, index), &judgements, frame, &sets)?;
+        let each = self.compare_each(number, case, limits, frames, |compared| compared.comparison);
+        for comparison in each {
+            let comparison = comparison?;
             if comparison.worst() > worst {
                 worst = comparison.worst();
                 first = comparison.wrong.into_iter().next();
@@ -185,6 +126,89 @@ impl Judge {
             None => Verdict::Pass,
         };
         Ok((verdict, first))
+    }
+}
+
+/// A frame of one of a case's scenes, compared with what it fits best.
+struct Compared<'a> {
+    index: usize,
+    frame: &'a Frame,
+    comparison: Comparison,
+    judgement: &'a Judgement,
+    sets: &'a Sets<'a>,
+}
+
+/// The record of a case whose frames cannot be judged.
+fn unjudged(case: &Case, adapter: &str, limits: &Limits, message: String) -> Judged {
+    let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
+    record.due_fail = is_due_to_fail(case, limits);
+    record.message = message;
+    Judged {
+        record,
+        frame: None,
+    }
+}
+
+/// Judges the frame of one of a case's scenes.
+fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'_>) -> Judged {
+    let Compared {
+        index,
+        frame,
+        mut comparison,
+        judgement,
+        sets,
+    } = compared;
+    let mut record = Record::new(&case.id, adapter, Verdict::Pass);
+    record.due_fail = is_due_to_fail(case, limits);
+    let mut worst = comparison.worst();
+    if worst == Some(Band::Fail)
+        && let Some(grades) = Grades::of(judged_scene(case, index), limits, frame, sets)
+    {
+        worst = Some(grades.frame());
+        regrade(&mut comparison, &grades);
+    }
+    record.texels = comparison.texels;
+    record.wrong = comparison.wrong;
+    record.counters = comparison.counters;
+    record.accuracy = comparison.accuracy;
+    record.assertions = assertions(judgement);
+    let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+    let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
+    // Where the rules leave a method's outcome open, only its distance from the truth is reported.
+    let unasserted = record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
+    record.verdict = match worst {
+        Some(band) if band > Band::Imprecise => violation(band),
+        _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
+        _ if texels == 0 && counters == 0 => Verdict::Open,
+        Some(_) => Verdict::Imprecise,
+        None => Verdict::Pass,
+    };
+    if let Some(message) = counter_message(&record.counters) {
+        record.message = message;
+    } else if judgement.looked_at < record.texels.total {
+        record.message = share_message(judgement.looked_at, record.texels.total);
+    }
+    if index == 0 {
+        expected_values(case, frame, &judgement.legal, &mut record);
+    }
+    let mut file = None;
+    if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
+        if let Some(wrong) = record.wrong.first() {
+            let rules = match wrong.band {
+                Band::Imprecise => Rules::yardstick(&judgement.limits),
+                _ => judgement.rules.clone(),
+            };
+            if let Some(at) = sample_of(case, wrong) {
+                let by = (&judgement.limits, &rules);
+                let came = (Some(frame), Some(wrong.band));
+                record.story = Some(story::story_of_sample(case, index, by, at, came));
+            }
+        }
+        file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
+    }
+    Judged {
+        record,
+        frame: file,
     }
 }
 
@@ -225,19 +249,15 @@ fn violation(band: Band) -> Verdict {
 
 /// The record of the worse of two scenes of one case, with the assertions of both.
 fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
-    // `Verdict::severity` orders what several processes or folders show of a whole case; there an Open is
-    // worse than an Imprecise, and a Fail, as a proof, worst of all. Within one case, an open scene takes
-    // nothing from one that asserts something, and an InternalError makes a Fail beside it no proof.
-    let badness = |judged: &Judged| match judged.record.verdict {
-        Verdict::InternalError => 6,
-        Verdict::Fail => 5,
-        Verdict::RequiredByCts => 4,
-        Verdict::Disputed => 3,
-        Verdict::Imprecise => 2,
-        Verdict::Pass => 1,
-        _ => 0,
+    // Within one case, an open scene takes nothing from one that asserts something, and an InternalError makes a
+    // Fail beside it no proof.
+    let rank = |verdict: Verdict| match verdict {
+        Verdict::Open => (false, 0),
+        Verdict::InternalError => (true, 0),
+        verdict => (false, verdict.severity()),
     };
-    let takes_second = badness(&second) > badness(&first) && badness(&second) > 1;
+    let least = rank(first.record.verdict).max(rank(Verdict::Pass));
+    let takes_second = rank(second.record.verdict) > least;
     let (mut kept, other) = if takes_second {
         let mut second = second;
         let name = case.variants.get(index - 1).map_or("", |v| v.name.as_str());

@@ -3,7 +3,7 @@
 
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
-use etalon_reference::{Judgement, KnownSets, Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{Judgement, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -61,7 +61,9 @@ impl JudgementCache {
         let (scene, texels) = (judged_scene(case, index), judged_texels(case));
         move |limits, rules| {
             let key = (number, index, limits.clone());
-            self.set(key, rules, |rules| judge_some(scene, limits, rules, texels))
+            self.set(key, rules, |rules| {
+                legal_set_of_texels(scene, limits, rules, texels)
+            })
         }
     }
 
@@ -71,13 +73,13 @@ impl JudgementCache {
         &self,
         key: Key,
         rules: &Rules,
-        judge: impl FnOnce(&Rules) -> LegalSet,
+        compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
         // Who comes second waits: most sets serve both.
         let mut weight = None;
         let set = lock(&entry).get(rules, |rules| {
-            let set = judge(rules);
+            let set = compute(rules);
             weight = Some(set.weight());
             set
         });

@@ -10,9 +10,12 @@ mod grade;
 mod judge;
 mod judgement_cache;
 mod relation;
+mod requirement;
 mod story;
 mod texel;
 
 pub use judge::{Judge, Judged, is_due_to_fail};
+pub use relation::changed_picture;
+pub use requirement::note_requirement;
 pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;

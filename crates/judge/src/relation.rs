@@ -1,8 +1,10 @@
 //! Comparison of frames, or of attachments of one frame, that a relation ties to each other.
 
 use etalon_case::{Case, Relation};
-use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, WrongTexel};
+use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, Limits, WrongTexel};
 use etalon_record::MAX_WRONG_TEXELS;
+use etalon_reference::Rules;
+use etalon_scene::Invariance;
 
 /// The differences between compared frames.
 #[derive(Clone, Debug, Default)]
@@ -128,6 +130,17 @@ impl Differences {
             }
         }
     }
+}
+
+/// Returns the message about a frame that differs from the one that was judged; `None` if the API permits that.
+pub fn changed_picture(limits: &Limits) -> Option<String> {
+    let promise = Rules::invariance(limits, Invariance::Repeat);
+    promise.value().map(|_| {
+        format!(
+            "the picture after a round is not the one that was judged: {}",
+            promise.citation
+        )
+    })
 }
 
 /// The channels in which two samples differ, zeros of either sign being the same.

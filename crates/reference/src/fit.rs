@@ -4,7 +4,7 @@
 //! every step in it, so a part whose set refuses the frame is refused whole, and a frame is refused
 //! only if all parts are.
 
-use crate::judge::{Judgement, Sets, set_by};
+use crate::legal_sets::{Judgement, Sets, set_by};
 use crate::read_back::depth_encoding;
 use crate::rules::Rules;
 use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};

@@ -11,15 +11,19 @@ pub struct KnownSets(Vec<(AskedValues, Arc<LegalSet>)>);
 
 impl KnownSets {
     /// Returns the set of some rules: one that is known by the values that were asked for, or the one that
-    /// `judge` computes, which is known from then on.
-    pub fn get(&mut self, rules: &Rules, judge: impl FnOnce(&Rules) -> LegalSet) -> Arc<LegalSet> {
+    /// `compute` gives, which is known from then on.
+    pub fn get(
+        &mut self,
+        rules: &Rules,
+        compute: impl FnOnce(&Rules) -> LegalSet,
+    ) -> Arc<LegalSet> {
         let mut all = self.0.iter();
         if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
         // A clone has not been asked for anything yet.
         let rules = rules.clone();
-        let set = Arc::new(judge(&rules));
+        let set = Arc::new(compute(&rules));
         self.0.push((rules.asked(), Arc::clone(&set)));
         set
     }

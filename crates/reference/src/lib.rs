@@ -1,6 +1,6 @@
-//! The judge: the values that the specifications allow at every sample of a scene.
+//! The reference: the values that the specifications allow at every sample of a scene.
 //!
-//! [`judge()`] walks a scene sample by sample with the judging number system ([`Judging`]) and returns a
+//! [`legal_set()`] walks a scene sample by sample with the judging number system ([`Judging`]) and returns a
 //! [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] returns the story of one sample. A sample
 //! is followed through worlds, not one hull: a texel on an edge is covered or it is not, and no value in
 //! between is legal. The permissions are data in [`rules`], with their citations.
@@ -19,9 +19,9 @@ mod distance;
 mod fit;
 mod fragment;
 mod interval;
-mod judge;
 mod judging;
 mod known_sets;
+mod legal_sets;
 mod notes;
 mod pass_operations;
 mod picture;
@@ -49,12 +49,12 @@ mod world;
 
 pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judge::{
-    Judgement, Sets, explain, judge, judge_some, judgements, judgements_by, judgements_of, set_by,
-    shared_sets,
-};
 pub use judging::{Judging, Range};
 pub use known_sets::KnownSets;
+pub use legal_sets::{
+    Judgement, Sets, explain, judgements, judgements_by, judgements_of, legal_set,
+    legal_set_of_texels, set_by, shared_sets,
+};
 pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;

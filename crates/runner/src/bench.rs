@@ -17,13 +17,11 @@ use crate::supervisor::{FailedStarts, Supervisor};
 use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
-use etalon_judge::Judge;
+use etalon_judge::{Judge, changed_picture};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
     Expectations, Picture, Record, RecordError, ReportFiles, Round, Time, Verdict, cell,
 };
-use etalon_reference::Rules;
-use etalon_scene::Invariance;
 use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
 use round::{fingerprint, seconds};
 use std::collections::HashMap;
@@ -473,7 +471,7 @@ impl Bench<'_, '_> {
                     // Of atomics in shaders no order is promised, so that a pool may fill otherwise.
                     let repeats = case.scene.pool.is_none();
                     (repeats && measured.picture != pair.picture)
-                        .then(|| changed(&adapter.record.limits))
+                        .then(|| changed_picture(&adapter.record.limits))
                         .flatten()
                         .map(|message| (number + 1, Verdict::Flaky, message))
                 }
@@ -530,17 +528,6 @@ fn middle(times: &[f64]) -> f64 {
     let mut sorted = times.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     quantile(&sorted, 0.5).unwrap_or(f64::NAN)
-}
-
-/// The message about a frame that differs from the judged one; `None` where the API permits that.
-fn changed(limits: &Limits) -> Option<String> {
-    let promise = Rules::invariance(limits, Invariance::Repeat);
-    promise.value().map(|_| {
-        format!(
-            "the picture after a round is not the one that was judged: {}",
-            promise.citation
-        )
-    })
 }
 
 /// The record's message and the position of the first wrong sample.

@@ -94,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let evidence = reduced.evidence()?;
     let (program, ran) = reduced.program(&evidence)?;
     let mut files = reduced.files(&evidence)?;
-    let made = ran.as_ref().map_or(&[][..], |ran| &ran.made);
+    let made = ran.as_ref().map_or(&[][..], |ran| ran.made.as_slice());
     files.splice(0..0, program.files.iter().chain(made).cloned());
     let report = reduced.report(&evidence, program.language, ran.map(|ran| ran.line), &files);
     files.insert(0, File::text("report.md", "the report", report.markdown()));

@@ -47,16 +47,7 @@ const TABLE: [(&str, &[&str], &[&str]); 26] = [
     (
         "runner",
         &[
-            "backend",
-            "case",
-            "diagnose",
-            "frame",
-            "judge",
-            "mutants",
-            "record",
-            "reference",
-            "scene",
-            "stats",
+            "backend", "case", "diagnose", "frame", "judge", "mutants", "record", "scene", "stats",
             "truth",
         ],
         &[],

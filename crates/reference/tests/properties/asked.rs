@@ -3,7 +3,7 @@
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
 use etalon_frame::{ApiVersion, Limits, ReadPath};
-use etalon_reference::{KnownSets, Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
@@ -49,11 +49,13 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
                 let all = known.entry(basis.clone()).or_default();
                 all.get(rules, |rules| {
                     computed.set(computed.get() + 1);
-                    judge_some(&case.scene, basis, rules, Texels::All)
+                    legal_set_of_texels(&case.scene, basis, rules, Texels::All)
                 })
             };
             for one in judgements_by(&case.scene, &limits, Texels::All, &given) {
-                let own = |rules: &Rules| judge_some(&case.scene, &one.limits, rules, Texels::All);
+                let own = |rules: &Rules| {
+                    legal_set_of_texels(&case.scene, &one.limits, rules, Texels::All)
+                };
                 let yardstick = Rules::yardstick(&one.limits);
                 assert_eq!(*one.legal, own(&one.rules), "{} {}", case.id, limits.api);
                 assert_eq!(

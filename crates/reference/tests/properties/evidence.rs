@@ -2,7 +2,7 @@
 
 use crate::common::{limits, scene};
 use etalon_frame::{Api, ApiVersion, Grade, Limits, Property};
-use etalon_reference::{Rules, judge};
+use etalon_reference::{Rules, legal_set};
 use etalon_scene::Scene;
 
 fn version(api: Api, major: u8, minor: u8) -> Limits {
@@ -16,7 +16,7 @@ fn version(api: Api, major: u8, minor: u8) -> Limits {
 fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool; 3] {
     let rules = Rules::of(limits);
     Grade::ALL.map(|grade| {
-        let set = judge(scene, limits, &rules.bound_by(grade));
+        let set = legal_set(scene, limits, &rules.bound_by(grade));
         set.groups[0].sample(1, 1, sample).allows(orders)
     })
 }
@@ -251,7 +251,7 @@ fn webgpu_does_not_say_that_the_stencil_reference_is_masked() {
 fn runs(scene: &Scene, limits: &Limits) -> [(u64, Option<u64>); 2] {
     let rules = Rules::of(limits);
     [Grade::Disputed, Grade::Proven].map(|grade| {
-        let range = judge(scene, limits, &rules.bound_by(grade)).counters[0].range;
+        let range = legal_set(scene, limits, &rules.bound_by(grade)).counters[0].range;
         (range.low, range.high)
     })
 }

@@ -8,7 +8,7 @@ use etalon_frame::{
     Api, Aspect, ChannelEncoding, Frame, LegalSet, ReadPath, TexelSet, TextureFormat, compare,
 };
 use etalon_pipeline::{Arithmetic, Plain};
-use etalon_reference::{Rules, judge, judgements};
+use etalon_reference::{Rules, judgements, legal_set};
 use etalon_scene::Scene;
 use proptest::prelude::*;
 
@@ -67,8 +67,8 @@ fn check_nested(scene: &Scene, pairs: &[(Rules, Rules)]) -> Result<(), TestCaseE
     let frame = draw(scene);
     let limits = limits(Api::Vulkan);
     for (tight_rules, wide_rules) in pairs {
-        let tight = judge(scene, &limits, tight_rules);
-        let wide = judge(scene, &limits, wide_rules);
+        let tight = legal_set(scene, &limits, tight_rules);
+        let wide = legal_set(scene, &limits, wide_rules);
         for (g, group) in tight.groups.iter().enumerate() {
             for y in 0..group.size[1] {
                 for x in 0..group.size[0] {

@@ -3,7 +3,7 @@
 use crate::common::{APIS, all_rules, draw, limits, scene};
 use etalon_frame::{Api, ChannelEncoding, CodeInterval, compare};
 use etalon_pipeline::Arithmetic;
-use etalon_reference::{Judging, Rules, judge, judgements};
+use etalon_reference::{Judging, Rules, judgements, legal_set};
 
 fn stored(rules: &Rules, encoding: ChannelEncoding, value: f32) -> CodeInterval {
     let mut a = Judging::new(rules);
@@ -265,7 +265,7 @@ fn stencil_operations_are_integers_under_every_rule() {
                 "{operation} of {stored} as {key}"
             );
             for rules in all_rules() {
-                let set = judge(&scene, &limits(Api::Vulkan), &rules);
+                let set = legal_set(&scene, &limits(Api::Vulkan), &rules);
                 assert_eq!(
                     set.groups[0].sample(0, 0, 0).count(1),
                     1,

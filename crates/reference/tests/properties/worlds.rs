@@ -2,7 +2,7 @@
 
 use crate::common::{APIS, config, draw, limits, scene};
 use etalon_frame::{Api, TexelSet, compare};
-use etalon_reference::{Rules, judge, judgements};
+use etalon_reference::{Rules, judgements, legal_set};
 use etalon_scene::Scene;
 use proptest::prelude::*;
 
@@ -122,7 +122,7 @@ fn a_sample_at_the_hub_of_many_triangles_is_open_and_nothing_else_is() {
     let drawn = draw(&scene);
     for api in APIS {
         let limits = limits(api);
-        let legal = judge(&scene, &limits, &Rules::of(&limits));
+        let legal = legal_set(&scene, &limits, &Rules::of(&limits));
         for y in 0..SIZE {
             for x in 0..SIZE {
                 let set = legal.groups[0].sample(x, y, 0);
@@ -150,7 +150,7 @@ fn a_sample_at_the_hub_of_many_triangles_is_open_and_nothing_else_is() {
 fn a_later_draw_does_not_close_an_open_sample() {
     let mut scene = counting(&triangulate(&grid(1.0, 0.5, 8), |_, _| 0));
     let open = |scene: &Scene| {
-        let set = judge(
+        let set = legal_set(
             scene,
             &limits(Api::WebGpu),
             &Rules::of(&limits(Api::WebGpu)),

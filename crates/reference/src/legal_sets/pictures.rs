@@ -1,7 +1,7 @@
 //! Pictures against samples: what is judged once for all samples of a state is what each of them has when
 //! it is walked alone.
 
-use super::judge_some;
+use super::legal_set_of_texels;
 use crate::notes::Notes;
 use crate::rules::Rules;
 use crate::sample::Sample;
@@ -26,7 +26,7 @@ fn alone(walk: &Walk<'_>, at: Sample) -> TexelSet {
 }
 
 fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
-    let set = judge_some(scene, limits, rules, Texels::All);
+    let set = legal_set_of_texels(scene, limits, rules, Texels::All);
     let walk = Walk::new(scene, limits, rules, Texels::All);
     for group in &set.groups {
         let ([width, height], samples) = (group.size, group.samples);

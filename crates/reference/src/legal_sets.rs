@@ -54,11 +54,13 @@ pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) ->
     move |limits, rules| {
         let mut known = known.borrow_mut();
         let sets = known.entry(limits.clone()).or_default();
-        sets.get(rules, |rules| judge_some(scene, limits, rules, texels))
+        sets.get(rules, |rules| {
+            legal_set_of_texels(scene, limits, rules, texels)
+        })
     }
 }
 
-/// Gives the legal set of some texels of a scene for limits and rules: [`judge_some`]'s of these, or of equal
+/// Gives the legal set of some texels of a scene for limits and rules: [`legal_set_of_texels`]'s of these, or of equal
 /// limits and rules whose values are the same as far as they were asked for. The limits are those that
 /// sets depend on, without all others.
 pub type Sets<'a> = dyn Fn(&Limits, &Rules) -> Arc<LegalSet> + 'a;
@@ -132,12 +134,17 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
 
 /// Returns the legal set of all attachments that the scene reads back. Of a depth format with several
 /// possible encodings the first is assumed; see [`judgements`].
-pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
-    judge_some(scene, limits, rules, Texels::All)
+pub fn legal_set(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
+    legal_set_of_texels(scene, limits, rules, Texels::All)
 }
 
-/// Returns [`judge`]'s set of some texels; see [`judgements_of`].
-pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+/// Returns [`legal_set`]'s set of some texels; see [`judgements_of`].
+pub fn legal_set_of_texels(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    texels: Texels,
+) -> LegalSet {
     let texels = texels.of(scene);
     let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();

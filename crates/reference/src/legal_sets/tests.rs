@@ -1,4 +1,4 @@
-use super::{Sample, explain, judge};
+use super::{Sample, explain, legal_set};
 use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
@@ -39,7 +39,7 @@ fn a_written_depth_of_zero_and_one_is_pinned_and_so_is_what_follows() {
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
         let limits = limits(api);
         for rules in [Rules::of(&limits), Rules::yardstick(&limits)] {
-            let set = judge(&scene, &limits, &rules);
+            let set = legal_set(&scene, &limits, &rules);
             for (aspect, figures) in set.statistics() {
                 assert_eq!(figures.exact, figures.channels, "{api} {aspect}");
             }
@@ -59,7 +59,7 @@ fn a_vertex_depth_of_one_half_has_four_codes_on_16_bits_and_many_on_24() {
                 "depth":{"compare":"always","write":true}}"#,
             r#""depth""#,
         );
-        let set = judge(
+        let set = legal_set(
             &scene,
             &limits(Api::Vulkan),
             &Rules::of(&limits(Api::Vulkan)),
@@ -81,7 +81,7 @@ fn a_depth_between_those_of_the_vertices_may_pass_them_by_the_error_of_interpola
         r#""depth""#,
     );
     let limits = limits(Api::Vulkan);
-    let set = judge(&scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&scene, &limits, &Rules::of(&limits));
     let highest = set.groups[0]
         .sample(0, 0, 0)
         .hull(0)
@@ -99,7 +99,7 @@ fn a_comparison_that_cannot_be_told_leaves_two_joint_outcomes() {
             "params":{"color":[1,1,1,1]},"depth":{"compare":"less","write":true}}"#,
         r#""color","depth""#,
     );
-    let set = judge(
+    let set = legal_set(
         &scene,
         &limits(Api::Vulkan),
         &Rules::of(&limits(Api::Vulkan)),
@@ -123,7 +123,7 @@ fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
     let scene = scene(&attachments, SQUARE, r#""depth""#);
     let legal = |api| {
         let limits = limits(api);
-        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let set = legal_set(&scene, &limits, &Rules::of(&limits));
         let sample = set.groups[0].sample(1, 2, 0).clone();
         (0..4)
             .filter(|n| sample.allows(&[*n]))
@@ -133,7 +133,7 @@ fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
     assert_eq!(legal(Api::OpenGl), [1]);
     assert_eq!(legal(Api::WebGpu), [0, 1, 2]);
     let limits = limits(Api::Vulkan);
-    let set = judge(&scene, &limits, &Rules::yardstick(&limits));
+    let set = legal_set(&scene, &limits, &Rules::yardstick(&limits));
     assert_eq!(set.statistics()[0].1.exact, 16);
 }
 
@@ -143,7 +143,7 @@ fn a_scene_without_decisions_costs_no_second_world() {
     let reference = library.cases(Profile::Full).next().expect("a case");
     let case = reference.build().expect("builds");
     let limits = limits(Api::Vulkan);
-    let set = judge(&case.scene, &limits, &Rules::yardstick(&limits));
+    let set = legal_set(&case.scene, &limits, &Rules::yardstick(&limits));
     assert!(set.groups.iter().all(|g| g.distinct().len() < 256));
 }
 
@@ -251,7 +251,7 @@ fn passes(api: Api, first: &str, second: &str) -> etalon_frame::LegalSet {
         pass(second)
     );
     let limits = limits(api);
-    judge(&case(&text).scene, &limits, &Rules::of(&limits))
+    legal_set(&case(&text).scene, &limits, &Rules::of(&limits))
 }
 
 #[test]
@@ -365,7 +365,7 @@ fn resolved(format: &str, depth: &str, stencil: &str) -> etalon_frame::LegalSet 
         draws.join(",")
     );
     let limits = limits(Api::Vulkan);
-    judge(&case(&text).scene, &limits, &Rules::of(&limits))
+    legal_set(&case(&text).scene, &limits, &Rules::of(&limits))
 }
 
 #[test]
@@ -396,7 +396,7 @@ fn a_resolve_of_what_may_be_nan_may_be_anything() {
         "shader":"uniform_color","params":{"color":[0,0,1,0]},"advanced_blend":"multiply"}]}],
         "read":["one"]}}"#;
     let limits = limits(Api::Vulkan);
-    let set = judge(&case(text).scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&case(text).scene, &limits, &Rules::of(&limits));
     for world in &set.groups[0].sample(0, 0, 0).worlds {
         let blue = world.channels[2];
         assert_eq!((blue.low, blue.high), (-0x7fff, 0x7fff));
@@ -432,7 +432,7 @@ fn a_line_between_texels_that_its_viewport_clips_is_not_lost() {
     )
     .scene;
     let limits = limits(Api::Vulkan);
-    let set = judge(&scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&scene, &limits, &Rules::of(&limits));
     let group = &set.groups[0];
     // No other texel of these rows lies in the viewport.
     let drawn = |y: u32| group.sample(4, y, 0).allows(&[255; 4]);
@@ -453,7 +453,7 @@ fn alpha_does_nothing_to_the_coverage_of_integers() {
     .scene;
     for api in [Api::Vulkan, Api::OpenGl] {
         let limits = limits(api);
-        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let set = legal_set(&scene, &limits, &Rules::of(&limits));
         let sample = set.groups[0].sample(0, 0, 3);
         assert!(sample.allows(&[7, 0, 0, 0]), "{api}");
         assert!(
@@ -472,7 +472,7 @@ fn a_bias_that_is_no_normal_number_may_be_nothing() {
         r#""depth""#,
     );
     let limits = limits(Api::Vulkan);
-    let set = judge(&scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&scene, &limits, &Rules::of(&limits));
     let sample = set.groups[0].sample(0, 0, 0);
     assert!(sample.allows(&[0]) && sample.allows(&[255]));
     assert!(!sample.allows(&[i64::from(f32::MIN_POSITIVE.to_bits())]));
@@ -490,7 +490,7 @@ fn samples_of_minus_one_are_read_as_either_code() {
         ))
         .scene;
         let limits = limits(Api::Vulkan);
-        judge(&scene, &limits, &Rules::of(&limits))
+        legal_set(&scene, &limits, &Rules::of(&limits))
     };
     let allows = |samples: u32| {
         let set = of(samples);
@@ -516,7 +516,7 @@ fn opengl_3_may_clamp_biased_depths_at_vertices() {
             version,
             ..limits(Api::OpenGl)
         };
-        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let set = legal_set(&scene, &limits, &Rules::of(&limits));
         let sample = set.groups[0].sample(0, 0, 0);
         sample.allows(&[i64::from(depth.to_bits())])
     };
@@ -546,7 +546,7 @@ fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
         ))
         .scene;
         let limits = limits(Api::Vulkan);
-        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let set = legal_set(&scene, &limits, &Rules::of(&limits));
         let sample = set.groups[0].sample(0, 0, 0);
         sample.allows(&[i64::from(depth.to_bits())])
     };
@@ -567,7 +567,7 @@ fn the_least_signed_code_is_resolved_to_itself_or_to_the_code_of_its_value() {
         "params":{"color":1},"shader":"uniform_color"}]}],"read":["one"]}}"#,
     );
     let limits = limits(Api::Vulkan);
-    let set = judge(&case.scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&case.scene, &limits, &Rules::of(&limits));
     let sample = set.groups[0].sample(0, 0, 0);
     for (order, legal) in [(-128, true), (-127, true), (-126, false), (127, false)] {
         assert_eq!(sample.allows(&[order; 4]), legal, "{order}");
@@ -592,7 +592,7 @@ fn may_draws_become_nan(stored: [f32; 4], draws: &[&str]) -> bool {
         "read":["color"]}}}}"#
     ));
     let limits = limits(Api::Vulkan);
-    let set = judge(&case.scene, &limits, &Rules::of(&limits));
+    let set = legal_set(&case.scene, &limits, &Rules::of(&limits));
     let nan = ChannelEncoding::Float32.order_of_code(f32::NAN.to_bits());
     set.groups[0].sample(0, 0, 0).allows(&[nan; 4])
 }
@@ -645,7 +645,7 @@ fn filtering_may_round_each_step_to_codes() {
     let limits = limits(Api::Vulkan);
     let order = |v: f32| ChannelEncoding::Float32.order_of_code(v.to_bits());
     let of = |rules: &Rules, red: f32, alpha: f32| {
-        let set = judge(&case.scene, &limits, rules);
+        let set = legal_set(&case.scene, &limits, rules);
         let value = [red / 255.0, 0.0, 0.0, alpha / 255.0].map(order);
         set.groups[0].sample(1, 1, 0).allows(&value)
     };

@@ -1,0 +1,77 @@
+//! What the version of an API requires of every implementation, against what an adapter denies.
+
+use etalon_case::Case;
+use etalon_frame::{ApiVersion, Limits};
+use etalon_record::{Record, Verdict};
+use etalon_reference::rules::required::denied;
+
+/// Fails an adapter that denies what its API's version requires of every implementation.
+pub fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
+    let version = match limits.version {
+        ApiVersion::UNKNOWN => limits.api.to_string(),
+        version => format!("{} {version}", limits.api),
+    };
+    match denied(limits, &case.requirements()) {
+        Some((needed, required)) => {
+            record.verdict = Verdict::Fail;
+            record.message = format!(
+                "the adapter denies {needed}, which {version} requires ({})",
+                required.citation
+            );
+        }
+        None => record.message = format!("{}; no requirement of {version}", record.message),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_backend::Backend;
+    use etalon_case::{Library, Profile};
+    use etalon_cpu::CpuBackend;
+    use etalon_frame::{Api, Requirement, TextureFormat};
+
+    /// The record of a required format on an adapter of this version without it.
+    fn lacking(format: TextureFormat, exempt: bool, major: u8, minor: u8) -> Record {
+        let id = format!("capabilities/required/color-formats/format={format}");
+        let library = Library::built_in().expect("built-in files parse");
+        let found = library.cases(Profile::Full).find(|case| case.id() == id);
+        let case = found.and_then(|case| case.build().ok()).expect("it builds");
+        assert!(case.is_requirement());
+        let mut limits = CpuBackend::new("cpu").limits().clone();
+        (limits.api, limits.version) = (Api::OpenGl, ApiVersion::new(major, minor));
+        limits.formats.remove(&format);
+        if exempt {
+            limits
+                .exempt
+                .extend([Requirement::Format(format), Requirement::Drawing(format)]);
+        }
+        let mut record = Record::new(&case.id, "gl:test", Verdict::NotSupported);
+        record.message = format!("format {format}");
+        note_requirement(&mut record, &case, &limits);
+        record
+    }
+
+    #[test]
+    fn what_a_version_requires_must_not_be_denied() {
+        let record = lacking(TextureFormat::Rgba16Float, false, 3, 3);
+        assert_eq!(record.verdict, Verdict::Fail);
+        assert!(
+            record
+                .message
+                .contains("opengl 3.3 requires (OpenGL 3.3: 3.8.1")
+        );
+    }
+
+    #[test]
+    fn what_it_does_not_require_is_not_supported() {
+        for record in [
+            lacking(TextureFormat::B5g6r5Unorm, false, 3, 3),
+            lacking(TextureFormat::Rgba16Float, true, 4, 6),
+        ] {
+            assert_eq!(record.verdict, Verdict::NotSupported);
+            let message = &record.message;
+            assert!(message.contains("; no requirement of opengl"), "{message}");
+        }
+    }
+}
