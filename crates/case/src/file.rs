@@ -162,6 +162,11 @@ impl CaseFile {
         !self.wire.method.is_null()
     }
 
+    /// Returns true if the cases exist to be measured: methods, and what lies in the area `perf`.
+    pub fn is_measured(&self) -> bool {
+        self.is_method() || self.name.starts_with("perf/")
+    }
+
     /// The file's path below the cases folder.
     pub fn name(&self) -> &str {
         &self.name
