@@ -5,7 +5,6 @@
 
 use crate::error::{At, Step};
 use crate::file::CaseRef;
-use serde_json::Value;
 
 /// The most other values of an axis that are tried.
 const TRIED: usize = 6;
@@ -16,7 +15,7 @@ impl CaseRef<'_> {
         if matches!(at.path.first(), Some(Step::Key(key)) if key == "axes" || key == "derived") {
             return at;
         }
-        let used = at.place();
+        let used = at.clone().locate(self.file.name(), &self.file.text).key;
         let moved = self
             .by_placeholder(&at)
             .or_else(|| self.by_other_values().map(|axis| self.own_value(&axis)));
@@ -34,8 +33,8 @@ impl CaseRef<'_> {
 
     /// The path of the value behind the `"$name"` that an error's path leads to.
     fn by_placeholder(&self, at: &At) -> Option<Vec<Step>> {
-        let text: Value = serde_json::from_str(&self.file.text).ok()?;
-        let mut value = &text;
+        let file = self.file.json();
+        let mut value = &file;
         let mut steps = at.path.iter();
         loop {
             if let Some(name) = value.as_str().and_then(|text| text.strip_prefix('$')) {
@@ -67,24 +66,25 @@ impl CaseRef<'_> {
         let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
         Some(match given {
             true => path.into_iter().chain([Step::Index(at)]).collect(),
-            false => value_of(
-                &self.file.wire.axes[&derived.axis][at].value,
-                &derived.axis,
-                at,
-                &self.file.text,
-            ),
+            false => self.value_of(&derived.axis, at),
         })
     }
 
     /// The path of this case's value on an axis.
     fn own_value(&self, axis: &str) -> Vec<Step> {
-        let at = self.file.positions(self.index)[axis];
-        value_of(
-            &self.file.wire.axes[axis][at].value,
-            axis,
-            at,
-            &self.file.text,
-        )
+        self.value_of(axis, self.file.positions(self.index)[axis])
+    }
+
+    /// The path of a value of an axis: below `value` where it has a name, the whole axis where it is a range.
+    fn value_of(&self, axis: &str, at: usize) -> Vec<Step> {
+        let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
+        if let Some(listed) = self.file.json()["axes"][axis].get(at) {
+            path.push(Step::Index(at));
+            if *listed != self.file.wire.axes[axis][at].value {
+                path.push(Step::Key("value".to_owned()));
+            }
+        }
+        path
     }
 
     /// The one axis of which every other value builds; `None` if there is none, or several.
@@ -124,20 +124,6 @@ impl CaseRef<'_> {
         }
         found
     }
-}
-
-/// The path of a value of an axis in the file: below `value` where it has a name, the whole axis where it is a range.
-fn value_of(value: &Value, axis: &str, at: usize, text: &str) -> Vec<Step> {
-    let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
-    let file: Option<Value> = serde_json::from_str(text).ok();
-    let listed = file.and_then(|file| file.get("axes")?.get(axis)?.get(at).cloned());
-    if let Some(listed) = listed {
-        path.push(Step::Index(at));
-        if listed != *value {
-            path.push(Step::Key("value".to_owned()));
-        }
-    }
-    path
 }
 
 #[cfg(test)]

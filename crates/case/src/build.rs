@@ -70,6 +70,7 @@ impl CaseRef<'_> {
             variants,
             relation,
             expect,
+            measured: self.file.is_measured(),
             method: None,
         })
     }
@@ -129,6 +130,7 @@ impl CaseRef<'_> {
             variants: Vec::new(),
             relation: None,
             expect: Vec::new(),
+            measured: self.file.is_measured(),
             method: Some(Method {
                 question: question.to_owned(),
                 scene: scene.to_owned(),

@@ -27,6 +27,8 @@ pub struct Case {
     pub relation: Option<Relation>,
     /// Literal values that must come back.
     pub expect: Vec<Expect>,
+    /// True if the case exists to be measured. Its picture may be large, so judging it takes a sample of the texels.
+    pub measured: bool,
     /// The method of a method case, whose distance from the truth is measured.
     pub method: Option<Method>,
 }

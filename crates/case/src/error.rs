@@ -1,8 +1,7 @@
 //! Errors in case files, with file, line and key.
 
+use crate::place::Place;
 use etalon_frame::shortened;
-use jsonc_parser::ast;
-use jsonc_parser::common::Ranged;
 use std::fmt;
 use thiserror::Error;
 
@@ -90,66 +89,33 @@ impl At {
         Self { path, message }
     }
 
-    /// The path as text: `scene.passes[0].draws`.
-    pub(crate) fn place(&self) -> String {
-        let mut key = String::new();
-        for step in &self.path {
-            match step {
-                Step::Key(name) if key.is_empty() => key.push_str(name),
-                Step::Key(name) => {
-                    key.push('.');
-                    key.push_str(name);
-                }
-                Step::Index(i) => key.push_str(&format!("[{i}]")),
-            }
-        }
-        key
-    }
-
     /// With file and line.
     pub(crate) fn locate(self, file: &str, text: &str) -> CaseError {
+        let place = Place::new(text, &self.path);
         CaseError {
             file: file.to_owned(),
-            line: line_of(text, &self.path),
-            key: self.place(),
-            message: self.message,
+            line: place.line,
+            key: key_of(&place.path),
+            message: match place.used {
+                Some(used) => format!("{} (used at {})", self.message, key_of(&used)),
+                None => self.message,
+            },
         }
     }
 }
 
-/// The line on which the value at a path starts, or as near above it as the path leads.
-fn line_of(text: &str, path: &[Step]) -> usize {
-    let Ok(parsed) = jsonc_parser::parse_to_ast(
-        text,
-        &jsonc_parser::CollectOptions::default(),
-        &jsonc_parser::ParseOptions::default(),
-    ) else {
-        return 0;
-    };
-    let Some(mut value) = parsed.value.as_ref() else {
-        return 0;
-    };
-    let mut start = value.range().start;
+/// A path as text: `scene.passes[0].draws`.
+fn key_of(path: &[Step]) -> String {
+    let mut key = String::new();
     for step in path {
-        value = match (value, step) {
-            (ast::Value::Object(object), Step::Key(key)) => {
-                let found = object
-                    .properties
-                    .iter()
-                    .find(|p| p.name.as_str() == key.as_str());
-                let Some(property) = found else { break };
-                start = property.range.start;
-                &property.value
+        match step {
+            Step::Key(name) if key.is_empty() => key.push_str(name),
+            Step::Key(name) => {
+                key.push('.');
+                key.push_str(name);
             }
-            (ast::Value::Array(array), Step::Index(i)) => {
-                let Some(element) = array.elements.get(*i) else {
-                    break;
-                };
-                start = element.range().start;
-                element
-            }
-            _ => break,
-        };
+            Step::Index(i) => key.push_str(&format!("[{i}]")),
+        }
     }
-    text[..start].matches('\n').count() + 1
+    key
 }

@@ -1,5 +1,6 @@
 //! Case files: the product of the axes, and the cases it stands for.
 
+use crate::each::unroll;
 use crate::error::{At, CaseError};
 use crate::pairwise::{self, Cover};
 use crate::values::typed;
@@ -52,12 +53,13 @@ impl CaseFile {
     /// Scenes are checked by [`CaseRef::build`].
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         let fail = |at: At| at.locate(name, text);
-        let value: Value = serde_json::from_str(text).map_err(|e| CaseError {
+        let mut value: Value = serde_json::from_str(text).map_err(|e| CaseError {
             file: name.to_owned(),
             line: e.line(),
             key: String::new(),
             message: format!("not valid JSON: {e}"),
         })?;
+        unroll(&mut value).map_err(fail)?;
         let wire: FileWire = typed(&value).map_err(fail)?;
         let stem = name.strip_suffix(".json").unwrap_or(name).to_owned();
         if !stem.split('/').all(is_word) {
@@ -157,9 +159,22 @@ impl CaseFile {
         })
     }
 
+    /// The file as JSON with its lists unrolled.
+    pub(crate) fn json(&self) -> Value {
+        let mut file = serde_json::from_str(&self.text).unwrap_or_default();
+        // Parsing the file has shown that they can be.
+        let _unrolled = unroll(&mut file);
+        file
+    }
+
     /// True if the cases draw by methods.
     pub(crate) fn is_method(&self) -> bool {
         !self.wire.method.is_null()
+    }
+
+    /// Returns true if the cases exist to be measured: methods, and what lies in the area `perf`.
+    pub fn is_measured(&self) -> bool {
+        self.is_method() || self.name.starts_with("perf/")
     }
 
     /// The file's path below the cases folder.
@@ -250,7 +265,7 @@ impl CaseRef<'_> {
     }
 }
 
-fn is_word(text: &str) -> bool {
+pub(crate) fn is_word(text: &str) -> bool {
     !text.is_empty()
         && text
             .bytes()

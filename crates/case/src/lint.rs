@@ -17,8 +17,10 @@ impl CaseFile {
     pub fn warnings(&self) -> Vec<CaseError> {
         let mut all = self.unused();
         all.extend(self.missing_params());
-        all.into_iter()
-            .map(|at| at.locate(self.name(), &self.text))
+        let located = all.into_iter().map(|at| at.locate(self.name(), &self.text));
+        let mut seen = BTreeSet::new();
+        located
+            .filter(|warning| seen.insert(warning.to_string()))
             .collect()
     }
 
@@ -46,7 +48,7 @@ impl CaseFile {
     }
 
     fn unused(&self) -> Vec<At> {
-        let Ok(Value::Object(mut file)) = serde_json::from_str(&self.text) else {
+        let Value::Object(mut file) = self.json() else {
             return Vec::new();
         };
         let mut used = BTreeSet::new();
@@ -87,7 +89,6 @@ impl CaseFile {
 
     /// Draws whose shader reads a parameter that is not given, and so is 0.
     fn missing_params(&self) -> Vec<At> {
-        let mut seen = BTreeSet::new();
         let mut found = Vec::new();
         if self.is_method() || !self.wire.random.is_null() || !self.wire.states.is_null() {
             return found;
@@ -121,9 +122,7 @@ impl CaseFile {
                             true => at.index(d).key("draws").index(p).key("passes").key("scene"),
                             false => at.key("sequence"),
                         };
-                        if seen.insert((at.place(), at.message.clone())) {
-                            found.push(at);
-                        }
+                        found.push(at);
                     }
                 }
             }

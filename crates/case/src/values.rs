@@ -12,32 +12,40 @@ pub(crate) fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
 
 /// Replaces every string `"$name"` by the value of that name.
 pub(crate) fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+    replace(value, &mut |name| match values.get(name) {
+        Some(found) => Ok((*found).clone()),
+        None => {
+            let known: Vec<&str> = values.keys().copied().collect();
+            Err(At::new(format!(
+                "there is no axis or derived value `{name}`; there are: {}",
+                known.join(", ")
+            )))
+        }
+    })
+}
+
+/// Replaces every string `"$name"` by what a function returns for the name.
+pub(crate) fn replace(
+    value: &Value,
+    named: &mut dyn FnMut(&str) -> Result<Value, At>,
+) -> Result<Value, At> {
     Ok(match value {
         Value::String(text) => match text.strip_prefix('$') {
             None => value.clone(),
-            Some(name) => match values.get(name) {
-                Some(found) => (*found).clone(),
-                None => {
-                    let known: Vec<&str> = values.keys().copied().collect();
-                    return Err(At::new(format!(
-                        "there is no axis or derived value `{name}`; there are: {}",
-                        known.join(", ")
-                    )));
-                }
-            },
+            Some(name) => named(name)?,
         },
         // Texels are long lists of numbers.
         Value::Array(list) if list.iter().all(Value::is_number) => value.clone(),
         Value::Array(list) => Value::Array(
             list.iter()
                 .enumerate()
-                .map(|(i, v)| substitute(v, values).map_err(|e| e.index(i)))
+                .map(|(i, v)| replace(v, named).map_err(|e| e.index(i)))
                 .collect::<Result<_, _>>()?,
         ),
         Value::Object(map) => Value::Object(
             map.iter()
                 .map(|(k, v)| {
-                    let v = substitute(v, values).map_err(|e| e.key(k))?;
+                    let v = replace(v, named).map_err(|e| e.key(k))?;
                     Ok((k.clone(), v))
                 })
                 .collect::<Result<_, At>>()?,

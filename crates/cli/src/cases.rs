@@ -12,20 +12,6 @@ use std::panic::resume_unwind;
 use std::path::PathBuf;
 use std::thread;
 
-/// The areas that runs and hunts leave out unless they are selected: they measure, on pictures so large that one takes
-/// as long as hundreds of cases.
-const MEASURING: [&str; 2] = ["methods", "perf"];
-
-/// True if a case belongs to an area that measures.
-pub(crate) fn is_measuring(case: &Case) -> bool {
-    is_measuring_area(case.area())
-}
-
-/// True if the cases of an area are measured.
-pub(crate) fn is_measuring_area(area: &str) -> bool {
-    MEASURING.contains(&area)
-}
-
 /// Returns the selected cases, built, so that errors of case files show before anything is drawn. Warnings on files of
 /// a user's own are printed.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {

@@ -14,7 +14,7 @@ const CACHE_BYTES: usize = 512 << 20;
 /// The texels of a case's images that are judged: all, but for the large pictures that exist to be
 /// measured. Of these a lattice that meets every row and column; the texels left out count as not asserted.
 pub(crate) fn judged_texels(case: &Case) -> Texels {
-    if case.method.is_some() || case.area() == "perf" {
+    if case.measured {
         Texels::AtMost(4096)
     } else {
         Texels::All

@@ -1,6 +1,6 @@
 //! `etalon mutants`.
 
-use crate::cases::{build, is_measuring, library};
+use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
 use crate::output::{print, print_json, summarize, summarize_json, table_options};
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let cases: Vec<Case> = build(&library, arguments.profile.into(), &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
-        .filter(|c| named || !is_measuring(c))
+        .filter(|c| named || !c.measured)
         .collect();
     if cases.is_empty() {
         return Err(Failure::nothing(format!(

@@ -4,9 +4,7 @@ use crate::adapters::{
     Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
-use crate::cases::{
-    all_ids, chosen, is_measuring, is_measuring_area, left_out, library, round_trips,
-};
+use crate::cases::{all_ids, chosen, left_out, library, round_trips};
 use crate::catalogue::catalogue;
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
@@ -20,6 +18,7 @@ use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
+use etalon_history::FrameTimes;
 use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
@@ -221,9 +220,9 @@ impl Selected {
         let Arguments { selection, .. } = arguments;
         let mut cases = chosen(selection)?;
         if selection.globs.is_empty() {
-            // A folder with nothing else in it means them.
-            let measuring_alone = cases.iter().all(is_measuring);
-            cases.retain(|case| measuring_alone || !is_measuring(case));
+            // One measured picture takes as long as hundreds of cases. A folder with nothing else in it means them.
+            let measured_alone = cases.iter().all(|case| case.measured);
+            cases.retain(|case| measured_alone || !case.measured);
         }
         let ids: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
         let round_trips = round_trips(selection.cases.as_ref(), &cases)?;
@@ -433,7 +432,10 @@ fn rechecked(recheck: Recheck, Rechecks { done, left }: Rechecks) -> String {
 /// Returns true if enough was asserted, and a line that says how much was: the share of the records of cases that
 /// are judged, not measured, whose frame was held against something.
 fn asserted(run: &Run, percent: f64) -> (bool, String) {
-    let counted = run.records.iter().filter(|r| !is_measuring_area(r.area()));
+    let counted = run
+        .records
+        .iter()
+        .filter(|r| !FrameTimes::AREAS.contains(&r.area()));
     let all = counted.clone().count();
     if all == 0 {
         let line = "nothing was asserted: no selected case is judged (--min-asserted)";

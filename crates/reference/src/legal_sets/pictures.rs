@@ -59,8 +59,7 @@ fn samples_of_a_picture_are_what_each_of_them_is_alone() {
     let apis = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];
     let mut checked = 0;
     for file in library.files() {
-        let area = file.name().split('/').next().unwrap_or_default();
-        if ["methods", "perf"].contains(&area) {
+        if file.is_measured() {
             continue;
         }
         let cases: Vec<_> = file.cases(Profile::Quick).collect();

@@ -54,7 +54,7 @@ fn some(file: &CaseFile) -> Vec<Case> {
     let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");
     let mut places = if everything {
         (0..quick.len()).collect()
-    } else if is_measured(area_of(file)) {
+    } else if file.is_measured() {
         vec![quick.len() / 2]
     } else {
         vec![0, quick.len() / 2, quick.len() - 1]
@@ -64,14 +64,9 @@ fn some(file: &CaseFile) -> Vec<Case> {
     built.map(|c| c.expect("built-in cases build")).collect()
 }
 
-/// True for areas whose large pictures are measured.
-fn is_measured(area: &str) -> bool {
-    matches!(area, "methods" | "perf")
-}
-
 /// A lattice of the large pictures that are measured, all texels of others.
 fn texels(case: &Case) -> Texels {
-    if is_measured(case.area()) {
+    if case.measured {
         Texels::AtMost(1024)
     } else {
         Texels::All
@@ -133,13 +128,12 @@ fn judge(case: &Case) -> AspectStatistics {
 fn hold(area: &str) {
     let library = Library::built_in().expect("built-in files parse");
     let mut sum = AspectStatistics::default();
-    for file in library.files().iter().filter(|f| area_of(f) == area) {
-        for case in some(file) {
-            sum.add(judge(&case));
-        }
+    let files = library.files().iter().filter(|f| area_of(f) == area);
+    for case in files.clone().flat_map(some) {
+        sum.add(judge(&case));
     }
     // Of large pictures most texels are not judged, and of methods much is open.
-    if is_measured(area) {
+    if files.clone().all(CaseFile::is_measured) {
         return;
     }
     let share = sum.asserted as f64 / sum.channels as f64;

@@ -46,9 +46,8 @@ impl<'s> AdapterRun<'s, '_> {
 
     /// The limits of waiting for a case.
     pub(super) fn wait(&self, case: &Case) -> Wait<'s> {
-        let measuring = case.method.is_some() || case.area() == "perf";
         Wait {
-            timeout: if measuring {
+            timeout: if case.measured {
                 self.measuring_timeout()
             } else {
                 self.shared.options.timeout

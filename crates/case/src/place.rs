@@ -1,0 +1,155 @@
+//! The place in a file's text that a path leads to.
+//!
+//! A path counts unrolled items of lists ([`crate::each`]), and so leads to the item that stands for them, or to the
+//! value in its `each` that is wrong.
+
+use crate::each::EACH;
+use crate::error::Step;
+use jsonc_parser::ast::{Array, Object, Value};
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+
+/// A place in a file.
+pub(crate) struct Place {
+    /// The line, from 1; 0 if the text is not JSON.
+    pub(crate) line: usize,
+    /// The path through the file as it is written.
+    pub(crate) path: Vec<Step>,
+    /// The path of the `"$name"` that stands for a value of an `each`.
+    pub(crate) used: Option<Vec<Step>>,
+}
+
+impl Place {
+    /// Returns the place of the value at a path, or as near above it as the path leads.
+    pub(crate) fn new(text: &str, path: &[Step]) -> Self {
+        let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
+        let parsed = parsed.ok().and_then(|parsed| parsed.value);
+        let Some(mut value) = parsed.as_ref() else {
+            return Self {
+                line: 0,
+                path: path.to_vec(),
+                used: None,
+            };
+        };
+        let mut start = value.start();
+        let mut found = Vec::new();
+        let mut used = None;
+        let mut bound: Vec<Bound> = Vec::new();
+        let mut steps = path.iter();
+        loop {
+            if let Some(at) = bound.iter().position(|b| b.is_named_by(value)) {
+                // An item's value can name those of the items around it.
+                bound.truncate(at + 1);
+                let Some(named) = bound.pop() else { break };
+                bound.truncate(named.around);
+                (start, value) = (named.value.start(), named.value);
+                used = used.or(Some(found));
+                found = named.path;
+                continue;
+            }
+            let Some(step) = steps.next() else { break };
+            let next = match (value, step) {
+                (Value::Object(object), Step::Key(key)) => {
+                    property(object, key).map(|(start, value)| (step.clone(), start, value, 0))
+                }
+                (Value::Array(list), Step::Index(index)) => item(list, *index, &bound)
+                    .map(|(index, copy)| (Step::Index(index), &list.elements[index], copy))
+                    .map(|(step, item, copy)| (step, item.start(), item, copy)),
+                _ => None,
+            };
+            let Some((step, at, next, copy)) = next else {
+                found.push(step.clone());
+                break;
+            };
+            found.push(step);
+            (start, value) = (at, next);
+            bind(value, copy, &found, &mut bound);
+        }
+        found.extend(steps.cloned());
+        Self {
+            line: text[..start].matches('\n').count() + 1,
+            path: found,
+            used,
+        }
+    }
+}
+
+/// A name of an `each`, and its value in one of the items.
+struct Bound<'a> {
+    name: &'a str,
+    value: &'a Value<'a>,
+    path: Vec<Step>,
+    /// The number of names that the items around have.
+    around: usize,
+}
+
+impl Bound<'_> {
+    fn is_named_by(&self, value: &Value) -> bool {
+        matches!(value, Value::StringLit(text) if text.value.strip_prefix('$') == Some(self.name))
+    }
+}
+
+/// Where a property and its value start.
+fn property<'a>(object: &'a Object<'a>, key: &str) -> Option<(usize, &'a Value<'a>)> {
+    let mut properties = object.properties.iter();
+    let found = properties.find(|p| p.name.as_str() == key)?;
+    Some((found.start(), &found.value))
+}
+
+/// The `each` of a list's item.
+fn each<'a>(item: &'a Value<'a>) -> Option<&'a Object<'a>> {
+    let (_, value) = property(item.as_object()?, EACH)?;
+    value.as_object()
+}
+
+/// The place of an unrolled item in a list as it is written, and its number among those that the item stands for.
+fn item(list: &Array, mut index: usize, bound: &[Bound]) -> Option<(usize, usize)> {
+    for (place, item) in list.elements.iter().enumerate() {
+        let first = each(item).and_then(|each| each.properties.first());
+        let values = first.and_then(|first| values(&first.value, bound));
+        // A wrong `each` is one item.
+        let count = values.map_or(1, |(list, _)| list.elements.len().max(1));
+        if index < count {
+            return Some((place, index));
+        }
+        index -= count;
+    }
+    None
+}
+
+/// The list of a name's values, which can be a value of an item around; and the path of that.
+fn values<'a>(
+    value: &'a Value<'a>,
+    bound: &[Bound<'a>],
+) -> Option<(&'a Array<'a>, Option<Vec<Step>>)> {
+    match bound.iter().find(|b| b.is_named_by(value)) {
+        Some(named) => Some((named.value.as_array()?, Some(named.path.clone()))),
+        None => Some((value.as_array()?, None)),
+    }
+}
+
+/// Binds the names of an item's `each`.
+fn bind<'a>(item: &'a Value<'a>, copy: usize, path: &[Step], bound: &mut Vec<Bound<'a>>) {
+    let around = bound.len();
+    for property in each(item).iter().flat_map(|each| &each.properties) {
+        let name = property.name.as_str();
+        let Some((list, from)) = values(&property.value, &bound[..around]) else {
+            continue;
+        };
+        let Some(value) = list.elements.get(copy) else {
+            continue;
+        };
+        let own = || {
+            let keys = [EACH, name].map(|key| Step::Key(key.to_owned()));
+            path.iter().cloned().chain(keys).collect()
+        };
+        let mut path: Vec<Step> = from.unwrap_or_else(own);
+        path.push(Step::Index(copy));
+        bound.push(Bound {
+            name,
+            value,
+            path,
+            around,
+        });
+    }
+}
