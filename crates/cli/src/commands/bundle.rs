@@ -12,7 +12,7 @@ use crate::reduction::{Shown, TIMEOUT};
 use clap::Args;
 use etalon_bundle::{
     Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Program, Report, Trim,
-    Versions, shader_test,
+    Versions,
 };
 use etalon_case::Case;
 use etalon_explore::states;
@@ -148,13 +148,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?
         ),
     ));
-    if let Some(test) = shader_test(recording, &due) {
-        files.push(File::text(
-            "repro.shader_test",
-            "the same for piglit: `shader_runner repro.shader_test -auto -fbo`",
-            test,
-        ));
-    }
     files.extend(pictures(&judged));
     let report = Report {
         title,
