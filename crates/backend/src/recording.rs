@@ -143,8 +143,6 @@ pub enum Argument {
 pub struct Member {
     /// Its name.
     pub name: String,
-    /// Its offset in bytes.
-    pub offset: u64,
     /// Its value.
     pub value: Argument,
 }

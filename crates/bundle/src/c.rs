@@ -24,9 +24,10 @@ pub(crate) fn string(text: &str) -> String {
 /// Returns a text as string literals, one for each of its lines.
 pub(crate) fn lines(text: &str, indent: &str) -> String {
     let lines: Vec<String> = text.split_inclusive('\n').map(string).collect();
-    match lines.is_empty() {
-        true => "\"\"".to_owned(),
-        false => lines.join(&format!("\n{indent}")),
+    if lines.is_empty() {
+        "\"\"".to_owned()
+    } else {
+        lines.join(&format!("\n{indent}"))
     }
 }
 

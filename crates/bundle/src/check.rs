@@ -198,9 +198,10 @@ fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String
             "        part = 0;\n        memcpy(&part, memory_{} + {}, {});\n",
             part.output, part.offset, part.bytes,
         );
-        text.push_str(match counter.any {
-            true => "        count |= part != 0;\n",
-            false => "        count += part;\n",
+        text.push_str(if counter.any {
+            "        count |= part != 0;\n"
+        } else {
+            "        count += part;\n"
         });
     }
     let above = match due.range.high {

@@ -150,9 +150,10 @@ impl Declarations {
     pub(crate) fn functions(&self) -> String {
         let mut text = String::from("\n");
         for (name, (result, parameters)) in &self.functions {
-            let parameters = match parameters.is_empty() {
-                true => "void".to_owned(),
-                false => parameters.join(", "),
+            let parameters = if parameters.is_empty() {
+                "void".to_owned()
+            } else {
+                parameters.join(", ")
             };
             let _ = writeln!(text, "static {result} (*{name})({parameters});");
         }

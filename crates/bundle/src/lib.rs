@@ -31,5 +31,5 @@ pub use error::BundleError;
 pub use gl::Trim;
 pub use head::Head;
 pub use language::Language;
-pub use program::{Program, program, shader_test};
+pub use program::{Program, program};
 pub use report::{Checks, Expected, Report, Versions};

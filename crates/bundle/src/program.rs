@@ -69,11 +69,3 @@ pub fn program(
         files: vec![File::text("repro.c", "the program", text?)],
     })
 }
-
-/// Returns the scene as a test for piglit's `shader_runner`; `None` if the format cannot say it.
-pub fn shader_test(recording: &Recording, due: &Due) -> Option<String> {
-    match &recording.context {
-        RecordedContext::Egl { es, version, .. } => gl::shader_test(*es, *version, recording, due),
-        RecordedContext::Vulkan { .. } | RecordedContext::Wgpu { .. } => None,
-    }
-}

@@ -169,9 +169,10 @@ impl Report {
         if let Some(versions) = &self.versions {
             row("releases with the bug", &versions.bad);
             if let Some((newest, bad)) = &versions.newest {
-                let still = match bad {
-                    true => format!("still in {newest}"),
-                    false => format!("not in {newest}"),
+                let still = if *bad {
+                    format!("still in {newest}")
+                } else {
+                    format!("not in {newest}")
                 };
                 row("newest release tried", &still);
             }

@@ -157,13 +157,15 @@ fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f6
     if encoding == ChannelEncoding::Float32 {
         return [value(least), value(most)];
     }
-    let below = match least > encoding.min_order() {
-        true => (value(least - 1) + value(least)) / 2.0,
-        false => f64::NEG_INFINITY,
+    let below = if least > encoding.min_order() {
+        (value(least - 1) + value(least)) / 2.0
+    } else {
+        f64::NEG_INFINITY
     };
-    let above = match most < encoding.max_order() {
-        true => (value(most) + value(most + 1)) / 2.0,
-        false => f64::INFINITY,
+    let above = if most < encoding.max_order() {
+        (value(most) + value(most + 1)) / 2.0
+    } else {
+        f64::INFINITY
     };
     [below, above]
 }

@@ -33,9 +33,10 @@ fn pass(attachments: &Value, draws: &Value) -> Value {
         if textures.contains(&&json!(name)) {
             continue;
         }
-        match format.is_color() {
-            true => pass["color"].as_array_mut().unwrap().push(json!(name)),
-            false => pass["depth_stencil"] = json!(name),
+        if format.is_color() {
+            pass["color"].as_array_mut().unwrap().push(json!(name))
+        } else {
+            pass["depth_stencil"] = json!(name)
         }
     }
     pass

@@ -106,9 +106,10 @@ impl Egl {
         let name = path.display();
         // SAFETY: libEGL's initialisers have no preconditions.
         let library = unsafe { Library::new(path) }.map_err(|e| {
-            let reason = match path == Path::new(SYSTEM) {
-                true => format!("{name} not found"),
-                false => format!("{name} cannot be loaded: {e}"),
+            let reason = if path == Path::new(SYSTEM) {
+                format!("{name} not found")
+            } else {
+                format!("{name} cannot be loaded: {e}")
             };
             Unavailable::new(reason, INSTALL_EGL)
         })?;
@@ -257,9 +258,10 @@ impl Egl {
     /// vendor.
     fn driver_name(&self, display: Display) -> Option<String> {
         let known = self.display_extensions(display);
-        let address = match known.contains("EGL_MESA_query_driver") {
-            true => self.proc_address(c"eglGetDisplayDriverName"),
-            false => std::ptr::null(),
+        let address = if known.contains("EGL_MESA_query_driver") {
+            self.proc_address(c"eglGetDisplayDriverName")
+        } else {
+            std::ptr::null()
         };
         // SAFETY: the extension gives this name this type.
         let name = if let Some(get) = unsafe { function_at::<GetDisplayDriverName>(address) } {

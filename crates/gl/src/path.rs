@@ -77,9 +77,10 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
                 !sampled && !fetched && !uploaded && renders
             }
         };
-    match can {
-        true => scene.path.target,
-        false => PathTarget::Plain,
+    if can {
+        scene.path.target
+    } else {
+        PathTarget::Plain
     }
 }
 
@@ -109,10 +110,7 @@ pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
             }
             PathEnd::ShaderRead => support.fetched_exactly && !channels.iter().any(twofold),
         };
-    match can {
-        true => scene.path.end,
-        false => PathEnd::Store,
-    }
+    if can { scene.path.end } else { PathEnd::Store }
 }
 
 /// The vertex shader's part of a draw's path.

@@ -182,9 +182,10 @@ fn read_plan(
             depth: false,
             stencil: ShaderStencil::Shader,
         };
-        return match caps.es {
-            false => Some(ReadPlan::Stencil),
-            true => (caps.stencil_textures && caps.stencil_texturing).then_some(shader),
+        return if caps.es {
+            (caps.stencil_textures && caps.stencil_texturing).then_some(shader)
+        } else {
+            Some(ReadPlan::Stencil)
         };
     }
     let first = format.color_channels().first()?;

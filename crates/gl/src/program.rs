@@ -228,9 +228,10 @@ fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
         .map(str::len)
         .sum();
     let (directives, rest) = body.split_at(directives);
-    let extension = match context.caps.es && context.caps.version >= (3, 2) {
-        true => String::new(),
-        false => format!("#extension {ADVANCED_BLEND} : require\n"),
+    let extension = if context.caps.es && context.caps.version >= (3, 2) {
+        String::new()
+    } else {
+        format!("#extension {ADVANCED_BLEND} : require\n")
     };
     let word = blend_support(mode);
     format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
@@ -355,9 +356,10 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     let (before, (value, rest)) = assigned.ok_or("naga assigns no sample mask")?;
     let text = format!("{before}gl_SampleMask[0] = int({value});{rest}");
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
-    Ok(match es && !text.contains(EXTENSION) {
-        true => format!("{version}\n{EXTENSION}{body}"),
-        false => text,
+    Ok(if es && !text.contains(EXTENSION) {
+        format!("{version}\n{EXTENSION}{body}")
+    } else {
+        text
     })
 }
 

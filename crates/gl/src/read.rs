@@ -429,9 +429,10 @@ fn read_pixels<T: bytemuck::Pod>(
     parted: bool,
 ) {
     let [width, height] = size;
-    let (columns, rows) = match parted {
-        true => (halves(width), halves(height)),
-        false => (vec![(0, width)], vec![(0, height)]),
+    let (columns, rows) = if parted {
+        (halves(width), halves(height))
+    } else {
+        (vec![(0, width)], vec![(0, height)])
     };
     let native = |(first, length): (u32, u32)| (first as i32, length as i32);
     recording::memory(bytemuck::cast_slice(into));

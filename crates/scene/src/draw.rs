@@ -5,9 +5,8 @@ use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
 use crate::mesh::{Mesh, PrimitiveVertices};
-use crate::provoking::ProvokingVertex;
 use crate::rasterization::{
-    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
+    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex, Viewport,
 };
 use crate::sampler::Sampler;
 use crate::shader::Shader;

@@ -50,9 +50,9 @@ pub use pass::{
 };
 pub use path::Path;
 pub use pool::Pool;
-pub use provoking::ProvokingVertex;
 pub use rasterization::{
-    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
+    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex,
+    SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Scene};

@@ -5,20 +5,7 @@
 
 use crate::draw::Draw;
 use crate::mesh::{Mesh, RESTART};
-use crate::rasterization::PrimitiveTopology;
-use etalon_frame::state_enum;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-state_enum! {
-    /// The vertex of each primitive whose attributes are flat over it.
-    ProvokingVertex {
-        /// The first: Vulkan's and WebGPU's.
-        First = "first",
-        /// The last: OpenGL's, unless it is told otherwise.
-        Last = "last",
-    }
-}
+use crate::rasterization::{PrimitiveTopology, ProvokingVertex};
 
 impl Mesh {
     /// Returns the first and the last vertex of each primitive, in the order of

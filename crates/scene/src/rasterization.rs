@@ -23,6 +23,16 @@ state_enum! {
 }
 
 state_enum! {
+    /// The vertex of each primitive whose attributes are flat over it.
+    ProvokingVertex {
+        /// The first: Vulkan's and WebGPU's.
+        First = "first",
+        /// The last: OpenGL's, unless it is told otherwise.
+        Last = "last",
+    }
+}
+
+state_enum! {
     /// The part of a polygon that is drawn.
     PolygonMode {
         /// Its inside.

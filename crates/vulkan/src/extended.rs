@@ -66,10 +66,7 @@ impl Further {
             (true, false) => &STATES[..COLORLESS],
             (true, true) => &STATES,
         };
-        let logic = match colored {
-            true => self.logic.states(),
-            false => &[],
-        };
+        let logic = if colored { self.logic.states() } else { &[] };
         [extended, logic].concat()
     }
 }
@@ -85,9 +82,10 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
         DynamicLogic::Operation => draw.logic.map(|_| HELD),
         DynamicLogic::All | DynamicLogic::Nothing => draw.logic,
     };
-    let rest = match further.extended {
-        true => held(draw),
-        false => draw.clone(),
+    let rest = if further.extended {
+        held(draw)
+    } else {
+        draw.clone()
     };
     Draw { logic, ..rest }
 }

@@ -57,9 +57,10 @@ pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> Pa
         PathTarget::Slice3d => single && attachment.format.is_color() && !read_by_shader(),
         PathTarget::Plain | PathTarget::ArrayLayer | PathTarget::Renderbuffer => true,
     };
-    match can {
-        true => scene.path.target,
-        false => PathTarget::Plain,
+    if can {
+        scene.path.target
+    } else {
+        PathTarget::Plain
     }
 }
 

@@ -95,9 +95,10 @@ impl RenderPass {
             });
         }
         let tested = depth_stencil.map(|plan| {
-            let layout = match plan.read_only {
-                true => DEPTH_STENCIL_READ_ONLY.layout,
-                false => DEPTH_STENCIL.layout,
+            let layout = if plan.read_only {
+                DEPTH_STENCIL_READ_ONLY.layout
+            } else {
+                DEPTH_STENCIL.layout
             };
             let ends = depth_stencil_ends(plan);
             let shape = (plan.view, targets.depth_stencil(), targets.samples);
@@ -144,9 +145,10 @@ impl RenderPass {
         if target.is_some() {
             last = last.push_next(&mut depth_stencil_resolve);
         }
-        let (subpasses, subpass) = match second_subpass {
-            true => (vec![described(false), last], 1),
-            false => (vec![last], 0),
+        let (subpasses, subpass) = if second_subpass {
+            (vec![described(false), last], 1)
+        } else {
+            (vec![last], 0)
         };
         let dependencies = [between_subpasses()];
         let info = vk::RenderPassCreateInfo2::default()

@@ -86,9 +86,10 @@ fn source(seen: SampleType, several: bool) -> String {
         SampleType::Stencil => ("texture_multisampled_2d<u32>", "texel", Aspect::Stencil),
     };
     let words = words(aspect);
-    let (texture, samples, place) = match several {
-        true => (texture.to_owned(), "textureNumSamples(source)", "i32(s)"),
-        false => (texture.replace("multisampled_", ""), "1u", "0"),
+    let (texture, samples, place) = if several {
+        (texture.to_owned(), "textureNumSamples(source)", "i32(s)")
+    } else {
+        (texture.replace("multisampled_", ""), "1u", "0")
     };
     format!(
         "@group(0) @binding(0) var source: {texture};

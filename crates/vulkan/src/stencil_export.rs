@@ -55,12 +55,13 @@ pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
         let replaced = is(line, DECORATE)
             && line[2..] == [LOCATION, STENCIL_REFERENCE]
             && outputs.contains(&line[1]);
-        match replaced {
-            true => out.extend(instruction(
+        if replaced {
+            out.extend(instruction(
                 DECORATE,
                 &[line[1], BUILT_IN, FRAG_STENCIL_REF],
-            )),
-            false => out.extend(line),
+            ))
+        } else {
+            out.extend(line)
         }
     }
     out

@@ -125,9 +125,10 @@ impl Gpu {
             _ => TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT,
         };
         // Copies of depth end in another texture of its format.
-        let copied = match samples == 1 && self.abilities.copies {
-            true => TextureUsages::COPY_DST,
-            false => TextureUsages::empty(),
+        let copied = if samples == 1 && self.abilities.copies {
+            TextureUsages::COPY_DST
+        } else {
+            TextureUsages::empty()
         };
         Ok(self.texture(known, shape, samples, usage | copied))
     }

@@ -62,9 +62,10 @@ pub(crate) fn target(scene: &Scene, index: usize) -> PathTarget {
             PathTarget::Slice3d => attachment.format.is_color() && !read_by_shader() && !resolved(),
             PathTarget::Renderbuffer => false,
         };
-    match can {
-        true => scene.path.target,
-        false => PathTarget::Plain,
+    if can {
+        scene.path.target
+    } else {
+        PathTarget::Plain
     }
 }
 
@@ -150,10 +151,7 @@ pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
             PathEnd::ShaderRead => is_fetched_exactly(format, reading),
             PathEnd::Blit => false,
         };
-    match can {
-        true => scene.path.end,
-        false => PathEnd::Store,
-    }
+    if can { scene.path.end } else { PathEnd::Store }
 }
 
 /// As for samples, but that views of one sample convert sRGB. Stencil is never fetched.
@@ -164,9 +162,10 @@ fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
         _ => true,
     };
     let floats = format.depth_encodings() == [ChannelEncoding::Float32];
-    match format.is_color() {
-        true => format.color_channels().iter().all(exact),
-        false => format.has_depth() && (floats || reading.fetches),
+    if format.is_color() {
+        format.color_channels().iter().all(exact)
+    } else {
+        format.has_depth() && (floats || reading.fetches)
     }
 }
 

@@ -173,13 +173,13 @@ impl Pipelines {
                 })?;
             let layout = self.layouts.draw(device, key.bindings)?;
             let all = attributes(shader);
-            let apart: Vec<_> = match key.instanced {
-                true => all
-                    .iter()
+            let apart: Vec<_> = if key.instanced {
+                all.iter()
                     .filter(|a| a.shader_location != COLOR)
                     .copied()
-                    .collect(),
-                false => all.to_vec(),
+                    .collect()
+            } else {
+                all.to_vec()
             };
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,

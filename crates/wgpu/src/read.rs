@@ -264,9 +264,10 @@ impl<'a> ReadPlan<'a> {
             }
             ReadMethod::FetchTexel => {
                 let layouts = &gpu.pipelines.layouts;
-                let (key, layout) = match self.source.format.is_integer() {
-                    true => (FetchKey::IntegerTexel, &layouts.integer_texture),
-                    false => (FetchKey::Texel, &layouts.texture),
+                let (key, layout) = if self.source.format.is_integer() {
+                    (FetchKey::IntegerTexel, &layouts.integer_texture)
+                } else {
+                    (FetchKey::Texel, &layouts.texture)
                 };
                 let bindings = gpu.bound(layout, &[self.source.target.fetch()]);
                 let format = wgpu::TextureFormat::Rgba32Uint;

@@ -1,7 +1,6 @@
 //! OpenGL and OpenGL ES: one C file that loads EGL and needs no header of the API.
 
 mod calls;
-mod shader_test;
 mod trim;
 
 use crate::c::string;
@@ -11,10 +10,9 @@ use crate::error::BundleError;
 use crate::head::Head;
 use crate::language::Language;
 use calls::Printer;
+use etalon_backend::Recording;
 use trim::trimmed;
 
-use etalon_backend::Recording;
-pub(crate) use shader_test::shader_test;
 pub use trim::Trim;
 
 /// The context of EGL that a program makes.

@@ -373,9 +373,10 @@ fn setter(call: &Call) -> Option<Setter> {
     let function = call.function.as_str();
     if let ("glEnable" | "glDisable", [capability]) = (function, arguments.as_slice()) {
         let capability = u32::try_from(*capability).ok()?;
-        let initial = match ON.contains(&capability) {
-            true => "glEnable",
-            false => "glDisable",
+        let initial = if ON.contains(&capability) {
+            "glEnable"
+        } else {
+            "glDisable"
         };
         return Some(Setter {
             key: Key::Capability(capability),
@@ -395,9 +396,10 @@ fn setter(call: &Call) -> Option<Setter> {
         });
     }
     let known = known_of(function)?;
-    let target = match known.by_target {
-        true => Some(*arguments.first()?),
-        false => None,
+    let target = if known.by_target {
+        Some(*arguments.first()?)
+    } else {
+        None
     };
     let initial = match (known.family, target) {
         // Rows are aligned to 4 bytes, and nothing is skipped.

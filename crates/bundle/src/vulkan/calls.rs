@@ -44,9 +44,10 @@ impl Printer {
     pub(super) fn types(&self) -> String {
         let mut text = String::new();
         for kind in &self.handles {
-            let own = match DISPATCHABLE.contains(&kind.as_str()) {
-                true => "void *",
-                false => "uint64_t ",
+            let own = if DISPATCHABLE.contains(&kind.as_str()) {
+                "void *"
+            } else {
+                "uint64_t "
             };
             let _ = writeln!(text, "typedef {own}{kind};");
         }
@@ -130,14 +131,12 @@ impl Printer {
         let made = format!("{name}({})", values.join(", "));
         let void = name.starts_with("vkCmd")
             || matches!(name, "vkGetDeviceQueue" | "vkUpdateDescriptorSets");
-        let result = match void {
-            true => "void",
-            false => "int32_t",
-        };
+        let result = if void { "void" } else { "int32_t" };
         self.declarations.function(name, result, types);
-        Ok(match void {
-            true => format!("{made};"),
-            false => format!("check({made}, \"{name}\", __LINE__);"),
+        Ok(if void {
+            format!("{made};")
+        } else {
+            format!("check({made}, \"{name}\", __LINE__);")
         })
     }
 
@@ -214,9 +213,10 @@ impl Printer {
                         zero = text;
                     }
                 }
-                match values.is_empty() {
-                    true => format!("{{ {zero} }}"),
-                    false => format!("{{ {} }}", values.join(", ")),
+                if values.is_empty() {
+                    format!("{{ {zero} }}")
+                } else {
+                    format!("{{ {} }}", values.join(", "))
                 }
             }
             Argument::Text(text) => c::string(text),
@@ -245,18 +245,23 @@ impl Printer {
             if !c::is_identifier(&member.name) {
                 return Err(BundleError::Call(kind.to_owned()));
             }
+            let first = match &member.value {
+                Argument::Values(all) => all.first(),
+                value => Some(value),
+            };
+            if let Some(Argument::Struct {
+                kind,
+                size,
+                members,
+            }) = first
+            {
+                nested.push((kind.clone(), *size, members.clone()));
+            }
             let declaration = match &member.value {
                 Argument::Values(all) => {
                     format!("{} {}[{}]", element_of(all), member.name, all.len())
                 }
-                Argument::Struct {
-                    kind,
-                    size,
-                    members,
-                } => {
-                    nested.push((kind.clone(), *size, members.clone()));
-                    format!("{kind} {}", member.name)
-                }
+                Argument::Struct { kind, .. } => format!("{kind} {}", member.name),
                 value => {
                     if let Argument::Object(kind, _) = value {
                         self.handles.insert(kind.clone());
@@ -309,9 +314,10 @@ fn unsigned(value: u32) -> String {
 fn word(constant: &Constant) -> String {
     let value = unsigned(constant.value);
     let name = c::comment(&constant.name);
-    match name.is_empty() || name == value || constant.value == 0 {
-        true => value,
-        false => format!("{value} /* {name} */"),
+    if name.is_empty() || name == value || constant.value == 0 {
+        value
+    } else {
+        format!("{value} /* {name} */")
     }
 }
 
@@ -336,5 +342,41 @@ fn element_of(all: &[Argument]) -> String {
         Some(Argument::Text(_)) => "char *const".to_owned(),
         Some(value) => kind_of(value),
         None => "char".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_backend::Phase;
+
+    #[test]
+    fn structures_are_declared_before_arrays_of_them() {
+        let structure = |kind: &str, size, name: &str, value| Argument::Struct {
+            kind: kind.to_owned(),
+            size,
+            members: vec![Member {
+                name: name.to_owned(),
+                value,
+            }],
+        };
+        let offset = || structure("VkOffset", 4, "x", Argument::Integer(1));
+        let offsets = Argument::Values(vec![offset(), offset()]);
+        let mut printer = Printer::new();
+        let call = Call {
+            phase: Phase::Prepare,
+            function: "vkCmdBlit".to_owned(),
+            arguments: vec![Argument::Array(vec![structure(
+                "VkBlit", 8, "offsets", offsets,
+            )])],
+            result: None,
+        };
+        let body = printer.body(&[call]).unwrap();
+        let value = "(const VkBlit[]){ { .offsets = { { .x = 1 }, { .x = 1 } } } }";
+        assert!(body.definitions.contains(value), "{}", body.definitions);
+        let types = printer.types();
+        let [first, second] = ["} VkOffset;", "    VkOffset offsets[2];\n} VkBlit;"]
+            .map(|text| types.find(text).unwrap());
+        assert!(first < second, "{types}");
     }
 }

@@ -38,9 +38,10 @@ pub(super) fn word(value: &Tree) -> Result<&str, BundleError> {
         value => value.name(),
     };
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    match !word.is_empty() && word.chars().all(plain) {
-        true => Ok(word),
-        false => Err(BundleError::Call(word.to_owned())),
+    if !word.is_empty() && word.chars().all(plain) {
+        Ok(word)
+    } else {
+        Err(BundleError::Call(word.to_owned()))
     }
 }
 
@@ -55,9 +56,12 @@ pub(super) fn flags(value: &Tree) -> Result<Vec<&str>, BundleError> {
         .filter(|name| !name.is_empty());
     let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
     names
-        .map(|name| match name.chars().all(plain) {
-            true => Ok(name),
-            false => Err(BundleError::Call(name.to_owned())),
+        .map(|name| {
+            if name.chars().all(plain) {
+                Ok(name)
+            } else {
+                Err(BundleError::Call(name.to_owned()))
+            }
         })
         .collect()
 }
@@ -149,6 +153,22 @@ pub(super) struct Memory {
     pub(super) bits: bool,
     /// The parts: offset, distance between rows, bytes of a row, rows.
     pub(super) parts: Vec<[u64; 4]>,
+}
+
+impl Memory {
+    /// Returns an expression for the bytes of the memory. `bytes` is an expression for the mapped ones.
+    pub(super) fn expression(&self, bytes: &str) -> String {
+        let part = |[offset, pitch, row, rows]: &[u64; 4]| {
+            format!("rows({bytes}, {offset}, {pitch}, {row}, {rows})")
+        };
+        let parts: Vec<String> = self.parts.iter().map(part).collect();
+        let parts = parts.join(", ");
+        if self.bits {
+            format!("bits({parts})")
+        } else {
+            parts
+        }
+    }
 }
 
 /// Returns the memories in their order.

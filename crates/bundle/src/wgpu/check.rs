@@ -259,22 +259,24 @@ fn counter(recording: &Recording, due: &crate::due::DueCounter) -> Result<Code, 
         )
     });
     let parts = list(parts);
-    let (each, total) = match counter.any {
-        true => (
+    let (each, total) = if counter.any {
+        (
             "u64::from(part.iter().any(|byte| *byte != 0))",
             "max().unwrap_or(0)",
-        ),
-        false => (
+        )
+    } else {
+        (
             "part.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))",
             "sum::<u64>()",
-        ),
+        )
     };
-    let (each_script, total_script) = match counter.any {
-        true => ("part.some((byte) => byte) ? 1 : 0", "Math.max(all, part)"),
-        false => (
+    let (each_script, total_script) = if counter.any {
+        ("part.some((byte) => byte) ? 1 : 0", "Math.max(all, part)")
+    } else {
+        (
             "part.reduceRight((word, byte) => word * 256 + byte, 0)",
             "all + part",
-        ),
+        )
     };
     let (low, high) = (due.range.low, due.range.high);
     let range = match high {

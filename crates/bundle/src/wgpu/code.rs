@@ -181,13 +181,17 @@ impl Structure {
 
     pub(super) fn end(self) -> Code {
         Code {
-            rust: match self.rust.is_empty() {
-                true => format!("{} {{}}", self.kind),
-                false => format!("{} {{ {} }}", self.kind, self.rust.join(", ")),
+            rust: if self.rust.is_empty() {
+                format!("{} {{}}", self.kind)
+            } else {
+                format!("{} {{ {} }}", self.kind, self.rust.join(", "))
             },
-            script: self.script.map(|members| match members.is_empty() {
-                true => "{}".to_owned(),
-                false => format!("{{ {} }}", members.join(", ")),
+            script: self.script.map(|members| {
+                if members.is_empty() {
+                    "{}".to_owned()
+                } else {
+                    format!("{{ {} }}", members.join(", "))
+                }
             }),
         }
     }

@@ -465,9 +465,10 @@ fn primitive(state: &Tree) -> Printed {
         .of_wgpu("polygon_mode", &mode)
         .of_wgpu("conservative", conservative)
         .end();
-    Ok(match is_web {
-        true => primitive,
-        false => Code::of_wgpu(primitive.rust),
+    Ok(if is_web {
+        primitive
+    } else {
+        Code::of_wgpu(primitive.rust)
     })
 }
 

@@ -39,9 +39,10 @@ pub(super) fn source(text: &str) -> Code {
     if !text.chars().all(plain) {
         return literal;
     }
-    let rust = match text.contains("\"###") {
-        false => format!("r###\"{text}\"###"),
-        true => literal.rust,
+    let rust = if text.contains("\"###") {
+        literal.rust
+    } else {
+        format!("r###\"{text}\"###")
     };
     // An attribute of wgpu.
     if text.contains("@early_depth_test") {
@@ -50,9 +51,10 @@ pub(super) fn source(text: &str) -> Code {
     let is_odd = ["`", "\\", "${", "</", "<!"]
         .iter()
         .any(|odd| text.contains(odd));
-    let script = match is_odd {
-        false => Some(format!("`{text}`")),
-        true => literal.script,
+    let script = if is_odd {
+        literal.script
+    } else {
+        Some(format!("`{text}`"))
     };
     Code { rust, script }
 }
@@ -87,15 +89,12 @@ pub(super) fn bytes(all: &[u8]) -> Code {
         let value = f32::from_bits(bits).abs();
         bits == 0 || (1e-6..1e9).contains(&value)
     };
-    let (function, array, items): (_, _, Vec<String>) = match words().all(is_float) {
-        true => {
-            let values = words().map(|w| format!("{:?}", f32::from_bits(w)));
-            ("floats", "Float32Array", values.collect())
-        }
-        false => {
-            let words = words().map(|w| format!("0x{w:x}"));
-            ("words", "Uint32Array", words.collect())
-        }
+    let (function, array, items): (_, _, Vec<String>) = if words().all(is_float) {
+        let values = words().map(|w| format!("{:?}", f32::from_bits(w)));
+        ("floats", "Float32Array", values.collect())
+    } else {
+        let words = words().map(|w| format!("0x{w:x}"));
+        ("words", "Uint32Array", words.collect())
     };
     let lines: Vec<String> = items.chunks(10).map(|line| line.join(", ")).collect();
     let lines = lines.join(",\n        ");

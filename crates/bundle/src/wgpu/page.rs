@@ -34,15 +34,7 @@ pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Op
     let [title, sentence] = [&head.title, &head.sentence].map(|text| escaped(text));
     let mut read = String::new();
     for memory in &statements.memories {
-        let part = |[offset, pitch, row, rows]: &[u64; 4]| {
-            format!("rows(bytes, {offset}, {pitch}, {row}, {rows})")
-        };
-        let parts: Vec<String> = memory.parts.iter().map(part).collect();
-        let parts = parts.join(", ");
-        let _ = match memory.bits {
-            true => writeln!(read, "      bits({parts}),"),
-            false => writeln!(read, "      {parts},"),
-        };
+        let _ = writeln!(read, "      {},", memory.expression("bytes"));
     }
     let mapped = &statements.mapped;
     let mut text = format!(

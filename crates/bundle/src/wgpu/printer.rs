@@ -48,9 +48,10 @@ pub(super) fn statements(recording: &Recording) -> Result<Statements<'_>, Bundle
                 let end = if matches!(text, "{" | "}") { "" } else { ";" };
                 let line = format!("    {text}{end}");
                 // The lines of a shader are its own.
-                match is_shader {
-                    true => line + "\n",
-                    false => wrapped(&line) + "\n",
+                if is_shader {
+                    line + "\n"
+                } else {
+                    wrapped(&line) + "\n"
                 }
             };
             body.push(&statement.map(line));

@@ -52,15 +52,7 @@ pub(super) fn program(
     let mapped = &statements.mapped;
     let mut read = String::new();
     for memory in &statements.memories {
-        let part = |[offset, pitch, row, rows]: &[u64; 4]| {
-            format!("rows(&bytes, {offset}, {pitch}, {row}, {rows})")
-        };
-        let parts: Vec<String> = memory.parts.iter().map(part).collect();
-        let parts = parts.join(", ");
-        let _ = match memory.bits {
-            true => writeln!(read, "        bits({parts}),"),
-            false => writeln!(read, "        {parts},"),
-        };
+        let _ = writeln!(read, "        {},", memory.expression("&bytes"));
     }
     let mut text = String::new();
     for part in [&head.title, &head.sentence, &head.run] {

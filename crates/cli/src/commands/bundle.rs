@@ -13,7 +13,7 @@ use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
     Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Language, Program, Report,
-    Trim, Versions, Written, shader_test,
+    Trim, Versions, Written,
 };
 use etalon_case::Case;
 use etalon_diagnose::{Subject, Symptom};
@@ -270,13 +270,6 @@ impl Reduced<'_> {
         let text = serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?;
         let about = "the scene as a case file of etalon";
         let mut files = vec![File::text("case.json", about, format!("{text}\n"))];
-        if let Some(test) = shader_test(&evidence.recording, &evidence.due) {
-            files.push(File::text(
-                "repro.shader_test",
-                "the same for piglit: `shader_runner repro.shader_test -auto -fbo`",
-                test,
-            ));
-        }
         files.extend(pictures(&evidence.judged));
         Ok(files)
     }

@@ -315,69 +315,6 @@ fn a_program_of_vulkan_keeps_to_the_rules_and_accuses_one_driver() {
     }
 }
 
-/// Cases that `shader_runner`'s format can say, a driver that fails them, and one that does not.
-const SAID: [(&str, &str, &str, Option<&str>); 3] = [
-    (
-        "cull/points/cull=none/front_face=cw",
-        "gl:softpipe",
-        "softpipe",
-        Some("llvmpipe"),
-    ),
-    (
-        "scissor/clip-distances/enables/enabled=0x00",
-        "gl:llvmpipe",
-        "llvmpipe",
-        None,
-    ),
-    (
-        "blend/formats-store/format=rgba8snorm/source=large",
-        "gl:llvmpipe",
-        "llvmpipe",
-        None,
-    ),
-];
-
-#[test]
-fn piglit_runs_what_its_format_can_say() {
-    let runner = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/piglit/shader_runner");
-    assert!(
-        runner.is_file(),
-        "no shader_runner: run `ci/piglit target/piglit`"
-    );
-    for (case, adapter, accused, other) in SAID {
-        let out = TempDir::new().unwrap();
-        let (code, summary, error) = bundle(case, adapter, out.path(), &[]);
-        assert_eq!(code, 0, "{error}");
-        let folder = Path::new(summary["folder"].as_str().unwrap());
-        let result = |driver: &str| {
-            let output = Command::new(&runner)
-                .arg(folder.join("repro.shader_test"))
-                .args(["-auto", "-fbo"])
-                .env("LIBGL_ALWAYS_SOFTWARE", "1")
-                .env("GALLIUM_DRIVER", driver)
-                .env("XDG_RUNTIME_DIR", "/tmp")
-                .output()
-                .unwrap();
-            last_line(&output)
-        };
-        assert_eq!(result(accused), r#"PIGLIT: {"result": "fail" }"#, "{case}");
-        if let Some(other) = other {
-            assert_eq!(result(other), r#"PIGLIT: {"result": "pass" }"#, "{case}");
-        }
-    }
-    // Logic operations have no command.
-    let out = TempDir::new().unwrap();
-    let (code, summary, error) = bundle(
-        "blend/integers-logic/mask=gb/operation=or",
-        "gl:softpipe",
-        out.path(),
-        &[],
-    );
-    assert_eq!(code, 0, "{error}");
-    let folder = Path::new(summary["folder"].as_str().unwrap());
-    assert!(!folder.join("repro.shader_test").exists());
-}
-
 #[test]
 fn a_fault_of_the_suite_becomes_no_bundle() {
     let case = "multisample/formats/format=rgba8unorm-srgb/samples=4";

@@ -1,445 +1,278 @@
 //! No two files of a crate need each other, directly or through others: each can be read after those it uses.
 //!
 //! An edge leads from a file to the file that defines what it names, through any number of re-exports: a module that
-//! only declares its children and hands their items on takes no part. Modules under `#[cfg(test)]` are left out.
-//! Sources are read as tokens and not as syntax trees, which would need a parser among the dependencies; uses
-//! that only types or macros show, such as methods, are not seen.
+//! only declares its children and hands their items on takes no part. Items under `#[cfg(test)]` are left out. Uses that
+//! only types show, such as methods, are not seen.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
+use syn::buffer::{Cursor, TokenBuffer};
+use syn::visit::{self, Visit};
+use syn::{Attribute, Ident, Item, ItemMod, ItemUse, Macro, UseTree, Visibility};
 
-/// The identifiers and symbols of a source file, without comments and literals.
-fn tokens(text: &str) -> Vec<String> {
-    let all: Vec<char> = text.chars().collect();
-    let at = |i: usize| all.get(i).copied().unwrap_or('\0');
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut tokens = Vec::new();
-    let mut i = 0;
-    while i < all.len() {
-        let c = all[i];
-        if c == '/' && at(i + 1) == '/' {
-            while i < all.len() && all[i] != '\n' {
-                i += 1;
-            }
-        } else if c == '/' && at(i + 1) == '*' {
-            let mut depth = 0;
-            loop {
-                match (at(i), at(i + 1)) {
-                    ('/', '*') => depth += 1,
-                    ('*', '/') => depth -= 1,
-                    _ => {
-                        i += 1;
-                        continue;
-                    }
-                }
-                i += 2;
-                if depth == 0 || i >= all.len() {
-                    break;
-                }
-            }
-        } else if c == '"' {
-            i += 1;
-            while i < all.len() && all[i] != '"' {
-                i += if all[i] == '\\' { 2 } else { 1 };
-            }
-            i += 1;
-            tokens.push("\"".to_owned());
-        } else if c == '\'' {
-            // A character, or a lifetime, which has no closing quote.
-            let closing = if at(i + 1) == '\\' {
-                (i + 3..i + 12).find(|k| at(*k) == '\'')
-            } else {
-                Some(i + 2).filter(|k| at(*k) == '\'')
-            };
-            i = closing.unwrap_or(i) + 1;
-        } else if is_word(c) {
-            let start = i;
-            while is_word(at(i)) {
-                i += 1;
-            }
-            let word: String = all[start..i].iter().collect();
-            let raw = ["r", "br", "cr"].contains(&word.as_str());
-            let hashes = (i..).take_while(|k| at(*k) == '#').count();
-            if raw && at(i + hashes) == '"' {
-                i += hashes + 1;
-                let is_end = |k: usize| at(k) == '"' && (1..=hashes).all(|n| at(k + n) == '#');
-                while i < all.len() && !is_end(i) {
-                    i += 1;
-                }
-                i += hashes + 1;
-                tokens.push("\"".to_owned());
-            } else {
-                tokens.push(word);
-            }
-        } else if c == ':' && at(i + 1) == ':' {
-            i += 2;
-            tokens.push("::".to_owned());
-        } else {
-            i += 1;
-            if !c.is_whitespace() {
-                tokens.push(c.to_string());
-            }
-        }
-    }
-    tokens
-}
+/// The segments of a path, without `self`.
+type Segments = Vec<String>;
 
-fn is_name(token: &str) -> bool {
-    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
-}
-
-/// A leaf of a `use` declaration; the name is `*` where all names are imported.
-#[derive(Clone, Debug)]
-struct Import {
-    path: Vec<String>,
-    name: String,
-    public: bool,
-}
+/// Returns the name and the text of a module's file.
+type Source<'a> = &'a dyn Fn(&[String]) -> Option<(String, String)>;
 
 /// A module, whether it is a file or stands inside one.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct Module {
     file: String,
     children: BTreeSet<String>,
     items: BTreeSet<String>,
-    imports: Vec<Import>,
-    /// Names and paths in everything but declarations of `use`.
-    names: BTreeSet<String>,
-    paths: BTreeSet<Vec<String>>,
+    /// The path and the name of each import; the name is `*` if all names are imported.
+    imports: Vec<(Segments, String)>,
+    /// The paths that are used.
+    paths: BTreeSet<Segments>,
 }
 
-/// The segments of a path from the root of the crate.
-type ModulePath = Vec<String>;
+impl Module {
+    /// Returns the paths that are imported by a name.
+    fn imported<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a [String]> {
+        self.imports
+            .iter()
+            .filter(move |import| import.1 == name)
+            .map(|(path, _)| &path[..])
+    }
+}
 
 /// The target of a path.
 enum Target {
-    Module(ModulePath),
+    Module(Segments),
     /// An item of this file.
     File(String),
 }
 
-#[derive(Default)]
-struct Crate {
-    modules: BTreeMap<ModulePath, Module>,
+/// The modules of a crate.
+struct Crate<'a> {
+    source: Source<'a>,
+    modules: BTreeMap<Segments, Module>,
+    /// The module that is being read.
+    here: Segments,
 }
 
-impl Crate {
-    /// Adds the module of a file and those inside it.
-    fn add(&mut self, path: ModulePath, file: &str, text: &str) {
-        let tokens = tokens(text);
-        self.parse(path, file, &tokens);
-    }
-
-    /// Reads tokens up to the end or to the brace that closes the module; returns how many were read.
-    fn parse(&mut self, path: ModulePath, file: &str, tokens: &[String]) -> usize {
-        let mut module = Module {
-            file: file.to_owned(),
-            ..Module::default()
+impl<'a> Crate<'a> {
+    fn read(source: Source<'a>) -> Self {
+        let mut found = Self {
+            source,
+            modules: BTreeMap::new(),
+            here: Segments::new(),
         };
-        let token = |i: usize| tokens.get(i).map_or("", String::as_str);
-        let (mut i, mut depth) = (0, 0);
-        let (mut test, mut public) = (false, false);
-        while i < tokens.len() {
-            match token(i) {
-                "{" => depth += 1,
-                "}" if depth == 0 => break,
-                "}" => depth -= 1,
-                "#" => {
-                    let end = end_of_group(tokens, i + 1 + usize::from(token(i + 1) == "!"));
-                    let words: Vec<&str> = tokens[i..end].iter().map(String::as_str).collect();
-                    test |= words.windows(3).any(|w| w == ["cfg", "(", "test"]);
-                    i = end;
-                    continue;
-                }
-                "pub" => {
-                    public = true;
-                    i += 1;
-                    if token(i) == "(" {
-                        i = end_of_group(tokens, i);
-                    }
-                    continue;
-                }
-                "use" => {
-                    let end = (i..tokens.len()).find(|k| token(*k) == ";").unwrap();
-                    if !test {
-                        leaves(&tokens[i + 1..end], &[], public, &mut module.imports);
-                    }
-                    i = end;
-                }
-                "mod" if is_name(token(i + 1)) && token(i + 2) == ";" => {
-                    if !test {
-                        module.children.insert(token(i + 1).to_owned());
-                    }
-                    i += 2;
-                }
-                "mod" if is_name(token(i + 1)) && token(i + 2) == "{" => {
-                    if test {
-                        i = end_of_group(tokens, i + 2) - 1;
-                    } else {
-                        let name = token(i + 1).to_owned();
-                        let inner = [&path[..], std::slice::from_ref(&name)].concat();
-                        module.children.insert(name);
-                        i += 3 + self.parse(inner, file, &tokens[i + 3..]);
-                    }
-                }
-                "macro_rules" => {
-                    module.items.insert(token(i + 2).to_owned());
-                    i += 2;
-                }
-                word @ ("fn" | "struct" | "enum" | "trait" | "const" | "static" | "type"
-                | "union") => {
-                    let named = is_name(token(i + 1)) && token(i + 1) != "fn";
-                    if depth == 0 && named {
-                        if test && word == "fn" {
-                            // A helper of tests: its body is left out.
-                            let open = (i..tokens.len()).find(|k| ["{", ";"].contains(&token(*k)));
-                            i = end_of_group(tokens, open.unwrap()) - 1;
-                        } else {
-                            module.items.insert(token(i + 1).to_owned());
-                            i += 1;
-                        }
-                    }
-                }
-                word if is_name(word) => {
-                    let mut segments = vec![word.to_owned()];
-                    while token(i + 1) == "::" && is_name(token(i + 2)) {
-                        segments.push(token(i + 2).to_owned());
-                        i += 2;
-                    }
-                    module.names.extend(segments.first().cloned());
-                    if segments.len() > 1 {
-                        module.paths.insert(segments);
-                    }
-                    i += 1;
-                    continue;
-                }
-                _ => {}
-            }
-            (test, public) = (false, false);
-            i += 1;
-        }
-        self.modules.insert(path, module);
-        i
+        found.file();
+        found
     }
 
-    fn resolve(&self, from: &[String], path: &[String], steps: usize) -> Option<Target> {
-        // Modules may re-export from each other.
-        let steps = steps.checked_sub(1)?;
-        let mut rest = path;
-        let mut at: ModulePath = match rest.first()?.as_str() {
-            "crate" => Vec::new(),
-            "self" => from.to_vec(),
-            "super" => from[..from.len().checked_sub(1)?].to_vec(),
-            first => {
-                let here = self.modules.get(from)?;
-                let known = here.children.contains(first) || here.items.contains(first);
-                let imported = here.imports.iter().any(|import| import.name == first);
-                if !known && !imported {
-                    return None;
-                }
-                return self.find(from, path, steps);
+    fn module(&mut self) -> &mut Module {
+        self.modules.entry(self.here.clone()).or_default()
+    }
+
+    fn file(&mut self) {
+        if let Some((file, text)) = (self.source)(&self.here) {
+            let parsed = syn::parse_file(&text).unwrap_or_else(|e| panic!("{file}: {e}"));
+            self.items(file, &parsed.items);
+        }
+    }
+
+    fn items(&mut self, file: String, items: &[Item]) {
+        self.module().file = file;
+        for item in items {
+            let (attributes, name) = described(item);
+            if !attributes.iter().any(is_test) {
+                self.module().items.extend(name.map(Ident::to_string));
+                self.visit_item(item);
             }
+        }
+    }
+
+    /// Adds the leaves of the tree of an import.
+    fn import(&mut self, tree: &UseTree, mut path: Segments, public: bool) {
+        let (segment, name) = match tree {
+            UseTree::Group(group) => {
+                for inner in &group.items {
+                    self.import(inner, path.clone(), public);
+                }
+                return;
+            }
+            UseTree::Path(inner) => {
+                extend(&mut path, &inner.ident);
+                return self.import(&inner.tree, path, public);
+            }
+            UseTree::Glob(_) => (None, "*".to_owned()),
+            UseTree::Name(leaf) if leaf.ident == "self" => (None, path.last().unwrap().clone()),
+            UseTree::Name(leaf) => (Some(&leaf.ident), leaf.ident.to_string()),
+            UseTree::Rename(leaf) => (Some(&leaf.ident), leaf.rename.to_string()),
         };
-        rest = &rest[1..];
-        while rest.first().is_some_and(|segment| segment == "super") {
-            at.pop()?;
-            rest = &rest[1..];
+        segment.map(|segment| extend(&mut path, segment));
+        if !public {
+            self.module().paths.insert(path.clone());
         }
-        self.find(&at, rest, steps)
+        self.module().imports.push((path, name));
     }
 
-    /// The target of a path that begins in a module.
+    /// Adds the paths among the tokens of a macro.
+    fn tokens(&mut self, mut cursor: Cursor<'_>) {
+        let mut path = Segments::new();
+        while let Some((_, mut rest)) = cursor.token_tree() {
+            if let Some((ident, _)) = cursor.ident() {
+                extend(&mut path, &ident);
+            } else if let Some((inner, ..)) = cursor.any_group() {
+                self.tokens(inner);
+            }
+            match colon(rest).and_then(colon) {
+                Some(behind) => rest = behind,
+                None => _ = self.module().paths.insert(std::mem::take(&mut path)),
+            }
+            cursor = rest;
+        }
+    }
+
+    /// Returns the target of a path that a module names.
     fn find(&self, module: &[String], path: &[String], steps: usize) -> Option<Target> {
+        // Modules may re-export from each other.
         let steps = steps.checked_sub(1)?;
         let here = self.modules.get(module)?;
         let Some((first, rest)) = path.split_first() else {
             return Some(Target::Module(module.to_vec()));
         };
-        if here.children.contains(first) {
-            return self.find(&[module, std::slice::from_ref(first)].concat(), rest, steps);
-        }
-        if here.items.contains(first) {
-            return Some(Target::File(here.file.clone()));
-        }
-        for import in here.imports.iter().filter(|i| i.name == *first) {
-            match self.resolve(module, &import.path, steps) {
-                Some(Target::Module(inner)) => return self.find(&inner, rest, steps),
-                Some(file) => return Some(file),
-                None => {}
+        match first.as_str() {
+            "crate" => return self.inside(&[], rest, steps),
+            "super" => return self.inside(module.split_last()?.1, rest, steps),
+            child if here.children.contains(child) => {
+                return self.inside(&[module, from_ref(first)].concat(), rest, steps);
             }
+            item if here.items.contains(item) => return Some(Target::File(here.file.clone())),
+            _ => {}
         }
-        for import in here.imports.iter().filter(|i| i.name == "*") {
-            if let Some(Target::Module(inner)) = self.resolve(module, &import.path, steps)
-                && inner != module
-                && let Some(target) = self.find(&inner, path, steps)
-            {
-                return Some(target);
-            }
-        }
-        None
+        // A name that is imported as itself is that of a crate.
+        let mut named = here
+            .imported(first)
+            .filter(|import| import.first() != Some(first));
+        let mut globs = here.imported("*");
+        named
+            .find_map(|import| self.find(module, &[import, rest].concat(), steps))
+            .or_else(|| {
+                globs.find_map(|glob| match self.find(module, glob, steps)? {
+                    Target::Module(inner) if inner != module => self.find(&inner, path, steps),
+                    _ => None,
+                })
+            })
     }
 
-    /// Each file with the files that it uses, and a path by which it does.
-    fn edges(&self) -> BTreeMap<String, BTreeMap<String, String>> {
-        const STEPS: usize = 32;
-        let mut edges: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
+    /// Returns the target of a path inside a module. A name that nothing there declares is made by a macro.
+    fn inside(&self, module: &[String], path: &[String], steps: usize) -> Option<Target> {
+        self.find(module, path, steps).or_else(|| {
+            let here = self.modules.get(module)?;
+            let macro_made = here.imported(&path[0]).next().is_none();
+            macro_made.then(|| Target::File(here.file.clone()))
+        })
+    }
+
+    /// Returns pairs of files, of which the first uses the second, with a path by which it does.
+    fn edges(&self) -> BTreeMap<[String; 2], String> {
+        let mut edges = BTreeMap::new();
         for (at, module) in &self.modules {
-            let own = edges.entry(module.file.clone()).or_default();
-            let mut add = |path: &[String]| {
-                if let Some(Target::File(file)) = self.resolve(at, path, STEPS)
+            for path in &module.paths {
+                if let Some(Target::File(file)) = self.find(at, path, 16)
                     && file != module.file
                 {
-                    own.insert(file, path.join("::"));
+                    edges.insert([module.file.clone(), file], path.join("::"));
                 }
-            };
-            for import in &module.imports {
-                if import.name == "*" {
-                    for name in &module.names {
-                        let all = [&import.path[..], std::slice::from_ref(name)].concat();
-                        add(&all);
-                    }
-                } else if !import.public || module.names.contains(&import.name) {
-                    add(&import.path);
-                }
-            }
-            for path in &module.paths {
-                add(path);
             }
         }
         edges
     }
 
-    /// The groups of files that need each other, with the uses among them.
+    /// Returns the edges between files that need each other.
     fn circles(&self) -> Vec<String> {
-        let edges = self.edges();
-        let reach: BTreeMap<&String, BTreeSet<&String>> = edges
-            .keys()
-            .map(|start| {
-                let mut seen = BTreeSet::new();
-                let mut todo: Vec<&String> = edges[start].keys().collect();
-                while let Some(file) = todo.pop() {
-                    if seen.insert(file) {
-                        todo.extend(edges[file].keys());
-                    }
-                }
-                (start, seen)
-            })
-            .collect();
-        let mut told = BTreeSet::new();
-        let mut circles = Vec::new();
-        for file in edges.keys().filter(|file| reach[*file].contains(file)) {
-            if told.contains(file) {
-                continue;
+        let mut edges = self.edges();
+        loop {
+            let files = |end: usize| edges.keys().map(move |edge| edge[end].clone());
+            let users: BTreeSet<String> = files(0).collect();
+            let used: BTreeSet<String> = files(1).collect();
+            let before = edges.len();
+            edges.retain(|[user, file], _| used.contains(user) && users.contains(file));
+            if edges.len() == before {
+                break;
             }
-            let both = |other: &&&String| reach[**other].contains(file);
-            let circle: BTreeSet<&String> = reach[file].iter().filter(both).copied().collect();
-            let mut text = String::new();
-            for one in &circle {
-                for (other, path) in edges[*one].iter().filter(|(f, _)| circle.contains(f)) {
-                    text.push_str(&format!("\n    {one} -> {other}: {path}"));
-                }
-            }
-            circles.push(format!("{} files need each other:{text}", circle.len()));
-            told.extend(circle);
         }
-        circles
+        let lines = edges
+            .iter()
+            .map(|([user, file], path)| format!("{user} -> {file}: {path}"));
+        lines.collect()
     }
 }
 
-/// The index behind the group in brackets that begins here, or behind the token.
-fn end_of_group(tokens: &[String], start: usize) -> usize {
-    let mut depth = 0;
-    for (i, token) in tokens.iter().enumerate().skip(start) {
-        match token.as_str() {
-            "(" | "[" | "{" => depth += 1,
-            ")" | "]" | "}" => depth -= 1,
-            _ => {}
+impl Visit<'_> for Crate<'_> {
+    fn visit_item_mod(&mut self, item: &ItemMod) {
+        let name = item.ident.to_string();
+        self.module().children.insert(name.clone());
+        let file = self.module().file.clone();
+        self.here.push(name);
+        match &item.content {
+            Some((_, items)) => self.items(file, items),
+            None => self.file(),
         }
-        if depth == 0 {
-            return i + 1;
-        }
+        self.here.pop();
     }
-    tokens.len()
-}
 
-/// The leaves of the tree of a `use` declaration.
-fn leaves(tree: &[String], prefix: &[String], public: bool, found: &mut Vec<Import>) {
-    let mut path = prefix.to_vec();
-    let mut i = 0;
-    while i < tree.len() {
-        match tree[i].as_str() {
-            "::" => {}
-            "{" => {
-                let end = end_of_group(tree, i) - 1;
-                let mut start = i + 1;
-                for k in i + 1..=end {
-                    let inner = &tree[i + 1..k];
-                    let count = |c: &str| inner.iter().filter(|t| *t == c).count();
-                    let outermost = count("{") == count("}");
-                    if k == end || (tree[k] == "," && outermost) {
-                        leaves(&tree[start..k], &path, public, found);
-                        start = k + 1;
-                    }
-                }
-                return;
-            }
-            "*" => {
-                let name = "*".to_owned();
-                found.push(Import { path, name, public });
-                return;
-            }
-            "as" => {
-                let name = tree[i + 1].clone();
-                found.push(Import { path, name, public });
-                return;
-            }
-            // `self` stands for the path before it, but at the start.
-            "self" if !path.is_empty() => {}
-            segment => path.push(segment.to_owned()),
-        }
-        i += 1;
+    fn visit_item_use(&mut self, item: &ItemUse) {
+        let public = !matches!(item.vis, Visibility::Inherited);
+        self.import(&item.tree, Segments::new(), public);
     }
-    if let Some(name) = path.last().cloned() {
-        found.push(Import { path, name, public });
+
+    fn visit_path(&mut self, path: &syn::Path) {
+        let mut segments = Segments::new();
+        path.segments
+            .iter()
+            .for_each(|segment| extend(&mut segments, &segment.ident));
+        self.module().paths.insert(segments);
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, item: &Macro) {
+        self.visit_path(&item.path);
+        self.tokens(TokenBuffer::new2(item.tokens.clone()).begin());
     }
 }
 
-/// Reads a folder of sources whose root is this file.
-fn read(root: &Path) -> Crate {
-    let folder = root.parent().unwrap();
-    let mut found = Crate::default();
-    let mut folders = vec![folder.to_path_buf()];
-    while let Some(inner) = folders.pop() {
-        for entry in fs::read_dir(&inner).unwrap() {
-            let path = entry.unwrap().path();
-            let below = path.strip_prefix(folder).unwrap();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            if path.extension().is_none_or(|e| e != "rs") {
-                continue;
-            }
-            let mut module: ModulePath = below
-                .with_extension("")
-                .iter()
-                .map(|segment| segment.to_str().unwrap().to_owned())
-                .collect();
-            if path == root || module.last().is_some_and(|name| name == "mod") {
-                module.pop();
-            }
-            let text = fs::read_to_string(&path).unwrap();
-            let words = tokens(&text);
-            let moved = words.windows(3).any(|w| w == ["#", "[", "path"]);
-            // Tests may share a file with another crate's tests.
-            let shares = folder.ends_with("tests/it");
-            assert!(!moved || shares, "{below:?} names its modules' files");
-            found.add(module, below.to_str().unwrap(), &text);
-        }
+fn extend(path: &mut Segments, segment: &Ident) {
+    if segment != "self" {
+        path.push(segment.to_string());
     }
-    found
+}
+
+fn colon(cursor: Cursor<'_>) -> Option<Cursor<'_>> {
+    let (punct, rest) = cursor.punct()?;
+    (punct.as_char() == ':').then_some(rest)
+}
+
+fn is_test(attribute: &Attribute) -> bool {
+    let word = attribute.parse_args::<Ident>();
+    attribute.path().is_ident("cfg") && word.is_ok_and(|word| word == "test")
+}
+
+/// Returns the attributes of an item, and the name that it declares beside modules and imports.
+fn described(item: &Item) -> (&[Attribute], Option<&Ident>) {
+    match item {
+        Item::Const(item) => (&item.attrs, Some(&item.ident)),
+        Item::Enum(item) => (&item.attrs, Some(&item.ident)),
+        Item::Fn(item) => (&item.attrs, Some(&item.sig.ident)),
+        Item::Macro(item) => (&item.attrs, item.ident.as_ref()),
+        Item::Static(item) => (&item.attrs, Some(&item.ident)),
+        Item::Struct(item) => (&item.attrs, Some(&item.ident)),
+        Item::Trait(item) => (&item.attrs, Some(&item.ident)),
+        Item::Type(item) => (&item.attrs, Some(&item.ident)),
+        Item::Union(item) => (&item.attrs, Some(&item.ident)),
+        Item::Impl(item) => (&item.attrs, None),
+        Item::Mod(item) => (&item.attrs, None),
+        Item::Use(item) => (&item.attrs, None),
+        _ => (&[], None),
+    }
 }
 
 #[test]
@@ -455,29 +288,64 @@ fn the_files_of_each_crate_form_no_circle() {
     roots.sort();
     assert!(roots.len() > 18, "{roots:?}");
     let (mut circles, mut edges) = (Vec::new(), 0);
-    for root in roots {
-        let found = read(&root);
-        edges += found.edges().values().map(BTreeMap::len).sum::<usize>();
-        let name = root.strip_prefix(&crates).unwrap().display();
-        circles.extend(found.circles().iter().map(|c| format!("{name}: {c}")));
+    for root in &roots {
+        let folder = root.parent().unwrap();
+        let source = |module: &[String]| {
+            let path = folder.join(module.join("/"));
+            let files = [path.with_extension("rs"), path.join("mod.rs")];
+            let file = if module.is_empty() {
+                root
+            } else {
+                files.iter().find(|file| file.is_file())?
+            };
+            let text = fs::read_to_string(file).unwrap();
+            // Tests may share a file with another crate's tests.
+            let shares = folder.ends_with("tests/it");
+            assert!(
+                !text.contains("#[path") || shares,
+                "{file:?} names its modules' files"
+            );
+            Some((
+                file.strip_prefix(&crates).unwrap().display().to_string(),
+                text,
+            ))
+        };
+        let found = Crate::read(&source);
+        edges += found.edges().len();
+        circles.extend(found.circles());
     }
     // A reader that finds no uses would find no circles either.
     assert!(edges > 500, "{edges}");
-    assert!(circles.is_empty(), "{}", circles.join("\n"));
+    assert!(
+        circles.is_empty(),
+        "files need each other:\n{}",
+        circles.join("\n")
+    );
 }
 
 fn made(files: &[(&str, &str)]) -> Vec<String> {
-    let mut made = Crate::default();
-    for (path, text) in files {
-        let segments = path.split('/').filter(|s| !s.is_empty());
-        made.add(segments.map(str::to_owned).collect(), path, text);
-    }
-    made.circles()
+    Crate::read(&|module: &[String]| {
+        let name = module.join("/");
+        let (_, text) = files.iter().find(|(path, _)| *path == name)?;
+        Some((name, (*text).to_owned()))
+    })
+    .circles()
 }
 
 #[test]
 fn circles_are_seen() {
-    let circle = |files: &[(&str, &str)]| assert_eq!(made(files).len(), 1, "{files:?}");
+    let circle = |files: &[(&str, &str)]| {
+        let circles = made(files);
+        let is_on = |file: &str| {
+            circles
+                .iter()
+                .any(|edge| edge.starts_with(&format!("{file} -> ")))
+        };
+        assert!(
+            files.iter().all(|(file, _)| file.is_empty() || is_on(file)),
+            "{circles:?}"
+        );
+    };
     // Directly, through a third, by a path in an expression, through an imported module.
     circle(&[
         ("", "mod a; mod b;"),
@@ -504,6 +372,21 @@ fn circles_are_seen() {
             "b",
             "fn f<'a>(x: &'a str) -> char { crate::A; '\\'' } pub struct B;",
         ),
+    ]);
+    // Of an item that a macro makes.
+    circle(&[
+        ("", "mod a; mod b;"),
+        ("a", "use crate::b::B; made! { A }"),
+        ("b", "use crate::a::A; pub struct B;"),
+    ]);
+    // In a module inside a file, and in a macro's call.
+    circle(&[
+        ("", "mod a; mod b;"),
+        (
+            "a",
+            "mod inner { fn f() { g!(1, (super::super::b::B)) } } pub struct A;",
+        ),
+        ("b", "use crate::a::A; pub struct B;"),
     ]);
     // In a module inside a file.
     circle(&[

@@ -20,9 +20,10 @@ fn formats(s: &Subject) -> impl Iterator<Item = TextureFormat> {
 
 /// An attachment of a format with depth, whose stencil, if there is one, is 93.
 fn cleared(format: TextureFormat, depth: f64) -> Value {
-    match format.has_stencil() {
-        true => json!({ "format": format, "clear": { "depth": depth, "stencil": 93 } }),
-        false => json!({ "format": format, "clear": depth }),
+    if format.has_stencil() {
+        json!({ "format": format, "clear": { "depth": depth, "stencil": 93 } })
+    } else {
+        json!({ "format": format, "clear": depth })
     }
 }
 
@@ -116,9 +117,12 @@ pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
             }))?;
             let passes = |x: u32| passes[x as usize / 4];
             frame.is_red(|x, _| passes(x));
-            check_stored(s, format, &frame, |x| match write && passes(x) {
-                true => columns[x as usize / 4],
-                false => stored,
+            check_stored(s, format, &frame, |x| {
+                if write && passes(x) {
+                    columns[x as usize / 4]
+                } else {
+                    stored
+                }
             });
             if format.has_stencil() {
                 let image = stencil(&frame, "depth");

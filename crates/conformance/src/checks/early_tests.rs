@@ -59,9 +59,10 @@ pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Che
 /// Each half writes a depth of its own, against a half.
 fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f64, [f64; 2])) -> Checked {
     let counts = shader.starts_with("counted");
-    let (kinds, names) = match counts {
-        true => (json!({ "n": "shader-runs" }), json!(["n"])),
-        false => (json!({}), json!([])),
+    let (kinds, names) = if counts {
+        (json!({ "n": "shader-runs" }), json!(["n"]))
+    } else {
+        (json!({}), json!([]))
     };
     let values = written.map(|depth| [depth, 0.0, 0.0, 1.0]);
     let draw = json!({

@@ -54,11 +54,12 @@ pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
 /// where told. Returns the scene and the codes' orders.
 fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
     let source = json!({ "format": format, "size": [16, 16] });
-    let mut scene = scene(match seen {
-        true => json!({
+    let mut scene = scene(if seen {
+        json!({
             "attachments": { "seen": { "format": "rgba32float" }, "source": source },
-            "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["source"] }] }),
-        false => json!({ "attachments": { "source": source }, "passes": [] }),
+            "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["source"] }] })
+    } else {
+        json!({ "attachments": { "source": source }, "passes": [] })
     });
     let channels = format.color_channels();
     let mut orders = Vec::new();

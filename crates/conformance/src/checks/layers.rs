@@ -120,9 +120,10 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
                 "blend": blend("add", "one-minus-src-alpha", "src-alpha") }] }],
     }))?;
     for (x, y) in texels([4, 4]) {
-        let (green, left, shown) = match x < 2 && y < 3 {
-            true => (93.75, 0.25, [0.375, 0.375, 0.25]),
-            false => (0.0, 0.5, [0.5, 0.0, 0.5]),
+        let (green, left, shown) = if x < 2 && y < 3 {
+            (93.75, 0.25, [0.375, 0.375, 0.25])
+        } else {
+            (0.0, 0.5, [0.5, 0.0, 0.5])
         };
         near(
             &frame,
@@ -165,15 +166,16 @@ pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
     // A quarter of a layer's own absorbance counts as in front of it.
     let own = 0.5_f64.powf(0.25) * 0.5;
     for (x, y) in texels([4, 4]) {
-        let (absorbance, moments, green, red, shown) = match x < 2 && y < 3 {
-            true => (
+        let (absorbance, moments, green, red, shown) = if x < 2 && y < 3 {
+            (
                 2.0,
                 [0.0, 0.5, 0.0, 0.125],
                 own,
                 own * 0.5,
                 [0.25, 0.5, 0.25],
-            ),
-            false => (1.0, [0.5, 0.25, 0.125, 0.0625], 0.0, own, [0.5, 0.0, 0.5]),
+            )
+        } else {
+            (1.0, [0.5, 0.25, 0.125, 0.0625], 0.0, own, [0.5, 0.0, 0.5])
         };
         near(&frame, "absorbance", (x, y), [absorbance; 4], 1e-4);
         near(&frame, "moments", (x, y), moments, 1e-4);

@@ -110,9 +110,10 @@ pub(crate) fn reading_before_drawing_is_an_error(s: &Subject) -> Checked {
 /// States that write nothing and compare with never, then a plain scene; twice.
 pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
     // The factors that are not the default, where the driver has a say in them.
-    let factor = match s.offers(Feature::MinMaxBlendFactors) {
-        true => "zero",
-        false => "one",
+    let factor = if s.offers(Feature::MinMaxBlendFactors) {
+        "zero"
+    } else {
+        "one"
     };
     for _ in 0..2 {
         let drawn = |depth: f64, stencil: u32, draw| {

@@ -323,9 +323,10 @@ const DRAWN: [f64; 4] = [1.0, 1.0, 0.0, 0.0];
 
 /// A draw to samples 1 and 2.
 fn drawn_to(format: TextureFormat) -> Value {
-    let shader = match format.is_integer() {
-        true => "uint_color",
-        false => "uniform_color",
+    let shader = if format.is_integer() {
+        "uint_color"
+    } else {
+        "uniform_color"
     };
     json!({ "mesh": everywhere(json!(1)), "shader": shader, "params": { "color": DRAWN },
             "multisample": { "mask": 6 } })
@@ -346,9 +347,10 @@ pub(crate) fn every_format_is_averaged(s: &Subject) -> Checked {
         let code = |values| codes(format.color_channels(), values);
         let (drawn, kept) = (code(DRAWN), code([0.0, 0.0, 1.0, 1.0]));
         check_samples(color(&frame, "m"), |x, _, sample| {
-            match x < 4 && [1, 2].contains(&sample) {
-                true => &drawn,
-                false => &kept,
+            if x < 4 && [1, 2].contains(&sample) {
+                &drawn
+            } else {
+                &kept
             }
         });
         for (x, y) in texels([8, 8]) {

@@ -17,16 +17,18 @@ pub(crate) fn every_shader_draws(s: &Subject) -> Checked {
 
 /// A scene that draws with a shader to so many attachments.
 fn with_shader(shader: Shader, targets: usize) -> Value {
-    let format = match shader.writes_integers() {
-        true => "rgba8uint",
-        false => "rgba8unorm",
+    let format = if shader.writes_integers() {
+        "rgba8uint"
+    } else {
+        "rgba8unorm"
     };
     let names = &["a", "b", "c", "d"][..targets];
     let textures = &["s", "t"][..shader.textures()];
-    let texture = match shader.writes_mask() || shader.writes_reference() {
-        true => json!({ "format": "rgba32float", "size": [4, 4], "texels":
-            { "kind": "rows", "values": [[1, 0.5, 1, 1], [1, 0, 1, 0], [0, 1, 1, 1], [65535, 1, 0, 0]] } }),
-        false => json!({ "format": "rgba8unorm", "size": [4, 4] }),
+    let texture = if shader.writes_mask() || shader.writes_reference() {
+        json!({ "format": "rgba32float", "size": [4, 4], "texels":
+            { "kind": "rows", "values": [[1, 0.5, 1, 1], [1, 0, 1, 0], [0, 1, 1, 1], [65535, 1, 0, 0]] } })
+    } else {
+        json!({ "format": "rgba8unorm", "size": [4, 4] })
     };
     let mut attachments =
         json!({ "depth": { "format": "depth32float" }, "s": texture, "t": texture });

@@ -103,9 +103,10 @@ pub(crate) fn every_bit_is_masked_by_itself(s: &Subject) -> Checked {
     for bit in 0..8 {
         for start in (0..256).filter(|v| v % (2 << bit) == 1 << bit) {
             let (x, y, width) = (start % 16, start / 16, 1 << bit);
-            let texels = match width < 16 {
-                true => [x, y, x + width, y + 1],
-                false => [0, y, 16, y + width / 16],
+            let texels = if width < 16 {
+                [x, y, x + width, y + 1]
+            } else {
+                [0, y, 16, y + width / 16]
             };
             draws.push(
                 json!({ "mesh": rect(texels), "shader": "uniform_color", "params": red(),

@@ -54,9 +54,12 @@ pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &Subject) -> Checked {
             { "mesh": full(), "shader": "texel_color", "textures": ["unorm"] },
             { "mesh": rect([0, 1, 2, 4]), "shader": "texel_color", "textures": ["float"] }],
     }))?;
-    frame.color_is("color", |x, y| match x < 2 && y > 0 {
-        true => float[y as usize].map(|v| if v >= 1 { 255 } else { 0 }),
-        false => unorm[x as usize],
+    frame.color_is("color", |x, y| {
+        if x < 2 && y > 0 {
+            float[y as usize].map(|v| if v >= 1 { 255 } else { 0 })
+        } else {
+            unorm[x as usize]
+        }
     });
     frame.color_is("unorm", |x, _| unorm[x as usize]);
     frame.color_is("float", |_, y| {

@@ -30,8 +30,9 @@ pub(crate) fn address(name: &CStr, address: Pointer) -> Pointer {
         stands_before(known, address);
         return shim;
     }
-    match functions::only_asks(text) {
-        true => address,
-        false => std::ptr::null(),
+    if functions::only_asks(text) {
+        address
+    } else {
+        std::ptr::null()
     }
 }

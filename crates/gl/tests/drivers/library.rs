@@ -7,9 +7,10 @@ use etalon_conformance::{Share, Subject, draw_library};
 
 /// Full axes where states cost nothing to compile, else the quick profile.
 pub(crate) fn sample(backend: &dyn Backend) {
-    let (profile, per_file) = match is_softpipe(backend) {
-        true => (Profile::Full, 2),
-        false => (Profile::Quick, 3),
+    let (profile, per_file) = if is_softpipe(backend) {
+        (Profile::Full, 2)
+    } else {
+        (Profile::Quick, 3)
     };
     draw_library(
         &Subject::new(backend, &[]),

@@ -1,9 +1,10 @@
-//! The layouts by which structures of the API are taken apart.
+//! The layouts by which structures and arguments of the API are taken apart.
 
-use super::recorder::fail;
+use super::recorder::{fail, flags_of, new_output};
 use ash::vk;
 use etalon_backend::{Argument, Constant, Member};
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::CStr;
+use std::slice::from_raw_parts;
 
 /// A structure.
 pub(super) struct Layout {
@@ -11,21 +12,19 @@ pub(super) struct Layout {
     pub(super) name: &'static str,
     /// The size in bytes.
     pub(super) size: usize,
-    /// The value of its `sType`, if it has one.
-    pub(super) structure: Option<vk::StructureType>,
     pub(super) fields: &'static [Field],
 }
 
-/// A field of a structure.
+/// A field of a structure, or an argument of a function.
 pub(super) struct Field {
-    /// The name in Rust.
+    /// The name in C.
     pub(super) name: &'static str,
     /// The offset in bytes.
     pub(super) offset: usize,
     pub(super) kind: Kind,
 }
 
-/// The kind of a field's value.
+/// The kind of a value.
 pub(super) enum Kind {
     U32,
     I32,
@@ -37,71 +36,126 @@ pub(super) enum Kind {
     Handle(&'static str),
     /// A structure in place.
     Struct(&'static Layout),
-    /// Floats in place.
-    F32s(usize),
-    /// Words in place.
-    U32s(usize),
-    /// The address of the chain's next structure, one of these.
-    Next(&'static &'static [&'static Layout]),
+    /// Values in place.
+    Values(&'static Kind, usize),
+    /// The address of values.
+    Array(&'static Kind, Count),
+    /// The address of bytes.
+    Bytes(Count),
     /// The address of a text that ends with a zero byte.
     Text,
-    /// The address of such addresses.
-    Texts(Count),
-    /// The address of structures.
-    Structs(&'static Layout, Count),
-    /// The address of words.
-    Words(Count),
-    /// The address of words whose values have names.
-    NamedWords(fn(u32) -> String, Count),
-    /// The address of floats.
-    Floats(Count),
-    /// The address of handles.
-    Handles(&'static str, Count),
-    /// The address of words of code, whose size in bytes stands at this offset.
-    Code(usize),
+    /// The address of the next structure of a chain, whose layout its type tells.
+    Next(fn(vk::StructureType) -> Option<&'static Layout>),
+    /// The address of handles of this type, which the call makes.
+    Made(&'static str, Count),
+    /// The address of bytes that the call writes.
+    Output(Count),
+    /// The address of the address at which the call maps memory.
+    Mapped,
+    /// The address of the requirements of memory, which differ between drivers.
+    Requirements,
+    /// The address of an allocation of memory: the properties of its memory type stand for it.
+    MemoryType,
     /// An address that the backend never gives.
     Unused,
 }
 
-/// The number of values behind an address.
+/// The number of values at an address.
 #[derive(Clone, Copy)]
 pub(super) enum Count {
-    One,
-    /// The word at this offset.
-    Field(usize),
+    Fixed(usize),
+    /// The value of a field beside the address, or of one in a structure beside it: `pInfo->count`.
+    By(&'static str),
+}
+
+/// Declares structures with the kinds of their fields.
+macro_rules! structures {
+    ($($name:ident: $type:ty { $($c:ident = $field:ident: $kind:expr,)+ })+) => {
+        $(
+            static $name: Layout = Layout {
+                name: stringify!($name),
+                size: size_of::<$type>(),
+                fields: &[$(Field {
+                    name: stringify!($c),
+                    offset: offset_of!($type, $field),
+                    kind: $kind,
+                }),+],
+            };
+        )+
+    };
+}
+
+/// Declares unions, whose values are kept as words.
+macro_rules! unions {
+    ($($name:ident: $type:ty,)+) => {
+        $(
+            static $name: Layout = Layout {
+                name: stringify!($name),
+                size: size_of::<$type>(),
+                fields: &[Field {
+                    name: "bits",
+                    offset: 0,
+                    kind: Values(&U32, size_of::<$type>() / 4),
+                }],
+            };
+        )+
+    };
+}
+
+/// Declares the structures that a chain may hold.
+macro_rules! chained {
+    ($($name:ident: $type:ident,)+) => {
+        /// Returns the layout of the structures of a type.
+        fn chained(kind: vk::StructureType) -> Option<&'static Layout> {
+            match kind {
+                $(vk::StructureType::$type => Some(&$name),)+
+                _ => None,
+            }
+        }
+    };
+}
+
+/// An enumeration, with the names of its values.
+macro_rules! named {
+    ($type:ty) => {
+        Named(|raw| format!("{:?}", <$type>::from_raw(raw.cast_signed())))
+    };
+}
+
+/// Bits, with their names.
+macro_rules! flags {
+    ($type:ty) => {
+        Named(|raw| format!("{:?}", <$type>::from_raw(raw)))
+    };
+}
+
+pub(super) use {chained, flags, named, structures, unions};
+
+/// Returns the values of fields, with their names.
+///
+/// # Safety
+/// Such fields are at the address, and everything that they point to is as the specification says.
+pub(super) unsafe fn members(fields: &'static [Field], address: *const u8) -> Vec<Member> {
+    let member = |field: &Field| Member {
+        name: field.name.to_owned(),
+        // SAFETY: the field lies beside the others.
+        value: unsafe { field.kind.read(address.add(field.offset), fields, address) },
+    };
+    fields.iter().map(member).collect()
 }
 
 impl Layout {
-    /// Returns a structure as an argument.
+    /// Returns the structure at an address.
     ///
     /// # Safety
-    /// Such a structure is at the address, and everything that it points to is as the specification says.
-    pub(super) unsafe fn read(&self, address: *const u8) -> Argument {
-        let fields = self.fields.iter().map(|field| Member {
-            name: name_in_c(field.name),
-            offset: field.offset as u64,
-            // SAFETY: the field lies in the structure.
-            value: unsafe { field.kind.read(address, address.add(field.offset)) },
-        });
+    /// As for [`members`].
+    unsafe fn read(&self, address: *const u8) -> Argument {
         Argument::Struct {
             kind: self.name.to_owned(),
             size: self.size as u64,
-            members: fields.collect(),
+            // SAFETY: the caller's.
+            members: unsafe { members(self.fields, address) },
         }
-    }
-
-    /// Returns structures behind an address as an array.
-    ///
-    /// # Safety
-    /// As for [`Layout::read`]; so many are there.
-    pub(super) unsafe fn array(&self, address: *const c_void, count: usize) -> Argument {
-        if address.is_null() || count == 0 {
-            return Argument::Null;
-        }
-        let address = address.cast::<u8>();
-        // SAFETY: the caller's.
-        let all = (0..count).map(|i| unsafe { self.read(address.add(i * self.size)) });
-        Argument::Array(all.collect())
     }
 }
 
@@ -114,29 +168,8 @@ unsafe fn get<T: Copy>(address: *const u8) -> T {
     unsafe { address.cast::<T>().read_unaligned() }
 }
 
-/// Returns the values behind the address at an address; none where it is null.
-///
-/// # Safety
-/// So many are there.
-unsafe fn behind<T: Copy>(address: *const u8, count: usize) -> Vec<T> {
-    // SAFETY: the caller's.
-    let start: *const T = unsafe { get(address) };
-    if start.is_null() || count == 0 {
-        return Vec::new();
-    }
-    // SAFETY: the caller's.
-    unsafe { std::slice::from_raw_parts(start, count) }.to_vec()
-}
-
-fn array(values: impl ExactSizeIterator<Item = Argument>) -> Argument {
-    match values.len() {
-        0 => Argument::Null,
-        _ => Argument::Array(values.collect()),
-    }
-}
-
 /// Returns a value with its name.
-pub(super) fn constant(value: u32, name: fn(u32) -> String) -> Argument {
+fn constant(value: u32, name: fn(u32) -> String) -> Argument {
     Argument::Constant(Constant {
         name: name(value),
         value,
@@ -144,27 +177,69 @@ pub(super) fn constant(value: u32, name: fn(u32) -> String) -> Argument {
 }
 
 impl Count {
-    /// Returns the number in a structure.
+    /// Returns the number, of which the fields at an address may tell.
     ///
     /// # Safety
-    /// The structure is there.
-    unsafe fn of(self, structure: *const u8) -> usize {
-        match self {
-            Self::One => 1,
-            // SAFETY: the caller's.
-            Self::Field(offset) => unsafe { get::<u32>(structure.add(offset)) as usize },
+    /// As for [`members`].
+    unsafe fn of(self, fields: &[Field], address: *const u8) -> usize {
+        let path = match self {
+            Self::Fixed(count) => return count,
+            Self::By(path) => path,
+        };
+        let (name, rest) = path.split_once("->").unwrap_or((path, ""));
+        let Some(field) = fields.iter().find(|field| field.name == name) else {
+            fail(path);
+            return 0;
+        };
+        // SAFETY: the caller's.
+        unsafe {
+            let at = address.add(field.offset);
+            match field.kind {
+                Kind::Array(Kind::Struct(layout), _) => Self::By(rest).of(layout.fields, get(at)),
+                Kind::U32 => get::<u32>(at) as usize,
+                _ => get(at),
+            }
         }
     }
 }
 
 impl Kind {
-    /// Returns the value at an address, in the structure at another.
+    /// Returns the size of a value in bytes.
+    fn size(&self) -> usize {
+        match self {
+            Self::U32 | Self::I32 | Self::F32 | Self::Named(_) => 4,
+            Self::Struct(layout) => layout.size,
+            Self::Values(kind, count) => kind.size() * count,
+            _ => 8,
+        }
+    }
+
+    /// Returns values that lie one after the other.
     ///
     /// # Safety
-    /// As for [`Layout::read`].
-    unsafe fn read(&self, structure: *const u8, at: *const u8) -> Argument {
-        // SAFETY: the caller's; kinds and counts are those of the specification.
+    /// They are there, each as for [`members`].
+    unsafe fn run(&self, start: *const u8, count: usize) -> Vec<Argument> {
+        let places = (0..count).map(|i| start.wrapping_add(i * self.size()));
+        // SAFETY: the caller's. No value of a run counts by another.
+        places.map(|at| unsafe { self.read(at, &[], at) }).collect()
+    }
+
+    /// Returns the value at an address, which is one of the fields at another.
+    ///
+    /// # Safety
+    /// As for [`members`].
+    unsafe fn read(&self, at: *const u8, fields: &[Field], structure: *const u8) -> Argument {
+        // SAFETY: the caller's; kinds and counts are those of the registry.
         unsafe {
+            // Where an address leads, and the number of values there.
+            let start = || get::<*const u8>(at);
+            let count = |count: &Count| {
+                if start().is_null() {
+                    0
+                } else {
+                    count.of(fields, structure)
+                }
+            };
             match self {
                 Self::U32 => Argument::Unsigned(get(at)),
                 Self::I32 => Argument::Integer(get(at)),
@@ -173,106 +248,52 @@ impl Kind {
                 Self::Named(name) => constant(get(at), *name),
                 Self::Handle(kind) => Argument::Object((*kind).to_owned(), get(at)),
                 Self::Struct(layout) => layout.read(at),
-                Self::F32s(count) => Argument::Values(
-                    (0..*count)
-                        .map(|i| Argument::Float(get(at.add(4 * i))))
-                        .collect(),
-                ),
-                Self::U32s(count) => Argument::Values(
-                    (0..*count)
-                        .map(|i| Argument::Unsigned(get(at.add(4 * i))))
-                        .collect(),
-                ),
-                Self::Next(tagged) => next(tagged, get(at)),
-                Self::Text => text(get(at)),
-                Self::Texts(count) => {
-                    let all: Vec<*const c_char> = behind(at, count.of(structure));
-                    array(all.into_iter().map(|t| text(t)))
+                Self::Values(kind, count) => Argument::Values(kind.run(at, *count)),
+                Self::Array(kind, length) => match count(length) {
+                    0 => Argument::Null,
+                    length => Argument::Array(kind.run(start(), length)),
+                },
+                Self::Bytes(length) => match count(length) {
+                    0 => Argument::Null,
+                    length => Argument::Bytes(from_raw_parts(start(), length).to_vec()),
+                },
+                Self::Text if start().is_null() => Argument::Null,
+                Self::Text => {
+                    let text = CStr::from_ptr(start().cast());
+                    Argument::Text(text.to_string_lossy().into_owned())
                 }
-                Self::Structs(layout, count) => layout.array(get(at), count.of(structure)),
-                Self::Words(count) => array(
-                    behind(at, count.of(structure))
-                        .into_iter()
-                        .map(Argument::Unsigned),
-                ),
-                Self::NamedWords(name, count) => {
-                    let all: Vec<u32> = behind(at, count.of(structure));
-                    array(all.into_iter().map(|value| constant(value, *name)))
-                }
-                Self::Floats(count) => array(
-                    behind(at, count.of(structure))
-                        .into_iter()
-                        .map(Argument::Float),
-                ),
-                Self::Handles(kind, count) => {
-                    let all: Vec<u64> = behind(at, count.of(structure));
-                    array(
-                        all.into_iter()
-                            .map(|raw| Argument::Object((*kind).to_owned(), raw)),
-                    )
-                }
-                Self::Code(size) => Argument::Bytes(behind(at, get::<usize>(structure.add(*size)))),
-                Self::Unused => {
-                    if !get::<*const c_void>(at).is_null() {
-                        fail("an address that is not followed");
+                Self::Next(_) if start().is_null() => Argument::Null,
+                Self::Next(chained) => {
+                    // Each structure of a chain begins with its type.
+                    let kind = get(start());
+                    match chained(kind) {
+                        Some(layout) => Argument::Array(vec![layout.read(start())]),
+                        None => unknown(&format!("a structure of type {kind:?}")),
                     }
-                    Argument::Null
                 }
+                Self::Made(kind, length) => {
+                    let handles =
+                        (0..count(length)).map(|i| get(start().add(i * size_of::<u64>())));
+                    Argument::Created((*kind).to_owned(), handles.collect())
+                }
+                Self::Output(length) => new_output(count(length) as u64),
+                Self::Mapped => Argument::Created("mapped".to_owned(), vec![get(start())]),
+                Self::Requirements => Argument::Offset(0),
+                Self::MemoryType => {
+                    let info: vk::MemoryAllocateInfo<'_> = get(start());
+                    constant(flags_of(info.memory_type_index), |raw| {
+                        format!("{:?}", vk::MemoryPropertyFlags::from_raw(raw))
+                    })
+                }
+                Self::Unused if start().is_null() => Argument::Null,
+                Self::Unused => unknown("an address that is not followed"),
             }
         }
     }
 }
 
-/// Returns the structure that a chain goes on with.
-///
-/// # Safety
-/// A structure of the API is at the address, or it is null.
-unsafe fn next(tagged: &[&Layout], address: *const c_void) -> Argument {
-    if address.is_null() {
-        return Argument::Null;
-    }
-    // SAFETY: each structure of a chain begins with its type.
-    let kind: vk::StructureType = unsafe { get(address.cast()) };
-    match tagged.iter().find(|layout| layout.structure == Some(kind)) {
-        // SAFETY: the type says so.
-        Some(layout) => unsafe { layout.array(address, 1) },
-        None => {
-            fail(&format!("a structure of type {kind:?}"));
-            Argument::Null
-        }
-    }
-}
-
-/// Returns the text at an address.
-///
-/// # Safety
-/// A terminated text is there, or the address is null.
-unsafe fn text(address: *const c_char) -> Argument {
-    if address.is_null() {
-        return Argument::Null;
-    }
-    // SAFETY: the caller's.
-    let text = unsafe { CStr::from_ptr(address) };
-    Argument::Text(text.to_string_lossy().into_owned())
-}
-
-/// Returns the name of a field in C: `p_next` is `pNext`.
-fn name_in_c(name: &str) -> String {
-    let mut upper = false;
-    let mut text = String::new();
-    for c in name.chars() {
-        match c {
-            '_' => upper = true,
-            c if upper => {
-                text.extend(c.to_uppercase());
-                upper = false;
-            }
-            c => text.push(c),
-        }
-    }
-    if text == "ty" {
-        "type".to_owned()
-    } else {
-        text
-    }
+/// Ends the recording at something that it cannot keep.
+fn unknown(what: &str) -> Argument {
+    fail(what);
+    Argument::Null
 }

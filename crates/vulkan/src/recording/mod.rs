@@ -8,9 +8,9 @@
 
 mod functions;
 mod layout;
-mod layouts;
 mod needed;
 mod recorder;
+mod registry;
 
 pub(crate) use needed::Needed;
 
@@ -27,15 +27,25 @@ use std::ffi::{CStr, c_char};
 pub(crate) fn instance(instance: &ash::Instance) -> ash::Instance {
     let mut v10 = instance.fp_v1_0().clone();
     stands_before("vkGetDeviceProcAddr", v10.get_device_proc_addr as usize);
-    stands_before("vkCreateDevice", v10.create_device as usize);
     v10.get_device_proc_addr = get_device_proc_addr;
-    v10.create_device = functions::create_device;
+    if let Some(shim) = before("vkCreateDevice", v10.create_device as usize) {
+        // SAFETY: the registry gives the name this type.
+        v10.create_device =
+            unsafe { std::mem::transmute::<*const (), vk::PFN_vkCreateDevice>(shim) };
+    }
     ash::Instance::from_parts_1_3(
         instance.handle(),
         v10,
         instance.fp_v1_1().clone(),
         instance.fp_v1_3().clone(),
     )
+}
+
+/// Returns the function that records one of the driver's, which is at an address.
+fn before(name: &str, address: usize) -> Option<*const ()> {
+    let (name, shim) = registry::shim(name)?;
+    stands_before(name, address);
+    Some(shim)
 }
 
 /// Returns the function under which the backend finds one of the device's.
@@ -50,12 +60,50 @@ unsafe extern "system" fn get_device_proc_addr(
     let address = unsafe { own(device, name) }?;
     // SAFETY: the caller's name is terminated.
     let text = unsafe { CStr::from_ptr(name) }.to_str().ok()?;
-    if let Some((known, shim)) = functions::shim(text) {
-        stands_before(known, address as usize);
+    if let Some(shim) = before(text, address as usize) {
         // SAFETY: a function's address is one of a function without arguments, which nobody calls as such.
         return Some(unsafe {
             std::mem::transmute::<*const (), unsafe extern "system" fn()>(shim)
         });
     }
-    functions::only_asks(text).then_some(address)
+    only_asks(text).then_some(address)
+}
+
+/// True if a function only asks about the device, waits for all of it, or destroys: it stays the driver's own.
+fn only_asks(name: &str) -> bool {
+    ["vkGet", "vkDestroy", "vkFree", "vkDeviceWaitIdle"]
+        .iter()
+        .any(|start| name.starts_with(start))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+
+    #[test]
+    fn the_registry_is_what_the_script_writes() {
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/src/recording/generate");
+        let output = Command::new(script).output().unwrap();
+        if output.status.code() == Some(77) {
+            eprintln!("SKIPPED: {}", String::from_utf8_lossy(&output.stderr));
+            return;
+        }
+        assert!(output.status.success(), "{output:?}");
+        let written = String::from_utf8(output.stdout).unwrap();
+        let kept = include_str!("registry.rs");
+        let version = |text: &str| {
+            text.lines()
+                .find(|line| line.contains("vk.xml"))
+                .map(str::to_owned)
+        };
+        if version(&written) == version(kept) {
+            assert!(written == kept, "run `generate` again");
+        } else {
+            eprintln!(
+                "SKIPPED: {:?} is installed, {:?} is kept",
+                version(&written),
+                version(kept)
+            );
+        }
+    }
 }

@@ -158,9 +158,10 @@ fn fill(value: &mut Tree, folder: &Path) -> Result<(), String> {
                 return Err("a file of a trace has no name".to_owned());
             };
             let content = std::fs::read(folder.join(file)).map_err(|e| e.to_string())?;
-            *value = match file.ends_with(".wgsl") {
-                true => Tree::Text(String::from_utf8(content).map_err(|e| e.to_string())?),
-                false => Tree::Bytes(content),
+            *value = if file.ends_with(".wgsl") {
+                Tree::Text(String::from_utf8(content).map_err(|e| e.to_string())?)
+            } else {
+                Tree::Bytes(content)
             };
             Ok(())
         }

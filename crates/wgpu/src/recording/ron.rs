@@ -81,9 +81,10 @@ impl<'a> Reader<'a> {
                 if name == "NaN" || name == "inf" {
                     return Ok(Tree::Number(name.to_owned()));
                 }
-                match self.rest().starts_with('(') {
-                    true => self.parts(name.to_owned(), depth),
-                    false => Ok(Tree::Name(name.to_owned())),
+                if self.rest().starts_with('(') {
+                    self.parts(name.to_owned(), depth)
+                } else {
+                    Ok(Tree::Name(name.to_owned()))
                 }
             }
             _ => self.fails("no value"),
@@ -136,9 +137,10 @@ impl<'a> Reader<'a> {
                 return self.fails("no end of parts");
             }
         }
-        Ok(match fields.is_empty() {
-            true => Tree::Tuple(name, parts),
-            false => Tree::Structure(name, fields),
+        Ok(if fields.is_empty() {
+            Tree::Tuple(name, parts)
+        } else {
+            Tree::Structure(name, fields)
         })
     }
 
