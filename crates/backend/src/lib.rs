@@ -19,7 +19,9 @@ mod halves;
 mod recording;
 mod tree;
 
-pub use fault::{CallFault, ReadFault};
+pub use fault::{
+    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, ProcessFault, ReadFault,
+};
 pub use halves::halves;
 pub use recording::{
     Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,

@@ -107,7 +107,7 @@ bits! {
 ///
 /// # Safety
 /// So many are there, or the address is null.
-unsafe fn values<T: Copy>(address: *const T, count: u32) -> Vec<T> {
+pub(crate) unsafe fn values<T: Copy>(address: *const T, count: u32) -> Vec<T> {
     if address.is_null() {
         return Vec::new();
     }

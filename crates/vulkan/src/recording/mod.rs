@@ -12,6 +12,7 @@ mod layouts;
 mod needed;
 mod recorder;
 
+pub(crate) use functions::values;
 pub(crate) use needed::Needed;
 
 pub(crate) use recorder::{
