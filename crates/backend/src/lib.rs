@@ -13,16 +13,16 @@
 //!   its top row.
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
-mod call_fault;
 pub mod codes;
+mod fault;
 mod halves;
-mod read_fault;
 mod recording;
 mod tree;
 
-pub use call_fault::CallFault;
+pub use fault::{
+    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, ProcessFault, ReadFault,
+};
 pub use halves::halves;
-pub use read_fault::ReadFault;
 pub use recording::{
     Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
     RecordedCounter, RecordedImage, Recording, VulkanNeeds,

@@ -1,6 +1,6 @@
 //! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
-use crate::adapters::{BackendName, FROM_INPUT, HardwareDevice, Open};
+use crate::adapters::{BackendName, FROM_INPUT, Faulty, HardwareDevice, Open};
 use crate::failure::Failure;
 use clap::Args;
 use etalon_backend::{Backend, Unavailable};
@@ -112,8 +112,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             },
             library: what.egl.clone(),
             debug: what.validate,
-            read_fault: what.read_fault,
-            call_fault: what.call_fault,
+            fault: what.fault,
             record: what.record,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
@@ -123,22 +122,21 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             via,
             device,
             validate: what.validate,
-            read_fault: what.read_fault,
+            fault: what.fault,
             record: what.record,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
     match what.backend {
-        BackendName::Cpu => Ok(match &what.hidden {
+        BackendName::Cpu => Ok(match what.fault {
             None => Box::new(CpuBackend::new(name)),
-            Some(hidden) => hidden.open(name, pipe),
+            Some(fault) => Box::new(Faulty::new(name, fault, pipe)),
         }),
         BackendName::Vulkan => {
             let options = etalon_vulkan::Options {
                 device,
                 validate: what.validate,
-                read_fault: what.read_fault,
-                call_fault: what.call_fault,
+                fault: what.fault,
                 record: what.record,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)

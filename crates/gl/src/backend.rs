@@ -76,7 +76,7 @@ pub(crate) fn open_with(
     // Messages about probing are not the scenes'.
     backend.context.messages();
     // A probe that meets the fault would deny what the scenes shall find broken.
-    planted::arm();
+    planted::arm(options.fault);
     Ok(backend)
 }
 

@@ -7,7 +7,7 @@ use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
 use crate::planted;
 use crate::recording;
-use etalon_backend::{BackendError, ReadFault, Unavailable};
+use etalon_backend::{BackendError, Fault, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char};
 use std::sync::PoisonError;
@@ -22,8 +22,8 @@ pub(crate) struct Context {
     pub(crate) gl: glow::Context,
     pub(crate) caps: Caps,
     pub(crate) names: Names,
-    /// The fault that a test plants in everything that is read back.
-    pub(crate) read_fault: Option<ReadFault>,
+    /// The fault that a test plants.
+    pub(crate) fault: Option<Fault>,
     pub(crate) entry_points: EntryPoints,
     // Fields drop in order: the driver may write to the log until the context is destroyed.
     egl: EglContext,
@@ -44,7 +44,7 @@ impl Context {
         options: &Options,
         tuning: Tuning,
     ) -> Result<Self, Unavailable> {
-        planted::plant(options.call_fault);
+        planted::plant(options.fault);
         recording::install(options.record);
         let names = Names::query(&egl)?;
         let es = options.profile == Profile::Es;
@@ -69,7 +69,7 @@ impl Context {
             gl,
             caps,
             names,
-            read_fault: options.read_fault,
+            fault: options.fault,
             entry_points,
             egl,
             log: Box::default(),

@@ -1,7 +1,7 @@
 //! The options of an adapter: the API, and the way to its driver.
 
 use crate::egl::Platform;
-use etalon_backend::{CallFault, ReadFault, RecordedContext};
+use etalon_backend::{Fault, RecordedContext};
 use std::path::PathBuf;
 
 /// The OpenGL variant of a context.
@@ -14,7 +14,7 @@ pub enum Profile {
 }
 
 /// Options for [`crate::open`].
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The variant of OpenGL.
     pub profile: Profile,
@@ -24,10 +24,8 @@ pub struct Options {
     pub library: Option<PathBuf>,
     /// Enables debug output. Its messages are returned by [`etalon_backend::Backend::messages`].
     pub debug: bool,
-    /// A fault that a test of the suite plants in the read path.
-    pub read_fault: Option<ReadFault>,
-    /// A fault that a test of the suite plants between the backend and the driver.
-    pub call_fault: Option<CallFault>,
+    /// A fault that a test of the suite plants in the calls to the driver or in what is read back.
+    pub fault: Option<Fault>,
     /// Records the calls of the first scene that is prepared, for [`etalon_backend::Backend::recording`]. The context
     /// then has no timer.
     pub record: bool,

@@ -10,7 +10,7 @@ use crate::state;
 use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
-use etalon_backend::{BackendError, Form, halves};
+use etalon_backend::{BackendError, Fault, Form, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -119,7 +119,7 @@ impl Reading<'_> {
 
     /// Applies the fault that a test plants.
     fn plant(&self, surface: &Surface, channels: &[ChannelEncoding], codes: &mut [u32]) {
-        if let Some(fault) = self.context.read_fault {
+        if let Some(Fault::Read(fault)) = self.context.fault {
             fault.apply(codes, surface.size(), surface.samples(), channels);
         }
     }

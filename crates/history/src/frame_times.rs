@@ -87,9 +87,10 @@ impl FrameTimes {
                 .map(|t| t as f32)
                 .collect();
             // Values must stand beside the ruler of their own round.
-            match medians.len() == rounds {
-                true => medians,
-                false => Vec::new(),
+            if medians.len() == rounds {
+                medians
+            } else {
+                Vec::new()
             }
         };
         let frames: usize = record.rounds.iter().map(|r| r.wall.len()).sum();

@@ -27,9 +27,10 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// # Errors
 /// When there is no such file, or it is damaged.
 pub fn read_runs(path: &Path, dates: &ReleaseDates) -> Result<Vec<NewRun>, HistoryError> {
-    let file = match path.is_dir() {
-        true => in_folder(path)?,
-        false => path.to_owned(),
+    let file = if path.is_dir() {
+        in_folder(path)?
+    } else {
+        path.to_owned()
     };
     match What::of(&file)? {
         What::Run => Ok(vec![run::read(&file, open(&file)?)?]),
@@ -89,8 +90,9 @@ fn open(path: &Path) -> Result<Digesting<Box<dyn Read>>, HistoryError> {
         .read_to_end(&mut begin)
         .map_err(HistoryError::io("read", path))?;
     let file = BufReader::with_capacity(1 << 16, opened()?);
-    Ok(Digesting::new(match begin == GZIP {
-        true => Box::new(MultiGzDecoder::new(file)),
-        false => Box::new(file),
+    Ok(Digesting::new(if begin == GZIP {
+        Box::new(MultiGzDecoder::new(file))
+    } else {
+        Box::new(file)
     }))
 }

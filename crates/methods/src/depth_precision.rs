@@ -238,10 +238,11 @@ impl Buffer {
         let corners = quad.corners.map(|[x, y, inverse]| {
             let distance = inverse.recip();
             let planes = [self.near, FAR];
-            let depth = match self.reversed {
-                false => window_depth(distance, planes),
+            let depth = if self.reversed {
                 // The same with near and far exchanged: small numbers far away, which a float keeps well.
-                true => window_depth(distance, [FAR, self.near]),
+                window_depth(distance, [FAR, self.near])
+            } else {
+                window_depth(distance, planes)
             };
             [x, y, depth]
         });
@@ -253,9 +254,10 @@ impl Buffer {
     fn draw(&self, polygons: &[Polygon], is_decal: bool) -> Draw {
         let mut draw = stage::draw(self.shader, polygon::mesh(SIZE, polygons));
         // Whatever is rounded to the far plane is still there.
-        let compare = match self.reversed {
-            false => CompareFunction::LessEqual,
-            true => CompareFunction::GreaterEqual,
+        let compare = if self.reversed {
+            CompareFunction::GreaterEqual
+        } else {
+            CompareFunction::LessEqual
         };
         draw.depth = stage::depth(compare, true);
         if is_decal {

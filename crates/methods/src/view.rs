@@ -199,9 +199,10 @@ pub(crate) fn clip(corners: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec
         }
         if (at > 0.0 && next < 0.0) || (at < 0.0 && next > 0.0) {
             // Always from the inner to the outer end.
-            let (from, to, d, e) = match at > 0.0 {
-                true => (a, b, at, next),
-                false => (b, a, next, at),
+            let (from, to, d, e) = if at > 0.0 {
+                (a, b, at, next)
+            } else {
+                (b, a, next, at)
             };
             left.push(from + (to - from) * (d / (d - e)));
         }

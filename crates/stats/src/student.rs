@@ -23,9 +23,10 @@ pub(crate) fn least(holds: impl Fn(f64) -> bool) -> f64 {
     let mut low = 0.0;
     for _ in 0..50 {
         let middle = f64::midpoint(low, high);
-        match holds(middle) {
-            true => high = middle,
-            false => low = middle,
+        if holds(middle) {
+            high = middle;
+        } else {
+            low = middle;
         }
     }
     high
@@ -38,9 +39,10 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     }
     let front = a * x.ln() + b * (1.0 - x).ln() + ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b);
     // The fraction converges fast on this side of the mean only.
-    match x < (a + 1.0) / (a + b + 2.0) {
-        true => front.exp() * beta_fraction(x, a, b) / a,
-        false => 1.0 - front.exp() * beta_fraction(1.0 - x, b, a) / b,
+    if x < (a + 1.0) / (a + b + 2.0) {
+        front.exp() * beta_fraction(x, a, b) / a
+    } else {
+        1.0 - front.exp() * beta_fraction(1.0 - x, b, a) / b
     }
 }
 

@@ -59,10 +59,12 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
             squares += difference * difference;
             worst = worst.max(difference);
             should.push(quantized(expected));
-            is.push(match value.is_nan() {
-                true if expected >= 0.5 => 0,
-                true => 255,
-                false => quantized(value),
+            is.push(if !value.is_nan() {
+                quantized(value)
+            } else if expected >= 0.5 {
+                0
+            } else {
+                255
             });
         }
         result.max = result.max.max(worst);

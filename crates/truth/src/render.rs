@@ -89,9 +89,10 @@ fn empty(scene: &Truth) -> TruthPicture {
 fn blocks([width, height]: [u32; 2]) -> Vec<[[u32; 2]; 2]> {
     const TEXELS: u64 = 1024;
     let mut blocks = Vec::new();
-    let mut open = match width > 0 && height > 0 {
-        true => vec![[[0, 0], [width, height]]],
-        false => Vec::new(),
+    let mut open = if width > 0 && height > 0 {
+        vec![[[0, 0], [width, height]]]
+    } else {
+        Vec::new()
     };
     while let Some([low, high]) = open.pop() {
         if u64::from(high[0] - low[0]) * u64::from(high[1] - low[1]) <= TEXELS {

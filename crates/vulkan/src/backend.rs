@@ -8,15 +8,14 @@ use crate::planted;
 use crate::prepared::PreparedScene;
 use crate::recording;
 use etalon_backend::{
-    AdapterInfo, Backend, BackendError, CallFault, Phase, Prepared, ReadFault, Recording,
-    Unavailable,
+    AdapterInfo, Backend, BackendError, Fault, Phase, Prepared, Recording, Unavailable,
 };
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::rc::Rc;
 
 /// Options for [`open`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
     /// The device's index in `vkEnumeratePhysicalDevices`, which is also the order of
     /// [`enumerate`].
@@ -24,10 +23,8 @@ pub struct Options {
     /// Enables the Khronos validation layer, synchronization validation included. Its messages are
     /// returned by [`Backend::messages`].
     pub validate: bool,
-    /// A fault that a test of the suite plants in the read path.
-    pub read_fault: Option<ReadFault>,
-    /// A fault that a test of the suite plants between the backend and the driver.
-    pub call_fault: Option<CallFault>,
+    /// A fault that a test of the suite plants in the calls to the driver or in what is read back.
+    pub fault: Option<Fault>,
     /// Records the calls of the first scene that is prepared, for [`Backend::recording`]. The device then has no
     /// timestamps.
     pub record: bool,
@@ -77,7 +74,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
     };
     let identity = identify(&instance, physical);
     let mut device = Device::new(instance, physical, &identity)?;
-    if let Some(fault) = options.call_fault {
+    if let Some(Fault::Call(fault)) = options.fault {
         device.raw = planted::plant(&device.raw, fault);
     }
     Ok(VulkanBackend {
@@ -85,7 +82,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
             name: name.to_owned(),
             ..identity.info
         },
-        gpu: Gpu::new(device, options.read_fault).map_err(|error| unavailable(&error))?,
+        gpu: Gpu::new(device, options.fault).map_err(|error| unavailable(&error))?,
     })
 }
 
@@ -124,8 +121,7 @@ mod tests {
         let options = Options {
             device: 0,
             validate: true,
-            read_fault: None,
-            call_fault: None,
+            fault: None,
             record: false,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
@@ -151,8 +147,7 @@ mod tests {
         let options = Options {
             device: 0,
             validate: true,
-            read_fault: None,
-            call_fault: None,
+            fault: None,
             record: false,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");

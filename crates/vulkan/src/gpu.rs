@@ -9,7 +9,7 @@ use crate::pool::Pool;
 use crate::samplers::Samplers;
 use crate::samples::SampleReaders;
 use crate::slot::Slots;
-use etalon_backend::{BackendError, ReadFault};
+use etalon_backend::{BackendError, Fault};
 use etalon_frame::{Limits, TextureFormat};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -19,8 +19,8 @@ pub(crate) struct Gpu {
     pub(crate) limits: Limits,
     pub(crate) natives: BTreeMap<TextureFormat, Native>,
     pub(crate) pools: RefCell<Pools>,
-    /// The fault that a test plants in everything that is read back.
-    pub(crate) read_fault: Option<ReadFault>,
+    /// The fault that a test plants.
+    pub(crate) fault: Option<Fault>,
     /// Dropped last: everything else was created from it.
     pub(crate) device: Device,
 }
@@ -36,13 +36,13 @@ pub(crate) struct Pools {
 }
 
 impl Gpu {
-    pub(crate) fn new(device: Device, read_fault: Option<ReadFault>) -> Result<Self, BackendError> {
+    pub(crate) fn new(device: Device, fault: Option<Fault>) -> Result<Self, BackendError> {
         let natives = format::natives(&device);
         let gpu = Self {
             limits: limits::limits(&device, &natives),
             natives,
             pools: RefCell::default(),
-            read_fault,
+            fault,
             device,
         };
         gpu.pools.borrow_mut().pipelines.create(&gpu.device)?;

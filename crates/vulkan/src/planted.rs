@@ -2,33 +2,43 @@
 //!
 //! The functions of the table have the driver's signatures and nothing else to tell them apart, so the
 //! driver's own table and what was seen of the calls are kept per thread: a backend belongs to one thread.
-//! The rest of the backend is the one that releases have.
 
-use ash::vk;
-use etalon_backend::CallFault;
+use ash::vk::{self, Handle};
+use etalon_backend::{CallFault, DrawNumbers, FaultyCalls};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::ffi::c_void;
+use std::process::abort;
+use std::{mem, ptr, slice};
 
 thread_local! {
     static PLANTED: RefCell<Option<Planted>> = const { RefCell::new(None) };
 }
 
-/// The driver's functions, and what was seen of the commands since recording began.
-struct Planted {
-    fault: CallFault,
+/// Returns the values at an address.
+///
+/// # Safety
+/// There are `count` values, or the address is null.
+unsafe fn values<T: Copy>(address: *const T, count: u32) -> Vec<T> {
+    if address.is_null() {
+        return Vec::new();
+    }
+    // SAFETY: the caller's.
+    unsafe { slice::from_raw_parts(address, count as usize) }.to_vec()
+}
+
+/// The functions of a device.
+#[derive(Clone)]
+struct Functions {
     v10: ash::DeviceFnV1_0,
     v12: ash::DeviceFnV1_2,
     v13: ash::DeviceFnV1_3,
-    /// The number of passes begun.
-    passes: u32,
-    /// The number of draws of the pass.
-    draws: u32,
-    /// The number of queries begun, kept until others begin.
-    queries: u32,
-    /// True if no query has begun since recording began.
-    no_query: bool,
-    /// True if the pass before was read-only.
+}
+
+/// The driver's functions, and what was seen of the commands since recording began.
+struct Planted {
+    driver: Functions,
+    calls: FaultyCalls,
+    /// True before the first draw after a pass that was read-only.
     after_read_only: bool,
     /// True if the pass is read-only.
     read_only: bool,
@@ -36,730 +46,433 @@ struct Planted {
     in_render_pass: bool,
     /// True if the pass has stencil.
     stencil: bool,
-    /// The number of draws of a secondary command buffer; `None` in a primary one.
-    secondary: Option<u32>,
-    size: vk::Extent2D,
-    scissor: vk::Rect2D,
+    /// True before the first draw of a secondary command buffer.
+    secondary: bool,
     topology: vk::PrimitiveTopology,
-    kept: Kept,
-    /// The last clear value of each image, as bits.
-    cleared: HashMap<vk::Image, [u32; 4]>,
-}
-
-/// The state of the draw before.
-#[derive(Default)]
-struct Kept {
-    compare: Option<vk::CompareOp>,
-    write: Option<vk::Bool32>,
-    cull: Option<vk::CullModeFlags>,
-    references: HashMap<u32, u32>,
-    constants: Option<[f32; 4]>,
-    viewport: Option<vk::Viewport>,
-    scissor: Option<vk::Rect2D>,
 }
 
 /// Returns the device with a fault in its function table.
 pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
-    let (v10, v13) = (device.fp_v1_0().clone(), device.fp_v1_3().clone());
-    let v12 = device.fp_v1_2().clone();
-    let (mut faulty10, mut faulty12, mut faulty13) = (v10.clone(), v12.clone(), v13.clone());
-    faulty10.create_image_view = create_image_view;
-    faulty10.create_graphics_pipelines = create_graphics_pipelines;
-    faulty10.cmd_begin_render_pass = cmd_begin_render_pass;
-    faulty10.cmd_blit_image = cmd_blit_image;
-    faulty12.create_render_pass2 = create_render_pass2;
-    faulty10.begin_command_buffer = begin_command_buffer;
-    faulty10.cmd_draw = cmd_draw;
-    faulty10.cmd_draw_indexed = cmd_draw_indexed;
-    faulty10.cmd_set_scissor = cmd_set_scissor;
-    faulty10.cmd_set_viewport = cmd_set_viewport;
-    faulty10.cmd_set_stencil_reference = cmd_set_stencil_reference;
-    faulty10.cmd_set_blend_constants = cmd_set_blend_constants;
-    faulty10.cmd_clear_color_image = cmd_clear_color_image;
-    faulty10.cmd_clear_attachments = cmd_clear_attachments;
-    faulty10.cmd_begin_query = cmd_begin_query;
-    faulty10.cmd_end_query = cmd_end_query;
-    faulty10.get_query_pool_results = get_query_pool_results;
-    faulty13.cmd_begin_rendering = cmd_begin_rendering;
-    faulty13.cmd_set_depth_compare_op = cmd_set_depth_compare_op;
-    faulty13.cmd_set_depth_write_enable = cmd_set_depth_write_enable;
-    faulty13.cmd_set_cull_mode = cmd_set_cull_mode;
-    faulty13.cmd_set_primitive_topology = cmd_set_primitive_topology;
+    let driver = Functions {
+        v10: device.fp_v1_0().clone(),
+        v12: device.fp_v1_2().clone(),
+        v13: device.fp_v1_3().clone(),
+    };
+    let mut functions = driver.clone();
+    replace(&mut functions);
+    let mut calls = FaultyCalls::default();
+    (calls.fault, calls.scissor_on) = (Some(fault), true);
     PLANTED.set(Some(Planted {
-        fault,
-        v10,
-        v12,
-        v13,
-        passes: 0,
-        draws: 0,
-        queries: 0,
-        no_query: true,
+        driver,
+        calls,
         after_read_only: false,
         read_only: false,
         in_render_pass: false,
         stencil: false,
-        secondary: None,
-        size: vk::Extent2D::default(),
-        scissor: vk::Rect2D::default(),
+        secondary: false,
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
-        kept: Kept::default(),
-        cleared: HashMap::new(),
     }));
     ash::Device::from_parts_1_3(
         device.handle(),
-        faulty10,
+        functions.v10,
         device.fp_v1_1().clone(),
-        faulty12,
-        faulty13,
+        functions.v12,
+        functions.v13,
     )
 }
 
-fn with<R>(call: impl FnOnce(&mut Planted) -> R) -> Option<R> {
-    PLANTED.with_borrow_mut(|planted| planted.as_mut().map(call))
+fn with<R>(call: impl FnOnce(&mut Planted) -> R) -> R {
+    // A function of the table is called on the thread of its backend.
+    PLANTED.with_borrow_mut(|planted| planted.as_mut().map_or_else(|| abort(), call))
 }
 
-/// Returns the value of the call before, and keeps this one for the next.
-fn lag<T: Copy>(kept: &mut Option<T>, value: T) -> T {
-    kept.replace(value).unwrap_or(value)
+/// Declares the functions that stand in the place of the driver's. Each does something `before` it calls the driver's
+/// with the arguments as they are then, or something `instead`. Arrays in brackets are copied, with these lengths.
+macro_rules! functions {
+    ($(
+        $how:ident $version:ident $name:ident($($arg:ident: $kind:ty),*) $(-> $result:ty)?
+        $([$array:ident; $length:expr])* |$planted:ident| { $($body:tt)* }
+    )+) => {
+        /// Puts the functions in the place of the driver's.
+        fn replace(functions: &mut Functions) {
+            $(functions.$version.$name = faulty::$name;)+
+        }
+
+        mod faulty {
+            #![expect(unused_mut, reason = "not every function changes each of its arguments")]
+
+            use super::*;
+
+            $(
+                pub(super) unsafe extern "system" fn $name($(mut $arg: $kind),*) $(-> $result)? {
+                    with(|$planted| {
+                        // SAFETY: the caller's: the specification, or the backend's use, gives the length.
+                        $(let mut $array = unsafe { values($array, $length) };)*
+                        functions!(@$how { $($body)* } {
+                            $(let $array = $array.as_ptr();)*
+                            // SAFETY: the function has the type of the driver's of its name, whose arguments are
+                            // passed on as they are or made from valid ones.
+                            unsafe { ($planted.driver.$version.$name)($($arg),*) }
+                        })
+                    })
+                }
+            )+
+        }
+    };
+    (@before { $($body:tt)* } { $($call:tt)* }) => {{ $($body)* $($call)* }};
+    (@instead { $($body:tt)* } { $($call:tt)* }) => {{ $($body)* }};
 }
 
-fn rect(left: i32, top: i32, right: i32, bottom: i32) -> vk::Rect2D {
+functions! {
+    before v10 begin_command_buffer(
+        commands: vk::CommandBuffer, infos: *const vk::CommandBufferBeginInfo<'_>
+    ) -> vk::Result [infos; 1] |planted| {
+        planted.secondary = infos[0].flags.contains(vk::CommandBufferUsageFlags::RENDER_PASS_CONTINUE);
+        if !planted.secondary {
+            planted.calls.end_submission();
+            (planted.after_read_only, planted.read_only, planted.in_render_pass) = (false, false, false);
+        }
+    }
+    instead v10 cmd_draw(
+        commands: vk::CommandBuffer, count: u32, instances: u32, first: u32, first_instance: u32
+    ) |planted| {
+        let (count, instances) = (count.cast_signed(), instances.cast_signed());
+        let numbers = DrawNumbers { count, instances, first_instance, ..DrawNumbers::default() };
+        planted.draw(commands, numbers, |driver, numbers| {
+            let (count, instances) = (numbers.count.cast_unsigned(), numbers.instances.cast_unsigned());
+            // SAFETY: the caller's; no more is drawn than asked for.
+            unsafe { (driver.v10.cmd_draw)(commands, count, instances, first, numbers.first_instance) };
+        });
+    }
+    instead v10 cmd_draw_indexed(
+        commands: vk::CommandBuffer, count: u32, instances: u32, first: u32, base_vertex: i32, first_instance: u32
+    ) |planted| {
+        let [count, instances, first] = [count, instances, first].map(u32::cast_signed);
+        let numbers = DrawNumbers { indexed: true, count, instances, first, base_vertex, first_instance, thin: false };
+        planted.draw(commands, numbers, |driver, numbers| {
+            let counts = [numbers.count, numbers.instances, numbers.first];
+            let [count, instances, first] = counts.map(i32::cast_unsigned);
+            let (base_vertex, first_instance) = (numbers.base_vertex, numbers.first_instance);
+            // SAFETY: as above.
+            unsafe {
+                (driver.v10.cmd_draw_indexed)(commands, count, instances, first, base_vertex, first_instance);
+            }
+        });
+    }
+    before v10 cmd_set_scissor(
+        commands: vk::CommandBuffer, first: u32, count: u32, scissors: *const vk::Rect2D
+    ) [scissors; count] |planted| {
+        if let [scissor] = &mut scissors[..] {
+            let vk::Rect2D { offset: vk::Offset2D { x, y }, extent: vk::Extent2D { width, height } } = *scissor;
+            let limit = planted.calls.area[2];
+            let set = planted.calls.set_scissor([x, y, width.cast_signed(), height.cast_signed()], limit);
+            *scissor = rectangle(set);
+        }
+    }
+    before v10 cmd_set_viewport(
+        commands: vk::CommandBuffer, first: u32, count: u32, viewports: *const vk::Viewport
+    ) [viewports; count] |planted| {
+        match &mut viewports[..] {
+            [viewport] => *viewport = planted.calls.kept(CallFault::ViewportKept, 0, *viewport),
+            [first, second] if planted.calls.has(CallFault::ViewportFirst) => *second = *first,
+            _ => {}
+        }
+    }
+    before v10 cmd_set_stencil_reference(
+        commands: vk::CommandBuffer, faces: vk::StencilFaceFlags, reference: u32
+    ) |planted| {
+        reference = planted.calls.kept(CallFault::StencilReferenceKept, faces.as_raw(), reference);
+    }
+    before v10 cmd_set_blend_constants(
+        commands: vk::CommandBuffer, constants: *const [f32; 4]
+    ) [constants; 1] |planted| {
+        constants[0] = planted.calls.kept(CallFault::BlendConstantKept, 0, constants[0]);
+    }
+    before v10 cmd_clear_color_image(
+        commands: vk::CommandBuffer, image: vk::Image, layout: vk::ImageLayout, colors: *const vk::ClearColorValue,
+        count: u32, ranges: *const vk::ImageSubresourceRange
+    ) [colors; 1] |planted| {
+        // SAFETY: every bit pattern is one of integers.
+        let color = unsafe { colors[0].uint32 };
+        if planted.calls.skips_equal_clear(image.as_raw(), color) {
+            return;
+        }
+    }
+    before v10 cmd_clear_attachments(
+        commands: vk::CommandBuffer, count: u32, attachments: *const vk::ClearAttachment, rectangles: u32,
+        areas: *const vk::ClearRect
+    ) [attachments; count] [areas; rectangles] |planted| {
+        let calls = &planted.calls;
+        if calls.has(CallFault::ClearSkipped) && (calls.passes > 1 || calls.draws > 0) {
+            return;
+        }
+        if calls.has(CallFault::ClearRect) {
+            areas.iter_mut().for_each(|area| area.rect = rectangle(calls.area));
+        }
+        if calls.has(CallFault::StencilWithDepth) && planted.stencil {
+            for attachment in &mut attachments {
+                if attachment.aspect_mask.contains(vk::ImageAspectFlags::DEPTH) {
+                    attachment.aspect_mask |= vk::ImageAspectFlags::STENCIL;
+                }
+            }
+        }
+    }
+    instead v10 cmd_begin_query(
+        commands: vk::CommandBuffer, pool: vk::QueryPool, query: u32, flags: vk::QueryControlFlags
+    ) |planted| {
+        planted.calls.begin_query(query);
+        // SAFETY: the caller's; a query that ends here is not ended again.
+        unsafe {
+            (planted.driver.v10.cmd_begin_query)(commands, pool, query, flags);
+            if planted.calls.ends_query_early() {
+                (planted.driver.v10.cmd_end_query)(commands, pool, query);
+            }
+        }
+    }
+    before v10 cmd_end_query(commands: vk::CommandBuffer, pool: vk::QueryPool, query: u32) |planted| {
+        if planted.calls.ends_query_early() {
+            return;
+        }
+    }
+    instead v10 get_query_pool_results(
+        device: vk::Device, pool: vk::QueryPool, first: u32, count: u32, size: usize, data: *mut c_void,
+        stride: vk::DeviceSize, flags: vk::QueryResultFlags
+    ) -> vk::Result |planted| {
+        let get = planted.driver.v10.get_query_pool_results;
+        // SAFETY: the caller's.
+        let result = unsafe { get(device, pool, first, count, size, data, stride, flags) };
+        if planted.calls.has(CallFault::QueryFirst) && result == vk::Result::SUCCESS {
+            let queries = planted.calls.queries.len().min(count as usize);
+            // SAFETY: the backend reads results of 64 bits side by side.
+            let results = unsafe { slice::from_raw_parts_mut(data.cast::<u64>(), queries) };
+            // Timestamps come in a pool of two and increase, so they are left alone.
+            if let [first, others @ ..] = results {
+                others.fill(*first);
+            }
+        }
+        result
+    }
+    before v13 cmd_begin_rendering(
+        commands: vk::CommandBuffer, infos: *const vk::RenderingInfo<'_>
+    ) [infos; 1] |planted| {
+        let info = &mut infos[0];
+        planted.calls.begin_pass();
+        planted.calls.area = area(info.render_area);
+        // SAFETY: the caller's: the pointers are null or valid, and there are so many colours.
+        let (mut depth, mut stencil, mut colors) = unsafe {
+            (
+                values(info.p_depth_attachment, 1),
+                values(info.p_stencil_attachment, 1),
+                values(info.p_color_attachments, info.color_attachment_count),
+            )
+        };
+        let read_only = vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+        planted.after_read_only = planted.read_only;
+        planted.read_only = depth.iter().chain(&stencil).any(|tested| tested.image_layout == read_only);
+        planted.stencil = !stencil.is_empty();
+        planted.in_render_pass = false;
+        planted.change_attachments(&mut colors, &mut depth, &mut stencil);
+        info.p_color_attachments = address(&colors);
+        info.p_depth_attachment = address(&depth);
+        info.p_stencil_attachment = address(&stencil);
+    }
+    before v13 cmd_set_depth_compare_op(commands: vk::CommandBuffer, compare: vk::CompareOp) |planted| {
+        compare = planted.calls.kept(CallFault::CompareKept, 0, compare);
+    }
+    before v13 cmd_set_depth_write_enable(commands: vk::CommandBuffer, write: vk::Bool32) |planted| {
+        if !planted.read_only {
+            write = planted.calls.kept(CallFault::DepthWriteKept, 0, write);
+        }
+    }
+    before v13 cmd_set_cull_mode(commands: vk::CommandBuffer, mode: vk::CullModeFlags) |planted| {
+        mode = planted.calls.kept(CallFault::CullKept, 0, mode);
+        // What the backend leaves in a pipeline whose culling is dynamic.
+        if planted.calls.has(CallFault::StaticForDynamic) {
+            mode = vk::CullModeFlags::NONE;
+        }
+    }
+    before v13 cmd_set_primitive_topology(
+        commands: vk::CommandBuffer, topology: vk::PrimitiveTopology
+    ) |planted| {
+        planted.topology = topology;
+    }
+    before v10 create_image_view(
+        device: vk::Device, infos: *const vk::ImageViewCreateInfo<'_>,
+        allocator: *const vk::AllocationCallbacks<'_>, view: *mut vk::ImageView
+    ) -> vk::Result [infos; 1] |planted| {
+        // Every image has a first level and layer.
+        let range = &mut infos[0].subresource_range;
+        if planted.calls.has(CallFault::LayerDropped) {
+            range.base_array_layer = 0;
+        }
+        if planted.calls.has(CallFault::LevelDropped) {
+            range.base_mip_level = 0;
+        }
+    }
+    before v10 create_graphics_pipelines(
+        device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::GraphicsPipelineCreateInfo<'_>,
+        allocator: *const vk::AllocationCallbacks<'_>, pipelines: *mut vk::Pipeline
+    ) -> vk::Result [infos; 1] |planted| {
+        // SAFETY: the caller's; the backend makes one pipeline at a time, with this state.
+        let mut rasterization = unsafe { *infos[0].p_rasterization_state };
+        if planted.calls.has(CallFault::StaticIgnored) {
+            rasterization.cull_mode = vk::CullModeFlags::NONE;
+        }
+        infos[0].p_rasterization_state = &rasterization;
+    }
+    before v12 create_render_pass2(
+        device: vk::Device, infos: *const vk::RenderPassCreateInfo2<'_>,
+        allocator: *const vk::AllocationCallbacks<'_>, pass: *mut vk::RenderPass
+    ) -> vk::Result [infos; 1] |planted| {
+        // SAFETY: the caller's: there are so many attachments.
+        let mut attachments = unsafe { values(infos[0].p_attachments, infos[0].attachment_count) };
+        for attachment in &mut attachments {
+            let color = attachment.final_layout == vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+            match planted.calls.fault {
+                Some(CallFault::LoadColorIgnored) if color => load(&mut attachment.load_op),
+                Some(CallFault::LoadDepthIgnored) if !color => load(&mut attachment.load_op),
+                Some(CallFault::LoadStencilIgnored) => load(&mut attachment.stencil_load_op),
+                _ => {}
+            }
+        }
+        infos[0].p_attachments = address(&attachments);
+    }
+    before v10 cmd_begin_render_pass(
+        commands: vk::CommandBuffer, infos: *const vk::RenderPassBeginInfo<'_>, contents: vk::SubpassContents
+    ) [infos; 1] |planted| {
+        planted.calls.begin_pass();
+        planted.calls.area = area(infos[0].render_area);
+        planted.in_render_pass = true;
+    }
+    before v10 cmd_blit_image(
+        commands: vk::CommandBuffer, source: vk::Image, source_layout: vk::ImageLayout, target: vk::Image,
+        target_layout: vk::ImageLayout, count: u32, regions: *const vk::ImageBlit, filter: vk::Filter
+    ) [regions; count] |planted| {
+        if planted.calls.has(CallFault::BlitColumn) {
+            for region in &mut regions {
+                region.src_offsets[1].x -= 1;
+                region.dst_offsets[1].x -= 1;
+            }
+        }
+    }
+}
+
+/// Returns the rectangle with this x, y, width and height.
+fn rectangle([x, y, width, height]: [i32; 4]) -> vk::Rect2D {
     vk::Rect2D {
-        offset: vk::Offset2D { x: left, y: top },
+        offset: vk::Offset2D { x, y },
         extent: vk::Extent2D {
-            width: (right - left).max(0).cast_unsigned(),
-            height: (bottom - top).max(0).cast_unsigned(),
+            width: width.cast_unsigned(),
+            height: height.cast_unsigned(),
         },
     }
 }
 
-fn intersection(a: vk::Rect2D, b: vk::Rect2D) -> vk::Rect2D {
-    let end = |r: vk::Rect2D| {
-        let far = |start: i32, length: u32| start.saturating_add_unsigned(length);
-        (
-            far(r.offset.x, r.extent.width),
-            far(r.offset.y, r.extent.height),
-        )
-    };
-    let (left, top) = (a.offset.x.max(b.offset.x), a.offset.y.max(b.offset.y));
-    let ((ax, ay), (bx, by)) = (end(a), end(b));
-    rect(left, top, ax.min(bx), ay.min(by))
+/// Returns the area of a pass, which starts at 0.
+fn area(rectangle: vk::Rect2D) -> [i32; 4] {
+    let vk::Extent2D { width, height } = rectangle.extent;
+    [0, 0, width.cast_signed(), height.cast_signed()]
+}
+
+/// Makes a load operation that clears one that loads.
+fn load(operation: &mut vk::AttachmentLoadOp) {
+    if *operation == vk::AttachmentLoadOp::CLEAR {
+        *operation = vk::AttachmentLoadOp::LOAD;
+    }
+}
+
+type Attachment<'a> = vk::RenderingAttachmentInfo<'a>;
+
+/// Makes a load operation clear to zeros.
+fn clear(attachment: &mut Attachment<'_>) {
+    attachment.load_op = vk::AttachmentLoadOp::CLEAR;
+    attachment.clear_value = vk::ClearValue::default();
+}
+
+/// Returns the address of values; null if there are none.
+fn address<T>(values: &[T]) -> *const T {
+    values.first().map_or(ptr::null(), ptr::from_ref)
 }
 
 impl Planted {
-    /// Returns the parts of the attachments that draws reach.
-    fn parts(&self) -> Vec<vk::Rect2D> {
-        let (w, h) = (
-            self.size.width.cast_signed(),
-            self.size.height.cast_signed(),
-        );
-        match self.fault {
-            CallFault::OnlyFirst64 => vec![rect(0, 0, 64, 64)],
-            CallFault::LastRow => vec![rect(0, 0, w, h - 1)],
-            CallFault::LastColumn => vec![rect(0, 0, w - 1, h)],
-            CallFault::SecondTile => {
-                vec![rect(0, 0, 32, 32), rect(64, 0, w, 32), rect(0, 32, w, h)]
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// Draws, in parts if the fault asks for it.
-    ///
-    /// # Safety
-    /// As of the command that `draw` records.
-    unsafe fn draw(&mut self, commands: vk::CommandBuffer, draw: impl Fn(&Self)) {
-        self.draws += 1;
-        let first = self.draws == 1;
-        if let Some(draws) = &mut self.secondary {
-            *draws += 1;
-        }
-        let lost = match self.fault {
-            CallFault::Draw256 => self.draws == 256,
-            CallFault::LaterPassDraw => first && self.passes > 1,
-            CallFault::StoreDropped => self.in_render_pass,
-            CallFault::SecondaryFirstDraw => self.secondary == Some(1),
-            CallFault::AfterReadOnly => first && self.after_read_only,
+    /// Draws with the numbers that the fault leaves, in parts if it asks for it.
+    fn draw(
+        &mut self,
+        commands: vk::CommandBuffer,
+        mut numbers: DrawNumbers,
+        draw: impl Fn(&Functions, &DrawNumbers),
+    ) {
+        let lost = match self.calls.fault {
+            Some(CallFault::StoreDropped) => self.in_render_pass,
+            Some(CallFault::SecondaryFirstDraw) => mem::take(&mut self.secondary),
+            Some(CallFault::AfterReadOnly) => mem::take(&mut self.after_read_only),
             _ => false,
         };
         if lost {
             return;
         }
-        let parts = self.parts();
-        if parts.is_empty() {
-            draw(self);
-            return;
-        }
-        for part in parts {
-            let scissor = intersection(self.scissor, part);
-            // SAFETY: the caller's; the scissor is dynamic in every pipeline.
-            unsafe { (self.v10.cmd_set_scissor)(commands, 0, 1, &scissor) };
-            draw(self);
-        }
+        let thin = [
+            vk::PrimitiveTopology::POINT_LIST,
+            vk::PrimitiveTopology::LINE_LIST,
+            vk::PrimitiveTopology::LINE_STRIP,
+        ];
+        numbers.thin = thin.contains(&self.topology);
+        let driver = &self.driver;
+        let set_scissor = |part| {
+            // SAFETY: the caller's commands are recorded; the scissor is dynamic in every pipeline.
+            unsafe { (driver.v10.cmd_set_scissor)(commands, 0, 1, &rectangle(part)) };
+        };
+        let draw = |numbers: &DrawNumbers| draw(driver, numbers);
+        self.calls.draw(numbers, set_scissor, draw);
     }
 
-    fn count(&self, count: u32, indexed: bool) -> u32 {
-        let line = matches!(
-            self.topology,
-            vk::PrimitiveTopology::POINT_LIST
-                | vk::PrimitiveTopology::LINE_LIST
-                | vk::PrimitiveTopology::LINE_STRIP
-        );
-        match self.fault {
-            CallFault::Indices65535 if indexed => count.min(65_535),
-            CallFault::Vertices4096 if !indexed => count.min(4_096),
-            CallFault::Lines500 if line => count.min(500),
-            _ => count,
-        }
-    }
-
-    fn instances(&self, instances: u32) -> u32 {
-        match self.fault {
-            CallFault::SecondInstance => instances.min(1),
-            _ => instances,
-        }
-    }
-
-    fn first_instance(&self, first: u32) -> u32 {
-        match self.fault {
-            CallFault::FirstInstance => 0,
-            _ => first,
-        }
-    }
-}
-
-// SAFETY: of each function below: it has the type of the driver's function of its name, whose arguments it
-// passes on as they are or made from valid ones, so the caller's promise holds for the driver's function.
-
-unsafe extern "system" fn begin_command_buffer(
-    commands: vk::CommandBuffer,
-    info: *const vk::CommandBufferBeginInfo<'_>,
-) -> vk::Result {
-    let call = |p: &mut Planted| {
-        // SAFETY: the caller's.
-        let flags = unsafe { (*info).flags };
-        let within = flags.contains(vk::CommandBufferUsageFlags::RENDER_PASS_CONTINUE);
-        p.secondary = within.then_some(0);
-        if !within {
-            (p.passes, p.draws, p.no_query) = (0, 0, true);
-            (p.after_read_only, p.read_only, p.in_render_pass) = (false, false, false);
-            p.kept = Kept::default();
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.begin_command_buffer)(commands, info) }
-    };
-    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
-}
-
-unsafe extern "system" fn cmd_draw(
-    commands: vk::CommandBuffer,
-    count: u32,
-    instances: u32,
-    first: u32,
-    first_instance: u32,
-) {
-    with(|p| {
-        let count = p.count(count, false);
-        let (instances, base) = (p.instances(instances), p.first_instance(first_instance));
-        // SAFETY: the caller's; no more is drawn than asked for.
-        unsafe {
-            p.draw(commands, |p| {
-                (p.v10.cmd_draw)(commands, count, instances, first, base);
-            });
-        }
-    });
-}
-
-unsafe extern "system" fn cmd_draw_indexed(
-    commands: vk::CommandBuffer,
-    count: u32,
-    instances: u32,
-    first: u32,
-    base_vertex: i32,
-    first_instance: u32,
-) {
-    with(|p| {
-        let mut count = p.count(count, true);
-        let (instances, base) = (p.instances(instances), p.first_instance(first_instance));
-        let base_vertex = match p.fault {
-            CallFault::BaseVertex => 0,
-            _ => base_vertex,
-        };
-        let mut first = match p.fault {
-            CallFault::IndexOffset => 0,
-            _ => first,
-        };
-        if p.fault == CallFault::FirstIndex && first > 0 && count > 0 {
-            (first, count) = (first + 1, count - 1);
-        }
-        // SAFETY: the caller's; no more is drawn than asked for.
-        unsafe {
-            p.draw(commands, |p| {
-                let draw = p.v10.cmd_draw_indexed;
-                draw(commands, count, instances, first, base_vertex, base);
-            });
-        }
-    });
-}
-
-unsafe extern "system" fn cmd_set_scissor(
-    commands: vk::CommandBuffer,
-    at: u32,
-    count: u32,
-    scissors: *const vk::Rect2D,
-) {
-    with(|p| {
-        if count > 1 {
-            // SAFETY: the caller's.
-            unsafe { (p.v10.cmd_set_scissor)(commands, at, count, scissors) };
-            return;
-        }
-        // SAFETY: the backend passes one rectangle at least.
-        let mut scissor = unsafe { *scissors };
-        if p.fault == CallFault::ScissorKept {
-            scissor = lag(&mut p.kept.scissor, scissor);
-        }
-        let right = scissor
-            .offset
-            .x
-            .saturating_add_unsigned(scissor.extent.width);
-        let inside = right < p.size.width.cast_signed();
-        if p.fault == CallFault::ScissorEdge && right % 16 == 0 && inside {
-            scissor.extent.width = scissor.extent.width.saturating_sub(1);
-        }
-        p.scissor = scissor;
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_set_scissor)(commands, at, count, &scissor) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_viewport(
-    commands: vk::CommandBuffer,
-    at: u32,
-    count: u32,
-    viewports: *const vk::Viewport,
-) {
-    with(|p| {
-        // SAFETY: the backend passes one viewport at least.
-        let mut viewport = unsafe { *viewports };
-        if count > 1 {
-            let first = [viewport; 2];
-            let both = match p.fault {
-                CallFault::ViewportFirst => first.as_ptr(),
-                _ => viewports,
-            };
-            // SAFETY: the caller's; the backend passes two.
-            unsafe { (p.v10.cmd_set_viewport)(commands, at, count, both) };
-            return;
-        }
-        if p.fault == CallFault::ViewportKept {
-            viewport = lag(&mut p.kept.viewport, viewport);
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_set_viewport)(commands, at, count, &viewport) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_stencil_reference(
-    commands: vk::CommandBuffer,
-    faces: vk::StencilFaceFlags,
-    reference: u32,
-) {
-    with(|p| {
-        let mut used = reference;
-        if p.fault == CallFault::StencilReferenceKept {
-            let before = p.kept.references.insert(faces.as_raw(), reference);
-            used = before.unwrap_or(reference);
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_set_stencil_reference)(commands, faces, used) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_blend_constants(
-    commands: vk::CommandBuffer,
-    constants: *const [f32; 4],
-) {
-    with(|p| {
-        // SAFETY: the caller's.
-        let mut used = unsafe { *constants };
-        if p.fault == CallFault::BlendConstantKept {
-            used = lag(&mut p.kept.constants, used);
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_set_blend_constants)(commands, &used) };
-    });
-}
-
-unsafe extern "system" fn cmd_clear_color_image(
-    commands: vk::CommandBuffer,
-    image: vk::Image,
-    layout: vk::ImageLayout,
-    color: *const vk::ClearColorValue,
-    count: u32,
-    ranges: *const vk::ImageSubresourceRange,
-) {
-    with(|p| {
-        // SAFETY: the caller's; every bit pattern is one of integers.
-        let bits = unsafe { (*color).uint32 };
-        let before = p.cleared.insert(image, bits);
-        if p.fault == CallFault::EqualClearSkipped && before == Some(bits) {
-            return;
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_clear_color_image)(commands, image, layout, color, count, ranges) };
-    });
-}
-
-unsafe extern "system" fn cmd_clear_attachments(
-    commands: vk::CommandBuffer,
-    count: u32,
-    attachments: *const vk::ClearAttachment,
-    rects: u32,
-    areas: *const vk::ClearRect,
-) {
-    with(|p| {
-        // SAFETY: the backend passes one attachment and one rectangle.
-        let (mut attachment, mut area) = unsafe { (*attachments, *areas) };
-        let depth = attachment.aspect_mask.contains(vk::ImageAspectFlags::DEPTH);
-        match p.fault {
-            CallFault::ClearSkipped if p.passes > 1 || p.draws > 0 => return,
-            CallFault::ClearRect => area.rect = rect(0, 0, 0, 0),
-            CallFault::StencilWithDepth if depth && p.stencil => {
-                attachment.aspect_mask |= vk::ImageAspectFlags::STENCIL;
+    /// Changes the attachments of a pass.
+    fn change_attachments<'a>(
+        &self,
+        colors: &mut [Attachment<'a>],
+        depth: &mut [Attachment<'a>],
+        stencil: &mut [Attachment<'a>],
+    ) {
+        let is_later = self.calls.passes > 1;
+        let load = |attachment: &mut Attachment<'_>| load(&mut attachment.load_op);
+        let drop_resolve =
+            |color: &mut Attachment<'_>| color.resolve_mode = vk::ResolveModeFlags::NONE;
+        match self.calls.fault {
+            Some(CallFault::LoadClears) if is_later => {
+                let loaded =
+                    |color: &&mut Attachment<'_>| color.load_op == vk::AttachmentLoadOp::LOAD;
+                colors.iter_mut().filter(loaded).for_each(clear);
             }
-            _ => {}
-        }
-        if p.fault == CallFault::ClearRect {
-            area.rect.extent = p.size;
-        }
-        // SAFETY: the caller's; the rectangle is the render area, and the pass has stencil.
-        unsafe { (p.v10.cmd_clear_attachments)(commands, count, &attachment, rects, &area) };
-    });
-}
-
-unsafe extern "system" fn cmd_begin_query(
-    commands: vk::CommandBuffer,
-    pool: vk::QueryPool,
-    query: u32,
-    flags: vk::QueryControlFlags,
-) {
-    with(|p| {
-        p.queries = if p.no_query { 1 } else { p.queries + 1 };
-        p.no_query = false;
-        // SAFETY: the caller's; a query that ends here is not ended again.
-        unsafe {
-            (p.v10.cmd_begin_query)(commands, pool, query, flags);
-            if p.fault == CallFault::QueryEarly && p.queries > 1 {
-                (p.v10.cmd_end_query)(commands, pool, query);
+            Some(CallFault::ClearSkipped) if is_later => {
+                colors.iter_mut().chain(depth).chain(stencil).for_each(load);
             }
-        }
-    });
-}
-
-unsafe extern "system" fn cmd_end_query(
-    commands: vk::CommandBuffer,
-    pool: vk::QueryPool,
-    query: u32,
-) {
-    with(|p| {
-        if p.fault == CallFault::QueryEarly && p.queries > 1 {
-            return;
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v10.cmd_end_query)(commands, pool, query) };
-    });
-}
-
-unsafe extern "system" fn get_query_pool_results(
-    device: vk::Device,
-    pool: vk::QueryPool,
-    first: u32,
-    count: u32,
-    size: usize,
-    data: *mut c_void,
-    stride: vk::DeviceSize,
-    flags: vk::QueryResultFlags,
-) -> vk::Result {
-    let call = |p: &mut Planted| {
-        let get = p.v10.get_query_pool_results;
-        // SAFETY: the caller's.
-        let result = unsafe { get(device, pool, first, count, size, data, stride, flags) };
-        // Timestamps come in a pool of two and increase, so they are left alone.
-        if p.fault == CallFault::QueryFirst && p.queries > 1 && result == vk::Result::SUCCESS {
-            let results = data.cast::<u64>();
-            for at in 1..p.queries.min(count) as usize {
-                // SAFETY: the backend reads results of 64 bits side by side.
-                unsafe { *results.add(at) = *results };
-            }
-        }
-        result
-    };
-    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
-}
-
-unsafe extern "system" fn cmd_begin_rendering(
-    commands: vk::CommandBuffer,
-    info: *const vk::RenderingInfo<'_>,
-) {
-    with(|p| {
-        // SAFETY: the caller's.
-        let mut info = unsafe { *info };
-        p.passes += 1;
-        p.draws = 0;
-        p.size = info.render_area.extent;
-        p.after_read_only = p.read_only;
-        // SAFETY: the caller's: the pointers are null or valid, and there are so many colours.
-        let (mut depth, mut stencil, mut colors) = unsafe {
-            let colors = info.p_color_attachments;
-            let colors = (0..info.color_attachment_count as usize).map(|i| *colors.add(i));
-            (
-                info.p_depth_attachment.as_ref().copied(),
-                info.p_stencil_attachment.as_ref().copied(),
-                colors.collect::<Vec<_>>(),
-            )
-        };
-        p.stencil = stencil.is_some();
-        let read_only = vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-        let tested = depth.or(stencil);
-        p.read_only = tested.is_some_and(|a| a.image_layout == read_only);
-        p.in_render_pass = false;
-        let clears = |a: &vk::RenderingAttachmentInfo<'_>| a.load_op == vk::AttachmentLoadOp::CLEAR;
-        let load = |a: &mut vk::RenderingAttachmentInfo<'_>| {
-            if clears(a) {
-                a.load_op = vk::AttachmentLoadOp::LOAD;
-            }
-        };
-        match p.fault {
-            CallFault::LoadClears if p.passes > 1 => {
-                for color in &mut colors {
-                    if color.load_op == vk::AttachmentLoadOp::LOAD {
-                        color.load_op = vk::AttachmentLoadOp::CLEAR;
-                        color.clear_value = vk::ClearValue::default();
-                    }
-                }
-            }
-            CallFault::ClearSkipped if p.passes > 1 => {
-                for a in colors.iter_mut().chain(&mut depth).chain(&mut stencil) {
-                    if clears(a) {
-                        a.load_op = vk::AttachmentLoadOp::LOAD;
-                    }
-                }
-            }
-            CallFault::StencilWithDepth => {
-                if let (Some(depth), Some(stencil)) = (&depth, &mut stencil)
-                    && clears(depth)
-                    && !clears(stencil)
+            Some(CallFault::LoadColorIgnored) => colors.iter_mut().for_each(load),
+            Some(CallFault::LoadDepthIgnored) => depth.iter_mut().for_each(load),
+            Some(CallFault::LoadStencilIgnored) => stencil.iter_mut().for_each(load),
+            Some(CallFault::StencilWithDepth) => {
+                if depth
+                    .iter()
+                    .any(|depth| depth.load_op == vk::AttachmentLoadOp::CLEAR)
                 {
-                    stencil.load_op = vk::AttachmentLoadOp::CLEAR;
-                    stencil.clear_value = vk::ClearValue::default();
+                    let kept = |stencil: &&mut Attachment<'_>| {
+                        stencil.load_op != vk::AttachmentLoadOp::CLEAR
+                    };
+                    stencil.iter_mut().filter(kept).for_each(clear);
                 }
             }
-            CallFault::ResolveFirst => {
-                for color in colors.iter_mut().skip(1) {
-                    color.resolve_mode = vk::ResolveModeFlags::NONE;
-                }
+            Some(CallFault::ResolveFirst) => colors.iter_mut().skip(1).for_each(drop_resolve),
+            Some(CallFault::ResolveSecondDropped) => {
+                colors.iter_mut().skip(1).take(1).for_each(drop_resolve);
             }
-            CallFault::LoadColorIgnored => colors.iter_mut().for_each(load),
-            CallFault::LoadDepthIgnored => depth.iter_mut().for_each(load),
-            CallFault::LoadStencilIgnored => stencil.iter_mut().for_each(load),
-            CallFault::ResolveSecondDropped => {
-                for color in colors.iter_mut().skip(1).take(1) {
-                    color.resolve_mode = vk::ResolveModeFlags::NONE;
-                }
-            }
-            CallFault::ResolveSecondFromFirst => {
-                if let [first, second, ..] = &mut colors[..]
+            Some(CallFault::ResolveSecondFromFirst) => {
+                if let [first, second, ..] = colors
                     && second.resolve_mode != vk::ResolveModeFlags::NONE
                 {
                     first.resolve_image_view = second.resolve_image_view;
-                    second.resolve_mode = vk::ResolveModeFlags::NONE;
+                    drop_resolve(second);
                 }
             }
             _ => {}
         }
-        info.p_color_attachments = colors.as_ptr();
-        if let Some(depth) = &depth {
-            info.p_depth_attachment = depth;
-        }
-        if let Some(stencil) = &stencil {
-            info.p_stencil_attachment = stencil;
-        }
-        // SAFETY: the caller's; the copies live until the call returns.
-        unsafe { (p.v13.cmd_begin_rendering)(commands, &info) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_depth_compare_op(
-    commands: vk::CommandBuffer,
-    compare: vk::CompareOp,
-) {
-    with(|p| {
-        let mut used = compare;
-        if p.fault == CallFault::CompareKept {
-            used = lag(&mut p.kept.compare, compare);
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v13.cmd_set_depth_compare_op)(commands, used) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_depth_write_enable(
-    commands: vk::CommandBuffer,
-    write: vk::Bool32,
-) {
-    with(|p| {
-        let mut used = write;
-        if p.fault == CallFault::DepthWriteKept && !p.read_only {
-            used = lag(&mut p.kept.write, write);
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v13.cmd_set_depth_write_enable)(commands, used) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_cull_mode(commands: vk::CommandBuffer, mode: vk::CullModeFlags) {
-    with(|p| {
-        let mut used = mode;
-        match p.fault {
-            CallFault::CullKept => used = lag(&mut p.kept.cull, mode),
-            // What the backend leaves in a pipeline whose culling is dynamic.
-            CallFault::StaticForDynamic => used = vk::CullModeFlags::NONE,
-            _ => {}
-        }
-        // SAFETY: the caller's.
-        unsafe { (p.v13.cmd_set_cull_mode)(commands, used) };
-    });
-}
-
-unsafe extern "system" fn cmd_set_primitive_topology(
-    commands: vk::CommandBuffer,
-    topology: vk::PrimitiveTopology,
-) {
-    with(|p| {
-        p.topology = topology;
-        // SAFETY: the caller's.
-        unsafe { (p.v13.cmd_set_primitive_topology)(commands, topology) };
-    });
-}
-
-unsafe extern "system" fn create_image_view(
-    device: vk::Device,
-    info: *const vk::ImageViewCreateInfo<'_>,
-    allocator: *const vk::AllocationCallbacks<'_>,
-    view: *mut vk::ImageView,
-) -> vk::Result {
-    let call = |p: &mut Planted| {
-        // SAFETY: the caller's.
-        let mut info = unsafe { *info };
-        match p.fault {
-            CallFault::LayerDropped => info.subresource_range.base_array_layer = 0,
-            CallFault::LevelDropped => info.subresource_range.base_mip_level = 0,
-            _ => {}
-        }
-        // SAFETY: the caller's; every image has a first level and layer.
-        unsafe { (p.v10.create_image_view)(device, &info, allocator, view) }
-    };
-    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
-}
-
-unsafe extern "system" fn create_graphics_pipelines(
-    device: vk::Device,
-    cache: vk::PipelineCache,
-    count: u32,
-    infos: *const vk::GraphicsPipelineCreateInfo<'_>,
-    allocator: *const vk::AllocationCallbacks<'_>,
-    pipelines: *mut vk::Pipeline,
-) -> vk::Result {
-    let call = |p: &mut Planted| {
-        // SAFETY: the caller's; the backend makes one pipeline at a time, with this state.
-        let (mut info, mut raster) = unsafe { (*infos, *(*infos).p_rasterization_state) };
-        if p.fault == CallFault::StaticIgnored {
-            raster.cull_mode = vk::CullModeFlags::NONE;
-        }
-        info.p_rasterization_state = &raster;
-        // SAFETY: the caller's; the copies live until the call returns.
-        unsafe {
-            let create = p.v10.create_graphics_pipelines;
-            create(device, cache, count.min(1), &info, allocator, pipelines)
-        }
-    };
-    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
-}
-
-unsafe extern "system" fn create_render_pass2(
-    device: vk::Device,
-    info: *const vk::RenderPassCreateInfo2<'_>,
-    allocator: *const vk::AllocationCallbacks<'_>,
-    pass: *mut vk::RenderPass,
-) -> vk::Result {
-    let call = |p: &mut Planted| {
-        // SAFETY: the caller's: there are so many attachments.
-        let (mut info, mut attachments) = unsafe {
-            let all = (*info).p_attachments;
-            let count = (*info).attachment_count as usize;
-            (*info, (0..count).map(|i| *all.add(i)).collect::<Vec<_>>())
-        };
-        let load = |operation: &mut vk::AttachmentLoadOp| {
-            if *operation == vk::AttachmentLoadOp::CLEAR {
-                *operation = vk::AttachmentLoadOp::LOAD;
-            }
-        };
-        for attachment in &mut attachments {
-            let tested = attachment.final_layout != vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-            match p.fault {
-                CallFault::LoadColorIgnored if !tested => load(&mut attachment.load_op),
-                CallFault::LoadDepthIgnored if tested => load(&mut attachment.load_op),
-                CallFault::LoadStencilIgnored => load(&mut attachment.stencil_load_op),
-                _ => {}
-            }
-        }
-        info.p_attachments = attachments.as_ptr();
-        // SAFETY: the caller's; the copies live until the call returns.
-        unsafe { (p.v12.create_render_pass2)(device, &info, allocator, pass) }
-    };
-    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
-}
-
-unsafe extern "system" fn cmd_begin_render_pass(
-    commands: vk::CommandBuffer,
-    info: *const vk::RenderPassBeginInfo<'_>,
-    contents: vk::SubpassContents,
-) {
-    with(|p| {
-        p.passes += 1;
-        p.draws = 0;
-        p.in_render_pass = true;
-        // SAFETY: the caller's.
-        unsafe {
-            p.size = (*info).render_area.extent;
-            (p.v10.cmd_begin_render_pass)(commands, info, contents);
-        }
-    });
-}
-
-unsafe extern "system" fn cmd_blit_image(
-    commands: vk::CommandBuffer,
-    source: vk::Image,
-    source_layout: vk::ImageLayout,
-    target: vk::Image,
-    target_layout: vk::ImageLayout,
-    count: u32,
-    regions: *const vk::ImageBlit,
-    filter: vk::Filter,
-) {
-    with(|p| {
-        // SAFETY: the caller's; the backend passes one region.
-        let mut region = unsafe { *regions };
-        if p.fault == CallFault::BlitColumn {
-            region.src_offsets[1].x -= 1;
-            region.dst_offsets[1].x -= 1;
-        }
-        // SAFETY: the caller's; the region is no larger.
-        unsafe {
-            let blit = p.v10.cmd_blit_image;
-            let (from, to) = (source_layout, target_layout);
-            blit(commands, source, from, target, to, count, &region, filter);
-        }
-    });
+    }
 }

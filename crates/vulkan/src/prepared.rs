@@ -328,7 +328,7 @@ impl Prepared for PreparedScene<'_> {
                 .read(device, slot, self.counts.as_ref())?,
         };
         for read in &self.plan.reads {
-            frame.images.push(read.image(output, self.gpu.read_fault)?);
+            frame.images.push(read.image(output, self.gpu.fault)?);
         }
         Ok(frame)
     }

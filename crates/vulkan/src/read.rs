@@ -13,7 +13,7 @@ use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, Form, Plane, ReadFault};
+use etalon_backend::{BackendError, Fault, Form, Plane};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
@@ -136,7 +136,7 @@ impl ReadPlan {
     pub(crate) fn image(
         &self,
         output: &Buffer,
-        fault: Option<ReadFault>,
+        fault: Option<Fault>,
     ) -> Result<etalon_frame::Image, BackendError> {
         let length =
             usize::try_from(self.bytes).map_err(|_| internal("an image too large to read"))?;
@@ -146,7 +146,7 @@ impl ReadPlan {
         } else {
             format::decode(&bytes, self.raw, self.aspect)
         };
-        if let Some(fault) = fault {
+        if let Some(Fault::Read(fault)) = fault {
             fault.apply(&mut codes, self.size, self.samples, &self.channels);
         }
         let image = etalon_frame::Image {

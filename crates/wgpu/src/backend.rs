@@ -5,9 +5,7 @@ use crate::limits::{Abilities, limits, used_features};
 use crate::messages;
 use crate::prepared::PreparedScene;
 use crate::recording::Recorder;
-use etalon_backend::{
-    AdapterInfo, Backend, BackendError, Prepared, ReadFault, Recording, Unavailable,
-};
+use etalon_backend::{AdapterInfo, Backend, BackendError, Fault, Prepared, Recording, Unavailable};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +21,7 @@ pub enum Via {
 }
 
 /// Options for [`open`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The API under wgpu.
     pub via: Via,
@@ -32,8 +30,8 @@ pub struct Options {
     /// Enables the Vulkan validation layer or OpenGL's debug output. Their messages are returned by
     /// [`Backend::messages`], unless the program has set its own logger, which receives them.
     pub validate: bool,
-    /// A fault that a test of the suite plants in the read path.
-    pub read_fault: Option<ReadFault>,
+    /// A fault that a test of the suite plants in what is read back.
+    pub fault: Option<Fault>,
     /// Records the calls, for [`Backend::recording`]. The times of the device are not taken then.
     pub record: bool,
 }
@@ -190,7 +188,7 @@ fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
         .map_err(|error| error.to_string())?;
     let abilities = Abilities::of(adapter);
     let limits = limits(adapter, features, abilities);
-    let opened = Gpu::new(device, queue, limits, abilities, options.read_fault);
+    let opened = Gpu::new(device, queue, limits, abilities, options.fault);
     let mut gpu = opened.map_err(|error| error.to_string())?;
     gpu.recorder = recorder;
     Ok(gpu)
@@ -290,7 +288,7 @@ mod tests {
             via,
             device: 0,
             validate: true,
-            read_fault: None,
+            fault: None,
             record: false,
         };
         let backend = open("wgpu", &options).expect("this test needs a driver and its validation");

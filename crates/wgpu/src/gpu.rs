@@ -10,7 +10,7 @@ use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
 use crate::recording::Recorder;
 use crate::target::Target;
-use etalon_backend::{BackendError, ReadFault};
+use etalon_backend::{BackendError, Fault};
 use etalon_frame::{Limits, PathTarget, PathValue, Requirement, TextureFormat};
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
@@ -28,8 +28,8 @@ pub(crate) struct Gpu {
     pub(crate) limits: Limits,
     pub(crate) abilities: Abilities,
     pub(crate) clock: Option<Clock>,
-    /// The fault that a test plants in everything that is read back.
-    pub(crate) read_fault: Option<ReadFault>,
+    /// The fault that a test plants.
+    pub(crate) fault: Option<Fault>,
     pub(crate) pipelines: Pipelines,
     /// Keeps the calls, if they are recorded.
     pub(crate) recorder: Option<Recorder>,
@@ -59,7 +59,7 @@ impl Gpu {
         queue: wgpu::Queue,
         limits: Limits,
         abilities: Abilities,
-        read_fault: Option<ReadFault>,
+        fault: Option<Fault>,
     ) -> Result<Self, BackendError> {
         let errors = Errors::of(&device);
         let (clock, pipelines) = errors.guard("opening the device", || {
@@ -74,7 +74,7 @@ impl Gpu {
             limits,
             abilities,
             clock,
-            read_fault,
+            fault,
             pipelines,
             recorder: None,
             textures: Pool::new(IDLE_BYTES),

@@ -9,7 +9,7 @@ use crate::state;
 use crate::target::Target;
 use crate::texel;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, Form, Plane, ReadFault, halves};
+use etalon_backend::{BackendError, Fault, Form, Plane, halves};
 use etalon_frame::{
     Aspect, ChannelEncoding, Frame, Image, PathEnd, PathTarget, ReadPath, TextureFormat,
 };
@@ -107,7 +107,7 @@ pub(crate) fn frame(
         Frame {
             images: plans
                 .iter()
-                .map(|plan| plan.image(&bytes, gpu.read_fault))
+                .map(|plan| plan.image(&bytes, gpu.fault))
                 .collect(),
             counters: counting.counts(&bytes[size as usize..]),
         }
@@ -392,7 +392,7 @@ impl<'a> ReadPlan<'a> {
     }
 
     /// Returns the image from the mapped buffer.
-    fn image(&self, bytes: &[u8], fault: Option<ReadFault>) -> Image {
+    fn image(&self, bytes: &[u8], fault: Option<Fault>) -> Image {
         let mut codes = match self.method {
             ReadMethod::Copy | ReadMethod::FetchDepth => self.copied(bytes),
             ReadMethod::FetchSamples | ReadMethod::FetchTexel => self.samples(bytes),
@@ -406,7 +406,7 @@ impl<'a> ReadPlan<'a> {
                     .collect()
             }
         };
-        if let Some(fault) = fault {
+        if let Some(Fault::Read(fault)) = fault {
             let (size, samples) = (self.source.size, self.source.samples);
             fault.apply(&mut codes, size, samples, &self.channels);
         }

@@ -4,13 +4,12 @@ use super::backend_name::BackendName;
 use super::cache;
 use super::description::{Description, Resolved, Unresolved};
 use super::devices::HardwareDevice;
-use super::hidden::Hidden;
 use super::open::{FROM_INPUT, Open};
 use super::origin::Origin;
-use super::planted_fault::PlantedFault;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
-use etalon_backend::AdapterInfo;
+use etalon_backend::{AdapterInfo, Fault};
+use etalon_frame::Api;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Launcher, StartError, Worker};
 use std::path::{Path, PathBuf};
@@ -20,6 +19,8 @@ use std::time::{Duration, Instant};
 const RETRY_LIMIT: Duration = Duration::from_secs(10);
 /// The folders that the system's loader searches first.
 const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
+/// The remedy if nobody knows another.
+const SEE_LOG: &str = "see the driver's own log";
 
 /// An adapter that may be usable.
 pub(super) enum Candidate {
@@ -27,8 +28,6 @@ pub(super) enum Candidate {
     Described(Box<Description>, Option<PathBuf>),
     /// A device that a backend enumerated.
     Enumerated(Open),
-    /// An adapter that is not listed.
-    Hidden(Open),
 }
 
 /// A usable adapter.
@@ -58,9 +57,7 @@ fn open(name: &str, backend: BackendName) -> Open {
         egl: None,
         validate: false,
         record: false,
-        hidden: None,
-        read_fault: None,
-        call_fault: None,
+        fault: None,
     }
 }
 
@@ -76,28 +73,21 @@ impl Candidate {
         })
     }
 
-    pub(super) fn hidden(name: &str, hidden: Hidden) -> Self {
-        Self::Hidden(Open {
-            hidden: Some(hidden),
-            ..open(name, BackendName::Cpu)
-        })
-    }
-
-    /// Returns the adapter with a planted fault, under another name; `None` if its backend has no place for it, as the
-    /// rasterizer has none for any.
-    pub(super) fn with_fault(&self, name: &str, fault: PlantedFault) -> Option<Self> {
+    /// Returns the adapter with a planted fault, under another name; `None` if its backend has no place for the fault.
+    pub(super) fn with_fault(&self, name: &str, fault: Fault) -> Option<Self> {
         match self {
-            Self::Described(description, file) if fault.fits(description.backend) => {
+            Self::Described(description, file) if fits(fault, description.backend) => {
                 let mut description = description.clone();
                 name.clone_into(&mut description.name);
-                description.read_fault = fault.read();
-                description.call_fault = fault.call();
+                description.fault = Some(fault);
+                if description.remedy.is_empty() {
+                    SEE_LOG.clone_into(&mut description.remedy);
+                }
                 Some(Self::Described(description, file.clone()))
             }
-            Self::Enumerated(open) if fault.fits(open.backend) => Some(Self::Enumerated(Open {
+            Self::Enumerated(open) if fits(fault, open.backend) => Some(Self::Enumerated(Open {
                 name: name.to_owned(),
-                read_fault: fault.read(),
-                call_fault: fault.call(),
+                fault: Some(fault),
                 ..open.clone()
             })),
             _ => None,
@@ -107,14 +97,14 @@ impl Candidate {
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.name,
-            Self::Enumerated(open) | Self::Hidden(open) => &open.name,
+            Self::Enumerated(open) => &open.name,
         }
     }
 
     fn remedy(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.remedy,
-            Self::Enumerated(_) | Self::Hidden(_) => "see the driver's own log",
+            Self::Enumerated(_) => SEE_LOG,
         }
     }
 
@@ -212,11 +202,10 @@ impl Candidate {
             Self::Described(description, _) => Open {
                 device: description.device,
                 egl: resolved.egl.clone(),
-                read_fault: description.read_fault,
-                call_fault: description.call_fault,
+                fault: description.fault,
                 ..open(&description.name, description.backend)
             },
-            Self::Enumerated(open) | Self::Hidden(open) => open.clone(),
+            Self::Enumerated(open) => open.clone(),
         };
         open.validate = query.validate;
         open.record = query.record;
@@ -270,7 +259,7 @@ impl Candidate {
             launcher,
             release: match self {
                 Self::Described(description, _) => description.release(),
-                Self::Enumerated(_) | Self::Hidden(_) => None,
+                Self::Enumerated(_) => None,
             },
         })
     }
@@ -282,7 +271,6 @@ impl Candidate {
                 (file.display().to_string(), description.device)
             }
             Self::Enumerated(open) => ("found".to_owned(), open.device),
-            Self::Hidden(_) => ("hidden".to_owned(), None),
         };
         Origin {
             described_in,
@@ -293,6 +281,17 @@ impl Candidate {
             library_path: resolved.library_path,
             device_index,
         }
+    }
+}
+
+/// True if a backend has a place for a fault.
+fn fits(fault: Fault, backend: BackendName) -> bool {
+    match (fault, backend) {
+        (Fault::Call(fault), BackendName::Vulkan) => fault.is_in(Api::Vulkan),
+        (Fault::Call(fault), BackendName::Gl | BackendName::GlEs) => fault.is_in(Api::OpenGl),
+        (Fault::Call(_), _) => false,
+        (Fault::Read(_), backend) => backend != BackendName::Cpu,
+        (Fault::Process(..) | Fault::Slower(_), backend) => backend == BackendName::Cpu,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
-use etalon_backend::{CallFault, ReadFault};
+use etalon_backend::Fault;
 use etalon_record::Release;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,12 +53,9 @@ pub(super) struct Description {
     /// A word that the name of the device or driver must contain: if the driver that the environment selects is
     /// missing, another one answers.
     pub(super) answers: Option<String>,
-    /// A planted fault of reading back; no file can name one.
+    /// A planted fault; no file can name one.
     #[serde(skip)]
-    pub(super) read_fault: Option<ReadFault>,
-    /// A planted fault of the driver's calls; no file can name one.
-    #[serde(skip)]
-    pub(super) call_fault: Option<CallFault>,
+    pub(super) fault: Option<Fault>,
     /// The words of a command behind which the worker runs elsewhere: another userland, a container, another
     /// machine. Paths are then those of that place and not checked.
     #[serde(default)]

@@ -5,13 +5,12 @@ use super::backend_name::BackendName;
 use super::candidate::{Candidate, NoStart, Started};
 use super::description;
 use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
-use super::hidden::Hidden;
 use super::origin::Origin;
-use super::planted_fault::PlantedFault;
 use super::query::Query;
 use crate::failure::Failure;
 use crate::near::did_you_mean;
 use crate::output::say;
+use etalon_backend::Fault;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};
@@ -82,17 +81,12 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
 /// Returns the adapters to start. Devices are enumerated only if no name is given or one is not described.
 fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
     let mut candidates = described(query.file)?;
-    for name in query.names {
-        if let Some(hidden) = Hidden::named(name) {
-            candidates.push(Candidate::hidden(name, hidden));
-        }
-    }
     let is_known =
         |candidates: &[Candidate], name: &str| candidates.iter().any(|c| c.name() == name);
     let all_known = query.names.iter().all(|name| {
         is_known(
             &candidates,
-            PlantedFault::in_name(name).map_or(name.as_str(), |(driver, _)| driver),
+            Fault::in_name(name).map_or(name.as_str(), |(driver, _)| driver),
         )
     });
     if query.names.is_empty() || !all_known {
@@ -100,7 +94,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         candidates.extend(hardware(&taken, absent));
     }
     for name in query.names {
-        if let Some((driver, fault)) = PlantedFault::in_name(name)
+        if let Some((driver, fault)) = Fault::in_name(name)
             && let Some(candidate) = candidates.iter().find(|c| c.name() == driver)
             && let Some(faulty) = candidate.with_fault(name, fault)
         {

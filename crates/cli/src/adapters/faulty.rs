@@ -1,125 +1,33 @@
-//! The rasterizer in a process that fails, such as `cpu:fault=abort`: to show that a run survives everything that
-//! drivers do to their processes.
+//! The rasterizer with a planted fault: `cpu:fault=abort` shows that a run survives everything that drivers do to their
+//! processes, `cpu:slower=5%` that `etalon diff` finds a slow-down.
 
 use crate::output::say;
-use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{
+    AdapterInfo, Backend, BackendError, Fault, FaultyScenes, FrameTime, Prepared, ProcessFault,
+};
+use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits, TextureFormat};
 use etalon_scene::Scene;
 use rustix::process::{Signal, getpid, kill_process};
-use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
-use std::hint::black_box;
+use std::hint::{black_box, spin_loop};
 use std::io::Write;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// The start of the name, before the fault.
-const PREFIX: &str = "cpu:fault=";
-/// One scene out of this many fails, chosen by a hash of the scene; one without passes, a round trip, never does.
+/// One scene out of this many fails, if a hash chooses.
 const ONE_OF: u64 = 8;
 /// The format that a fault reads back wrong.
 const MISREAD: TextureFormat = TextureFormat::Rgb10a2Unorm;
 
-/// A fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Fault {
-    /// The process aborts.
-    Abort,
-    /// It reads where there is no memory.
-    Segv,
-    /// It ends with status 7.
-    Exit,
-    /// The code of the suite panics.
-    Panic,
-    /// It sleeps endlessly.
-    Hang,
-    /// It loops endlessly.
-    Spin,
-    /// It allocates memory endlessly.
-    Memory,
-    /// It writes bytes that are not a message.
-    Garbage,
-    /// It ends in the middle of a message.
-    Half,
-    /// The device is lost.
-    Lost,
-    /// An allocation is refused.
-    Refused,
-    /// It writes 100,000 lines to standard error, then aborts.
-    Chatter,
-    /// It reports a validation message.
-    Validation,
-    /// Pictures are wrong in about half of all processes.
-    Flaky,
-    /// Every code of [`MISREAD`] is read back one too high, round trips included.
-    Misread,
-    /// Pictures of some scenes are wrong after certain others were drawn in the same process.
-    After,
-    /// The driver ends the process while it opens.
-    Start,
-    /// The driver never opens.
-    Mute,
-}
-
-/// The scenes that fail.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Marked {
-    /// One out of [`ONE_OF`], chosen by a hash.
-    #[default]
-    ByHash,
-    /// Those of which a draw has a scissor rectangle: `cpu:fault=abort@scissor`.
-    Scissor,
-}
-
-impl Fault {
-    const ALL: [Self; 18] = [
-        Self::Abort,
-        Self::Segv,
-        Self::Exit,
-        Self::Panic,
-        Self::Hang,
-        Self::Spin,
-        Self::Memory,
-        Self::Garbage,
-        Self::Half,
-        Self::Lost,
-        Self::Refused,
-        Self::Chatter,
-        Self::Validation,
-        Self::Flaky,
-        Self::Misread,
-        Self::After,
-        Self::Start,
-        Self::Mute,
-    ];
-
-    /// Returns the fault of the adapter of this name, and the scenes that it marks.
-    pub(crate) fn named(name: &str) -> Option<(Self, Marked)> {
-        let word = name.strip_prefix(PREFIX)?;
-        let (word, marked) = match word.strip_suffix("@scissor") {
-            Some(word) => (word, Marked::Scissor),
-            None => (word, Marked::ByHash),
-        };
-        let mut all = Self::ALL.into_iter();
-        let fault = all.find(|fault| fault.named_word() == word)?;
-        Some((fault, marked))
-    }
-
-    fn named_word(self) -> String {
-        format!("{self:?}").to_lowercase()
-    }
-}
-
-/// The rasterizer with a fault. `pipe` leads to the parent.
-pub(crate) struct Faulty<B> {
-    inner: B,
+/// The rasterizer's span code with a fault, in frames or in its process.
+pub(crate) struct Faulty {
+    inner: CpuBackend,
     info: AdapterInfo,
     fault: Fault,
-    marked: Marked,
+    /// The pipe to the parent.
     pipe: RefCell<File>,
     messages: RefCell<Vec<String>>,
     /// True if flaky pictures are wrong in this process.
@@ -128,28 +36,31 @@ pub(crate) struct Faulty<B> {
     spoilt: Cell<bool>,
 }
 
-impl<B: Backend> Faulty<B> {
-    pub(crate) fn new(inner: B, name: &str, (fault, marked): (Fault, Marked), pipe: File) -> Self {
+impl Faulty {
+    pub(crate) fn new(name: &str, fault: Fault, pipe: File) -> Self {
+        let inner = CpuBackend::spans(name);
+        let mut info = inner.adapter().clone();
         match fault {
-            Fault::Start => {
+            Fault::Process(ProcessFault::Start, _) => {
                 say!("the planted driver does not start");
                 std::process::exit(9);
             }
-            Fault::Mute => sleep_endlessly(),
+            Fault::Process(ProcessFault::Mute, _) => sleep_endlessly(),
+            // The name is that of the rasterizer, so that `etalon diff` compares the two.
+            Fault::Slower(percent) => {
+                "cpu".clone_into(&mut info.name);
+                info.driver_version = format!("{}, slower by {percent} %", info.driver_version);
+            }
             _ => {}
         }
-        let mut info = inner.adapter().clone();
-        name.clone_into(&mut info.name);
-        // The standard library seeds its hashers at random.
-        let chance = RandomState::new().hash_one(fault.named_word());
         Self {
             inner,
             info,
             fault,
-            marked,
             pipe: RefCell::new(pipe),
             messages: RefCell::default(),
-            unlucky: chance.is_multiple_of(2),
+            // The standard library seeds its hashers at random.
+            unlucky: RandomState::new().hash_one(name).is_multiple_of(2),
             spoilt: Cell::new(false),
         }
     }
@@ -159,15 +70,15 @@ impl<B: Backend> Faulty<B> {
         let _ = self.pipe.borrow_mut().write_all(bytes);
     }
 
-    /// Fails, when a marked scene is drawn.
-    fn fail(&self) -> Result<(), BackendError> {
+    /// Fails, when a faulty scene is drawn.
+    fn fail(&self, fault: ProcessFault) -> Result<(), BackendError> {
         let planted = || "planted".to_owned();
-        match self.fault {
-            Fault::Abort => {
+        match fault {
+            ProcessFault::Abort => {
                 say!("about to abort, as planted");
                 std::process::abort()
             }
-            Fault::Segv => {
+            ProcessFault::Segv => {
                 // The signal itself, since safe code cannot read invalid memory; twice, since the first one
                 // only removes the standard library's handler.
                 for _ in 0..2 {
@@ -175,49 +86,52 @@ impl<B: Backend> Faulty<B> {
                 }
                 sleep_endlessly()
             }
-            Fault::Exit => std::process::exit(7),
-            Fault::Panic => panic!("a planted panic"),
-            Fault::Hang => sleep_endlessly(),
-            Fault::Spin => loop {
+            ProcessFault::Exit => std::process::exit(7),
+            ProcessFault::Panic => panic!("a planted panic"),
+            ProcessFault::Hang => sleep_endlessly(),
+            ProcessFault::Spin => loop {
                 black_box(0);
             },
-            Fault::Memory => {
+            ProcessFault::Memory => {
                 let mut all: Vec<Vec<u8>> = Vec::new();
                 loop {
                     all.push(black_box(vec![1; 16 << 20]));
                     thread::sleep(Duration::from_millis(5));
                 }
             }
-            Fault::Garbage => {
+            ProcessFault::Garbage => {
                 self.write(&[0xff; 64]);
                 Ok(())
             }
-            Fault::Half => {
+            ProcessFault::Half => {
                 // A message of 16 bytes of which 2 come.
                 self.write(&[16, 0, 0, 0, 1, 0]);
                 std::process::exit(0)
             }
-            Fault::Lost => Err(BackendError::DeviceLost(planted())),
-            Fault::Refused => Err(BackendError::Resource {
+            ProcessFault::Lost => Err(BackendError::DeviceLost(planted())),
+            ProcessFault::Refused => Err(BackendError::Resource {
                 what: "a buffer".to_owned(),
                 message: planted(),
             }),
-            Fault::Chatter => {
+            ProcessFault::Chatter => {
                 for line in 0..100_000 {
                     say!("line {line} of a long output");
                 }
                 std::process::abort()
             }
-            Fault::Validation => {
+            ProcessFault::Validation => {
                 let message = "VUID-planted: a call that breaks the rules".to_owned();
                 self.messages.borrow_mut().push(message);
                 Ok(())
             }
-            Fault::After => {
+            ProcessFault::After => {
                 self.spoilt.set(true);
                 Ok(())
             }
-            Fault::Flaky | Fault::Misread | Fault::Start | Fault::Mute => Ok(()),
+            ProcessFault::Flaky
+            | ProcessFault::Misread
+            | ProcessFault::Start
+            | ProcessFault::Mute => Ok(()),
         }
     }
 }
@@ -238,7 +152,7 @@ fn hash(scene: &Scene) -> u64 {
     }) >> 32
 }
 
-impl<B: Backend> Backend for Faulty<B> {
+impl Backend for Faulty {
     fn adapter(&self) -> &AdapterInfo {
         &self.info
     }
@@ -248,40 +162,29 @@ impl<B: Backend> Backend for Faulty<B> {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        let spared = scene.passes.is_empty();
-        let scissored = || {
-            let mut draws = scene.passes.iter().flat_map(|pass| &pass.draws);
-            draws.any(|draw| draw.scissor.is_some())
-        };
-        let number = match self.marked {
-            _ if spared => ONE_OF,
-            Marked::ByHash => hash(scene) % ONE_OF,
-            Marked::Scissor => {
-                if scissored() {
-                    0
-                } else {
-                    ONE_OF
+        let (mut slower, mut wrong, mut misread) = (0.0, false, Vec::new());
+        match self.fault {
+            Fault::Slower(percent) => slower = percent,
+            Fault::Process(fault, scenes) => {
+                let number = number(scene, scenes);
+                if number == 0 {
+                    self.fail(fault)?;
+                }
+                wrong = match fault {
+                    ProcessFault::Flaky => number == 0 && self.unlucky,
+                    ProcessFault::After => number == 1 && self.spoilt.get(),
+                    _ => false,
+                };
+                if fault == ProcessFault::Misread {
+                    let attachments = scene.attachments.iter().filter(|a| a.format == MISREAD);
+                    misread = attachments.map(|a| a.name.clone()).collect();
                 }
             }
-        };
-        if number == 0 {
-            self.fail()?;
+            _ => {}
         }
-        let wrong = match self.fault {
-            Fault::Flaky => number == 0 && self.unlucky,
-            Fault::After => number == 1 && self.spoilt.get(),
-            _ => false,
-        };
-        let misread = match self.fault {
-            Fault::Misread => {
-                let all = scene.attachments.iter();
-                let all = all.filter(|a| a.format == MISREAD);
-                all.map(|a| a.name.clone()).collect()
-            }
-            _ => Vec::new(),
-        };
         Ok(Box::new(FaultyScene {
             inner: self.inner.prepare(scene)?,
+            slower,
             wrong,
             misread,
         }))
@@ -294,8 +197,23 @@ impl<B: Backend> Backend for Faulty<B> {
     }
 }
 
+/// Returns a number of a scene that depends on nothing else: 0 if it fails.
+fn number(scene: &Scene, scenes: FaultyScenes) -> u64 {
+    let mut draws = scene.passes.iter().flat_map(|pass| &pass.draws);
+    match scenes {
+        // A round trip never fails.
+        _ if scene.passes.is_empty() => ONE_OF,
+        FaultyScenes::ByHash => hash(scene) % ONE_OF,
+        FaultyScenes::Scissor if draws.any(|draw| draw.scissor.is_some()) => 0,
+        FaultyScenes::Scissor => ONE_OF,
+    }
+}
+
 struct FaultyScene<'a> {
     inner: Box<dyn Prepared + 'a>,
+    /// The percentage by which the frame takes longer.
+    slower: f64,
+    /// True if it is read back wrong.
     wrong: bool,
     /// The attachments that are read back wrong.
     misread: Vec<String>,
@@ -303,7 +221,17 @@ struct FaultyScene<'a> {
 
 impl Prepared for FaultyScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
-        self.inner.submit()
+        let mut time = self.inner.submit()?;
+        let longer = time.wall.mul_f64(self.slower / 100.0);
+        // Sleeping would overshoot by more than the duration of a short frame.
+        let start = Instant::now();
+        while start.elapsed() < longer {
+            spin_loop();
+        }
+        let waited = start.elapsed();
+        time.cpu += waited;
+        time.wall += waited;
+        Ok(time)
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
@@ -324,29 +252,5 @@ impl Prepared for FaultyScene<'_> {
             }
         }
         Ok(frame)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_name_says_what_goes_wrong() {
-        for fault in Fault::ALL {
-            let name = format!("{PREFIX}{}", fault.named_word());
-            assert_eq!(Fault::named(&name), Some((fault, Marked::ByHash)));
-            let scissor = format!("{name}@scissor");
-            assert_eq!(Fault::named(&scissor), Some((fault, Marked::Scissor)));
-        }
-        for other in [
-            "cpu",
-            "cpu:fault=",
-            "cpu:fault=Abort",
-            "gl:fault=abort",
-            "cpu:fault=abort@",
-        ] {
-            assert_eq!(Fault::named(other), None, "{other}");
-        }
     }
 }

@@ -1,8 +1,7 @@
 //! The request that a worker process gets on its command line, or behind a launcher through its standard input.
 
 use super::backend_name::BackendName;
-use super::hidden::Hidden;
-use etalon_backend::{CallFault, ReadFault};
+use etalon_backend::Fault;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -26,15 +25,9 @@ pub(crate) struct Open {
     /// True if the calls of the first scene are recorded.
     #[serde(default, skip_serializing_if = "is_false")]
     pub(crate) record: bool,
-    /// The fault of a hidden adapter.
+    /// The fault that the name ends in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) hidden: Option<Hidden>,
-    /// The fault planted in the read path of a driver: `gl:llvmpipe:read-fault=off-by-one`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) read_fault: Option<ReadFault>,
-    /// The fault planted in the calls of a driver: `gl:llvmpipe:call-fault=last-row`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) call_fault: Option<CallFault>,
+    pub(crate) fault: Option<Fault>,
 }
 
 fn is_false(value: &bool) -> bool {

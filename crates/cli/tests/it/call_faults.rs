@@ -4,59 +4,9 @@
 
 use crate::etalon::etalon;
 use etalon_backend::CallFault;
+use etalon_frame::Api;
 use etalon_record::{Run, Verdict};
 use std::collections::BTreeSet;
-
-/// The quick cases that are made for what a fault breaks: all of an area would take minutes for each.
-fn cases(fault: CallFault) -> &'static str {
-    match fault {
-        CallFault::OnlyFirst64
-        | CallFault::LastRow
-        | CallFault::LastColumn
-        | CallFault::SecondTile => "size/spanning/*",
-        CallFault::ScissorEdge => "size/tiles/sizes/by=scissor/*",
-        CallFault::Draw256 => "size/tiles/draws/*",
-        CallFault::Indices65535 => "size/primitives/past-16-bits/*",
-        CallFault::Vertices4096 => "size/primitives/points/*",
-        CallFault::Lines500 => "size/primitives/{lines,points}/*",
-        CallFault::BaseVertex | CallFault::FirstIndex => "size/offsets/indexed/*",
-        CallFault::FirstInstance | CallFault::SecondInstance => "size/instances/*",
-        CallFault::CompareKept => "sequence/state/depth-compare/*",
-        CallFault::DepthWriteKept => "sequence/state/depth-write/*",
-        CallFault::CullKept => "sequence/state/cull/*",
-        CallFault::StencilReferenceKept => "sequence/state/stencil-*reference/*",
-        CallFault::BlendConstantKept => "sequence/state/blend-constant/*",
-        CallFault::ViewportKept => "sequence/state/viewport-rect/*",
-        CallFault::ScissorKept => "sequence/state/scissor/*",
-        CallFault::LaterPassDraw => "sequence/depth-left/*",
-        CallFault::AfterReadOnly => "sequence/read-only-between/*",
-        CallFault::LoadClears => "sequence/stored-and-loaded/*",
-        CallFault::ClearSkipped | CallFault::StencilWithDepth => "sequence/cleared-*/*",
-        CallFault::EqualClearSkipped => "sequence/again/*",
-        CallFault::ClearRect => "sequence/cleared-{by-command,in-parts}/*",
-        CallFault::ResolveFirst => "sequence/resolve-several/*",
-        CallFault::LoadColorIgnored => "paths/write-masks/*/start=load-operation",
-        CallFault::LoadDepthIgnored => "paths/depth-test/pass=*/start=load-operation/*",
-        CallFault::LoadStencilIgnored => "paths/stencil/*/start=load-operation/*",
-        CallFault::StoreDropped => "paths/two-passes/*/pass=render-pass/*",
-        // OpenGL reads through attachments too, and sees what it drew unless it is copied first.
-        CallFault::LayerDropped => "paths/{srgb,integers}/*/target=array-layer",
-        CallFault::LevelDropped => "paths/{srgb,blend-float}/*/target=mip-level",
-        CallFault::FaceDropped => "paths/{blend-float,integers}/end=copy/*/target=cube-face",
-        CallFault::ClipOriginKept => "paths/renderbuffer/clip=toggled/*",
-        CallFault::RestartIgnored => "paths/{lines,strip}/*/draws=restart/*",
-        CallFault::ResolveSecondDropped | CallFault::ResolveSecondFromFirst => {
-            "paths/resolve/pass=dynamic-rendering/*"
-        }
-        CallFault::StaticForDynamic => "paths/cull/*/state=dynamic/*",
-        CallFault::StaticIgnored => "paths/cull/*/state=static/*",
-        CallFault::SecondaryFirstDraw => "paths/strip/commands=secondary/*",
-        CallFault::ViewportFirst => "paths/viewport/*/viewport=array",
-        CallFault::IndexOffset => "paths/strip/*/draws=base-vertex/*",
-        CallFault::BlitColumn => "paths/depth-ends/end=blit/*",
-        CallFault::QueryFirst | CallFault::QueryEarly => "sequence/queries-*/*",
-    }
-}
 
 /// Runs cases on an adapter. Returns the names of those that fail.
 fn failed<'a>(adapter: &str, cases: impl IntoIterator<Item = &'a str>, code: i32) -> Vec<String> {
@@ -74,12 +24,14 @@ fn failed<'a>(adapter: &str, cases: impl IntoIterator<Item = &'a str>, code: i32
 
 /// Every fault turns the run of a driver red, by a case that the driver passes without it.
 fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clone) {
-    let all: BTreeSet<&str> = faults.clone().map(cases).collect();
-    assert_eq!(failed(driver, all, 0), [""; 0], "{driver} without a fault");
+    let cases: BTreeSet<&str> = faults.clone().map(CallFault::cases).collect();
+    assert_eq!(
+        failed(driver, cases, 0),
+        [""; 0],
+        "{driver} without a fault"
+    );
     for fault in faults {
-        let cases = cases(fault);
-        let name = fault.name();
-        assert!(cases.starts_with(fault.area()), "{name}");
+        let (name, cases) = (fault.name(), fault.cases());
         let with = failed(&format!("{driver}:call-fault={name}"), [cases], 1);
         assert!(
             !with.is_empty(),
@@ -91,13 +43,16 @@ fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clon
 #[test]
 fn every_fault_of_vulkan_calls_fails() {
     let all = CallFault::ALL.iter().copied();
-    faults_are_found("vulkan:lavapipe", all.filter(|fault| fault.is_in_vulkan()));
+    faults_are_found(
+        "vulkan:lavapipe",
+        all.filter(|fault| fault.is_in(Api::Vulkan)),
+    );
 }
 
 #[test]
 fn every_fault_of_opengl_calls_fails() {
     let all = CallFault::ALL.iter().copied();
-    faults_are_found("gl:llvmpipe", all.filter(|fault| fault.is_in_opengl()));
+    faults_are_found("gl:llvmpipe", all.filter(|fault| fault.is_in(Api::OpenGl)));
 }
 
 #[test]

@@ -94,12 +94,12 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         let gone = &names[part];
         let whole = gone.len() == names.len();
         let mut edit = Edit {
-            remove: match whole {
-                true => vec![place!["scene", "counters"]],
-                false => gone
-                    .iter()
+            remove: if whole {
+                vec![place!["scene", "counters"]]
+            } else {
+                gone.iter()
                     .map(|name| place!["scene", "counters", name.as_str()])
-                    .collect(),
+                    .collect()
             },
             ..Edit::default()
         };
@@ -112,9 +112,10 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 let name = name.as_str()?;
                 gone.iter().any(|g| *g == name).then(|| below(&own, i))
             });
-            match whole {
-                true => edit.remove.push(own.clone()),
-                false => edit.remove.extend(places),
+            if whole {
+                edit.remove.push(own.clone());
+            } else {
+                edit.remove.extend(places);
             }
         }
         all.push(edit);

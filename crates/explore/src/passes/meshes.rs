@@ -39,9 +39,10 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
     let (values, z, windings) = (list("values"), list("z"), list("windings"));
     let one = |key: &str, of: &[Value], part: usize| -> Option<Value> {
         let single = mesh.get(key).filter(|v| !v.is_array() || key == "value");
-        match of.is_empty() {
-            true => single.cloned(),
-            false => of.get(part % of.len()).cloned(),
+        if of.is_empty() {
+            single.cloned()
+        } else {
+            of.get(part % of.len()).cloned()
         }
     };
     let count = values.len().max(z.len()).max(1);

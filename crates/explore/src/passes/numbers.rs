@@ -91,9 +91,12 @@ fn simpler(number: f64) -> Vec<Value> {
             all.push(other);
         }
     }
-    let value = |number: f64| match number.fract() == 0.0 {
-        true => json!(number as i64),
-        false => json!(number),
+    let value = |number: f64| {
+        if number.fract() == 0.0 {
+            json!(number as i64)
+        } else {
+            json!(number)
+        }
     };
     all.into_iter().map(value).collect()
 }
@@ -113,9 +116,12 @@ mod tests {
         assert_eq!(simpler(0.0), Vec::<Value>::new());
         assert_eq!(simpler(1.0), [json!(0)]);
         assert_eq!(simpler(37.0), [json!(0), json!(1), json!(-1), json!(255)]);
-        let due = [0.0, 1.0, 0.5, -1.0, 255.0, 0.6, 0.62].map(|n: f64| match n.fract() == 0.0 {
-            true => json!(n as i64),
-            false => json!(n),
+        let due = [0.0, 1.0, 0.5, -1.0, 255.0, 0.6, 0.62].map(|n: f64| {
+            if n.fract() == 0.0 {
+                json!(n as i64)
+            } else {
+                json!(n)
+            }
         });
         assert_eq!(simpler(0.6215), due);
     }

@@ -138,9 +138,10 @@ fn color(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
     let channels = raw.as_array()?.iter().zip(most);
     let share = |(value, most): (&Value, f64)| {
         let share = value.as_f64()? / most;
-        Some(match share.fract() == 0.0 {
-            true => json!(share as i64),
-            false => json!((share * 1e4).round() / 1e4),
+        Some(if share.fract() == 0.0 {
+            json!(share as i64)
+        } else {
+            json!((share * 1e4).round() / 1e4)
         })
     };
     channels.map(share).collect()

@@ -14,9 +14,10 @@ impl Maker<'_> {
             .map(|_| {
                 let fits = |f: &TextureFormat| count == 1 || !f.is_integer();
                 let list: Vec<_> = usable.iter().copied().filter(fits).collect();
-                match self.choices.once_in(2) && !list.is_empty() {
-                    true => self.choices.of(&list),
-                    false => common,
+                if self.choices.once_in(2) && !list.is_empty() {
+                    self.choices.of(&list)
+                } else {
+                    common
                 }
             })
             .collect();

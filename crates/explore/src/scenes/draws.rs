@@ -108,12 +108,13 @@ impl Maker<'_> {
         match state {
             "cull" => {
                 let both = self.extra_with("cull both", Feature::FrontAndBackCulling);
-                draw["cull"] = match both && self.choices.once_in(2) {
-                    true => json!("front-and-back"),
-                    false => json!(
+                draw["cull"] = if both && self.choices.once_in(2) {
+                    json!("front-and-back")
+                } else {
+                    json!(
                         self.choices
                             .word("cull", &["none", "back", "front", "none"])
-                    ),
+                    )
                 };
             }
             "front_face" => {
@@ -204,9 +205,10 @@ impl Maker<'_> {
             [0.0, 0.75],
             [0.5, 0.5],
         ];
-        let mut depth = match own_depth {
-            true => [0.0, 1.0],
-            false => self.choices.of(&ranges),
+        let mut depth = if own_depth {
+            [0.0, 1.0]
+        } else {
+            self.choices.of(&ranges)
         };
         if !own_depth && self.extra_with("reversed depth", Feature::ReversedDepthRange) {
             depth.reverse();
@@ -214,9 +216,10 @@ impl Maker<'_> {
         if depth == [0.0, 1.0] && !self.choices.once_in(2) {
             return self.size;
         }
-        let mut rect: [f64; 4] = match self.choices.once_in(2) {
-            true => self.rect().map(f64::from),
-            false => [0.0, 0.0, f64::from(self.size[0]), f64::from(self.size[1])],
+        let mut rect: [f64; 4] = if self.choices.once_in(2) {
+            self.rect().map(f64::from)
+        } else {
+            [0.0, 0.0, f64::from(self.size[0]), f64::from(self.size[1])]
         };
         if self.extra_with("viewport outside", Feature::ViewportOutside) {
             rect[0] -= f64::from(self.choices.range(0, 4));

@@ -145,9 +145,10 @@ impl Maker<'_> {
         if written == Written::Nothing && (list || indexed) && self.extra("instances") {
             let count = self.choices.range(1, 3);
             let colors: Vec<Value> = (0..count).map(|_| self.color()).collect();
-            let first = match self.space.has(Feature::FirstInstance) {
-                true => self.choices.of(&[0, 1, 5]),
-                false => 0,
+            let first = if self.space.has(Feature::FirstInstance) {
+                self.choices.of(&[0, 1, 5])
+            } else {
+                0
             };
             draw["instances"] = json!({ "colors": colors, "first": first });
         }
@@ -213,9 +214,10 @@ impl Maker<'_> {
             indexed,
             apart,
         } = form;
-        let count = match list {
-            true => 3 * self.choices.range(1, 3),
-            false => self.choices.of(&[4, 6]),
+        let count = if list {
+            3 * self.choices.range(1, 3)
+        } else {
+            self.choices.of(&[4, 6])
         };
         let colors = if apart { count } else { 1 };
         let values: Vec<Value> = (0..colors).map(|_| self.value(written)).collect();
@@ -302,10 +304,14 @@ impl Maker<'_> {
             });
         }
         let positions = corners.map(|(x, y)| [x, y, z]);
-        let uv = corners.map(|(x, y)| match centroid {
-            true => [x - left, 0.0],
-            false if flat => [0.0, v(y)],
-            false => [u(x), v(y)],
+        let uv = corners.map(|(x, y)| {
+            if centroid {
+                [x - left, 0.0]
+            } else if flat {
+                [0.0, v(y)]
+            } else {
+                [u(x), v(y)]
+            }
         });
         json!({
             "kind": "vertices", "units": "texels", "positions": positions, "uv": uv,
@@ -318,17 +324,17 @@ impl Maker<'_> {
         if !self.extra("fetch") {
             return;
         }
-        draw["fetch"] = match indexed {
-            true => {
-                let base = match self.space.has(Feature::BaseVertex) {
-                    true => self.choices.of(&[0, 3, -2]),
-                    false => 0,
-                };
-                let index = self.choices.of(&["uint32", "uint16"]);
-                let first = self.choices.of(&[0, 3, 6]);
-                json!({ "index": index, "base_vertex": base, "first_index": first })
-            }
-            false => json!({ "first_vertex": self.choices.of(&[0, 1, 3]) }),
+        draw["fetch"] = if indexed {
+            let base = if self.space.has(Feature::BaseVertex) {
+                self.choices.of(&[0, 3, -2])
+            } else {
+                0
+            };
+            let index = self.choices.of(&["uint32", "uint16"]);
+            let first = self.choices.of(&[0, 3, 6]);
+            json!({ "index": index, "base_vertex": base, "first_index": first })
+        } else {
+            json!({ "first_vertex": self.choices.of(&[0, 1, 3]) })
         };
     }
 }

@@ -36,9 +36,10 @@ pub(crate) struct Made {
 pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
     let mut maker = Maker::new(choices, space);
     let scene = maker.scene();
-    let submissions = match maker.choices.once_in(16) {
-        true => vec![maker.choices.range(1, 3)],
-        false => Vec::new(),
+    let submissions = if maker.choices.once_in(16) {
+        vec![maker.choices.range(1, 3)]
+    } else {
+        Vec::new()
     };
     Made {
         scene,

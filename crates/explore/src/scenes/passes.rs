@@ -282,9 +282,10 @@ impl Maker<'_> {
             resolve["depth"] = json!(mode);
         }
         if format.has_stencil() && only != 2 {
-            let own = match both && !apart {
-                true => mode,
-                false => modes(self, &of_stencil),
+            let own = if both && !apart {
+                mode
+            } else {
+                modes(self, &of_stencil)
             };
             resolve["stencil"] = json!(own);
         }

@@ -72,9 +72,12 @@ impl Maker<'_> {
             }
         }
         let [front, back] = faces;
-        let mut mask = || match self.choices.once_in(2) {
-            true => self.bits(),
-            false => 0xff,
+        let mut mask = || {
+            if self.choices.once_in(2) {
+                self.bits()
+            } else {
+                0xff
+            }
         };
         let (read, write) = (mask(), mask());
         let mut stencil = json!({
@@ -139,9 +142,10 @@ impl Maker<'_> {
 
     /// A write mask, mostly of all channels.
     fn mask(&mut self) -> &'static str {
-        match self.choices.once_in(3) {
-            true => self.channels(),
-            false => "rgba",
+        if self.choices.once_in(3) {
+            self.channels()
+        } else {
+            "rgba"
         }
     }
 
@@ -162,9 +166,10 @@ impl Maker<'_> {
             Is::Min,
             Is::Max,
         ];
-        let states = match is_color {
-            true => ["color operation", "color src", "color dst"],
-            false => ["alpha operation", "alpha src", "alpha dst"],
+        let states = if is_color {
+            ["color operation", "color src", "color dst"]
+        } else {
+            ["alpha operation", "alpha src", "alpha dst"]
         };
         let operation = self.choices.word(states[0], &operations.map(Is::name));
         let is_extreme = ["min", "max"].contains(&operation);

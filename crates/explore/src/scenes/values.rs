@@ -35,9 +35,10 @@ impl Maker<'_> {
 
     /// A clip-space depth, never near a plane that clips.
     pub(super) fn vertex_depth(&mut self) -> f64 {
-        match self.extra("beyond the planes") {
-            true => self.choices.of(&[0.3, -0.75, 1.75, 0.7]),
-            false => self.choices.of(&[0.0, 0.17, 0.37, 0.57, 0.77, 0.97]),
+        if self.extra("beyond the planes") {
+            self.choices.of(&[0.3, -0.75, 1.75, 0.7])
+        } else {
+            self.choices.of(&[0.0, 0.17, 0.37, 0.57, 0.77, 0.97])
         }
     }
 }

@@ -16,8 +16,7 @@ fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
             platform: Platform::Surfaceless,
             library: None,
             debug: true,
-            read_fault: None,
-            call_fault: None,
+            fault: None,
             record: false,
         };
         let backend = open_with("gl:test", &options, Tuning { clip_control })

@@ -32,8 +32,7 @@ fn devices_are_enumerated_and_open() {
             platform: Platform::Device(software.index),
             library: None,
             debug: false,
-            read_fault: None,
-            call_fault: None,
+            fault: None,
             record: false,
         };
         let backend = open("gl:device", &options).expect("the software device opens");

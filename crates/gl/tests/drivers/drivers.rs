@@ -12,8 +12,7 @@ pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
         platform: Platform::Surfaceless,
         library: None,
         debug: true,
-        read_fault: None,
-        call_fault: None,
+        fault: None,
         record: false,
     };
     let backend = open("gl:test", &options)

@@ -80,9 +80,10 @@ pub(super) fn show(method: MethodName, width: f64) -> Shown {
         let around = polygon(&larger(&corners, width), behind, outline);
         let mut draw = opaque(&around);
         draw.stencil = except(reference);
-        draw.depth = match separate {
-            true => stage::depth(CompareFunction::LessEqual, true),
-            false => None,
+        draw.depth = if separate {
+            stage::depth(CompareFunction::LessEqual, true)
+        } else {
+            None
         };
         outlines.push(draw);
         // At the same depth what comes later is in front.

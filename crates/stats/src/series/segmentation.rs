@@ -49,9 +49,10 @@ pub(super) fn places(sums: &Sums) -> Vec<usize> {
 
 /// The test by which a change between its neighbours is one: that of two levels, or on a line, where a line says more.
 pub(super) fn test(sums: &Sums, from: usize, place: usize, to: usize) -> Test {
-    match sums.is_rather_a_line(from, place, to) {
-        true => sums.step_of_line(from, place, to),
-        false => sums.step(from, place, to),
+    if sums.is_rather_a_line(from, place, to) {
+        sums.step_of_line(from, place, to)
+    } else {
+        sums.step(from, place, to)
     }
 }
 
@@ -139,9 +140,10 @@ fn settle(sums: &Sums, found: &BTreeSet<usize>) -> BTreeSet<usize> {
     let moved = places.iter().enumerate().map(|(at, place)| {
         let from = at.checked_sub(1).map_or(0, |before| places[before]);
         let to = places.get(at + 1).copied().unwrap_or(runs);
-        match sums.is_rather_a_line(from, *place, to) {
-            true => *place,
-            false => sums.best_place(from, *place, to),
+        if sums.is_rather_a_line(from, *place, to) {
+            *place
+        } else {
+            sums.best_place(from, *place, to)
         }
     });
     moved.collect()

@@ -348,14 +348,16 @@ impl Sums {
 /// count as exact.
 fn variance(squares: f64, by_next: f64, error: f64, runs: f64, freedom: f64) -> f64 {
     let measured = squares / freedom;
-    let correlation = match squares > 0.0 {
-        true => by_next / squares,
-        false => 0.0,
+    let correlation = if squares > 0.0 {
+        by_next / squares
+    } else {
+        0.0
     };
     // Of independent runs it is this small nearly always.
-    let correlation = match correlation > 2.0 / runs.sqrt() {
-        true => correlation.min(MOST_CORRELATION),
-        false => 0.0,
+    let correlation = if correlation > 2.0 / runs.sqrt() {
+        correlation.min(MOST_CORRELATION)
+    } else {
+        0.0
     };
     let enlarged = measured * (1.0 + correlation) / (1.0 - correlation);
     enlarged.max(error / runs).max(FLOOR * FLOOR)

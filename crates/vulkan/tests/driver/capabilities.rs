@@ -61,8 +61,7 @@ fn a_device_that_is_not_there_is_unavailable() {
     let options = Options {
         device: 1000,
         validate: false,
-        read_fault: None,
-        call_fault: None,
+        fault: None,
         record: false,
     };
     let error = open("vulkan:none", &options).map(|_| ()).unwrap_err();

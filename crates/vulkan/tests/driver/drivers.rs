@@ -28,8 +28,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
     let options = Options {
         device,
         validate,
-        read_fault: None,
-        call_fault: None,
+        fault: None,
         record: false,
     };
     open(&name, &options).unwrap_or_else(|e| panic!("{name}: {e}"))

@@ -41,7 +41,7 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
         via,
         device,
         validate,
-        read_fault: None,
+        fault: None,
         record: false,
     };
     let backend = open(name, &options).unwrap_or_else(|e| panic!("{name} does not open: {e}"));

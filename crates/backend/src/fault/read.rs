@@ -1,13 +1,12 @@
-//! Faults of reading back that a test plants.
+//! Faults of reading back.
 //!
 //! A backend applies one to every image that its read path returns, so that nothing inside the backend
-//! reads past it. It stands for a driver whose read-back is broken, and shows that a run over such a
-//! driver is red.
+//! reads past it. It stands for a driver whose read-back is broken.
 
 use etalon_frame::ChannelEncoding;
 use serde::{Deserialize, Serialize};
 
-/// A planted fault of reading back. For tests of the suite only.
+/// A planted fault of reading back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ReadFault {
@@ -25,20 +24,6 @@ pub enum ReadFault {
 const BLOCK: u32 = 1;
 
 impl ReadFault {
-    /// Every fault with its name.
-    pub const ALL: [(Self, &'static str); 4] = [
-        (Self::OffByOne, "off-by-one"),
-        (Self::WrongBlock, "wrong-block"),
-        (Self::ZeroChannel, "zero-channel"),
-        (Self::SwappedSamples, "swapped-samples"),
-    ];
-
-    /// Returns the fault of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        let found = Self::ALL.into_iter().find(|(_, own)| *own == name);
-        found.map(|(fault, _)| fault)
-    }
-
     /// Changes the codes of an image of this size: texel by texel, sample by sample, channel by channel.
     pub fn apply(
         self,

@@ -1,0 +1,144 @@
+//! Faults of calls.
+//!
+//! Each stands for a driver that gets one of many things wrong: a large one, a late one, or one that the draw or pass
+//! before has touched.
+
+use etalon_frame::Api;
+use serde::{Deserialize, Serialize};
+
+macro_rules! faults {
+    ($($(#[$doc:meta])* $fault:ident = $name:literal in $cases:literal $(of $api:ident)?;)+) => {
+        /// A planted fault of a driver's calls.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum CallFault {
+            $($(#[$doc])* #[serde(rename = $name)] $fault,)+
+        }
+
+        impl CallFault {
+            /// Every fault.
+            pub const ALL: &[Self] = &[$(Self::$fault),+];
+
+            /// The name in adapter names: `last-row`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$fault => $name,)+
+                }
+            }
+
+            /// The quick cases that are made for what it breaks, as a glob.
+            pub fn cases(self) -> &'static str {
+                match self {
+                    $(Self::$fault => $cases,)+
+                }
+            }
+
+            /// True if an API has the call.
+            pub fn is_in(self, api: Api) -> bool {
+                let apis: &[Api] = match self {
+                    $(Self::$fault => faults!(@apis $($api)?),)+
+                };
+                apis.contains(&api)
+            }
+        }
+    };
+    (@apis $api:ident) => { &[Api::$api] };
+    (@apis) => { &[Api::Vulkan, Api::OpenGl] };
+}
+
+faults! {
+    /// Draws reach the first 64×64 texels.
+    OnlyFirst64 = "only-first-64" in "size/spanning/*";
+    /// Draws do not reach the last row.
+    LastRow = "last-row" in "size/spanning/*";
+    /// Draws do not reach the last column.
+    LastColumn = "last-column" in "size/spanning/*";
+    /// Draws do not reach the second tile of 32×32 of the first row.
+    SecondTile = "second-tile" in "size/spanning/*";
+    /// Scissor rectangles whose right edge is a multiple of 16 are a column too small.
+    ScissorEdge = "scissor-edge" in "size/tiles/sizes/by=scissor/*";
+    /// Draw number 256 of a pass is lost.
+    Draw256 = "draw-256" in "size/tiles/draws/*";
+    /// Indices past 65,535 are lost.
+    Indices65535 = "indices-65535" in "size/primitives/past-16-bits/*";
+    /// Vertices past 4,096 are lost in draws without indices.
+    Vertices4096 = "vertices-4096" in "size/primitives/points/*";
+    /// Points and lines past the first 500 are lost.
+    Lines500 = "lines-500" in "size/primitives/{lines,points}/*";
+    /// The base vertex is 0.
+    BaseVertex = "base-vertex" in "size/offsets/indexed/*";
+    /// The first index is one too late.
+    FirstIndex = "first-index" in "size/offsets/indexed/*";
+    /// The first instance is 0.
+    FirstInstance = "first-instance" in "size/instances/*";
+    /// Instances after the first are lost.
+    SecondInstance = "second-instance" in "size/instances/*";
+    /// The depth comparison is that of the draw before.
+    CompareKept = "compare-kept" in "sequence/state/depth-compare/*";
+    /// The write mask of depth is that of the draw before.
+    DepthWriteKept = "depth-write-kept" in "sequence/state/depth-write/*";
+    /// Culling is that of the draw before.
+    CullKept = "cull-kept" in "sequence/state/cull/*";
+    /// The stencil reference is that of the draw before.
+    StencilReferenceKept = "stencil-reference-kept" in "sequence/state/stencil-*reference/*";
+    /// The blend constant is that of the draw before.
+    BlendConstantKept = "blend-constant-kept" in "sequence/state/blend-constant/*";
+    /// The viewport is that of the draw before.
+    ViewportKept = "viewport-kept" in "sequence/state/viewport-rect/*";
+    /// The scissor rectangle is that of the draw before.
+    ScissorKept = "scissor-kept" in "sequence/state/scissor/*";
+    /// The first draw of a pass is lost in every pass but the first.
+    LaterPassDraw = "later-pass-draw" in "sequence/depth-left/*";
+    /// The first draw after a pass that writes neither depth nor stencil is lost.
+    AfterReadOnly = "after-read-only" in "sequence/read-only-between/*" of Vulkan;
+    /// Passes after the first clear their colour attachments instead of loading them.
+    LoadClears = "load-clears" in "sequence/stored-and-loaded/*" of Vulkan;
+    /// Clears of passes after the first draw are skipped.
+    ClearSkipped = "clear-skipped" in "sequence/cleared-*/*";
+    /// A clear of what was cleared with the same value before is skipped.
+    EqualClearSkipped = "equal-clear-skipped" in "sequence/again/*";
+    /// A clear of a rectangle clears everything.
+    ClearRect = "clear-rect" in "sequence/cleared-{by-command,in-parts}/*";
+    /// A clear of depth sets stencil to 0.
+    StencilWithDepth = "stencil-with-depth" in "sequence/cleared-*/*";
+    /// Of several targets, only the first is resolved.
+    ResolveFirst = "resolve-first" in "sequence/resolve-several/*";
+    /// Every query of a submission has the first one's result.
+    QueryFirst = "query-first" in "sequence/queries-*/*";
+    /// Queries after the first end before their draw.
+    QueryEarly = "query-early" in "sequence/queries-*/*";
+    /// Load operations do not clear colour.
+    LoadColorIgnored = "load-color-ignored" in "paths/write-masks/*/start=load-operation" of Vulkan;
+    /// Load operations do not clear depth.
+    LoadDepthIgnored = "load-depth-ignored" in "paths/depth-test/pass=*/start=load-operation/*" of Vulkan;
+    /// Load operations do not clear stencil.
+    LoadStencilIgnored = "load-stencil-ignored" in "paths/stencil/*/start=load-operation/*" of Vulkan;
+    /// What is drawn in a render pass that is an object is not stored.
+    StoreDropped = "store-dropped" in "paths/two-passes/*/pass=render-pass/*" of Vulkan;
+    // OpenGL reads through attachments too, and sees what it drew there unless it is copied first.
+    /// Attachments are layer 0.
+    LayerDropped = "layer-dropped" in "paths/{srgb,integers}/*/target=array-layer";
+    /// Attachments are level 0.
+    LevelDropped = "level-dropped" in "paths/{srgb,blend-float}/*/target=mip-level";
+    /// Of several targets, the second is not resolved.
+    ResolveSecondDropped = "resolve-second-dropped" in "paths/resolve/pass=dynamic-rendering/*" of Vulkan;
+    /// The second target receives what the first is resolved to.
+    ResolveSecondFromFirst = "resolve-second-from-first" in "paths/resolve/pass=dynamic-rendering/*" of Vulkan;
+    /// Culling is the pipeline's, although it is dynamic.
+    StaticForDynamic = "static-for-dynamic" in "paths/cull/*/state=dynamic/*" of Vulkan;
+    /// Culling in a pipeline is off.
+    StaticIgnored = "static-ignored" in "paths/cull/*/state=static/*" of Vulkan;
+    /// The first draw of a secondary command buffer is lost.
+    SecondaryFirstDraw = "secondary-first-draw" in "paths/strip/commands=secondary/*" of Vulkan;
+    /// The second viewport is the first.
+    ViewportFirst = "viewport-first" in "paths/viewport/*/viewport=array";
+    /// The first index is 0.
+    IndexOffset = "index-offset" in "paths/strip/*/draws=base-vertex/*";
+    /// Blits leave their target's last column.
+    BlitColumn = "blit-column" in "paths/depth-ends/end=blit/*";
+    /// Attachments are the first face of a cube.
+    FaceDropped = "face-dropped" in "paths/{blend-float,integers}/end=copy/*/target=cube-face" of OpenGl;
+    /// The clip volume's origin is the upper left.
+    ClipOriginKept = "clip-origin-kept" in "paths/renderbuffer/clip=toggled/*" of OpenGl;
+    /// No index restarts a primitive.
+    RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
+}

@@ -1,0 +1,169 @@
+//! The part of faulty calls that is the same in every API.
+
+use super::CallFault;
+use std::any::Any;
+use std::collections::HashMap;
+
+/// The numbers of a draw call.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DrawNumbers {
+    /// True if the draw has indices.
+    pub indexed: bool,
+    /// True if it draws points or lines.
+    pub thin: bool,
+    /// The number of vertices or indices.
+    pub count: i32,
+    /// The number of instances.
+    pub instances: i32,
+    /// The first index.
+    pub first: i32,
+    /// The number that is added to indices.
+    pub base_vertex: i32,
+    /// The first instance.
+    pub first_instance: u32,
+}
+
+/// What a planted fault has seen of the calls to a driver.
+///
+/// A backend that is opened with a fault puts functions of its own in the place of the driver's, which ask here how to
+/// change a call. The rest of the backend knows nothing of the fault. Rectangles have the origin of the API.
+#[derive(Default)]
+pub struct FaultyCalls {
+    /// The fault; `None` until it acts.
+    pub fault: Option<CallFault>,
+    /// The number of passes of the submission.
+    pub passes: u32,
+    /// The number of draws of the pass.
+    pub draws: u32,
+    /// The rectangle that draws can reach: left, top, right and bottom.
+    pub area: [i32; 4],
+    /// The scissor rectangle: x, y, width and height.
+    pub scissor: [i32; 4],
+    /// True if draws are limited to the scissor rectangle.
+    pub scissor_on: bool,
+    /// The queries of the submission, kept until another one begins queries.
+    pub queries: Vec<u32>,
+    /// True if `queries` are those of a submission before.
+    queries_are_old: bool,
+    /// Values of the call before, by a number of the state.
+    kept: HashMap<u32, Box<dyn Any>>,
+    /// The last clear value of each image, as bits.
+    cleared: HashMap<u64, [u32; 4]>,
+}
+
+impl FaultyCalls {
+    /// True if this is the fault, and it acts.
+    pub fn has(&self, fault: CallFault) -> bool {
+        self.fault == Some(fault)
+    }
+
+    /// Notes that a submission ends, or that another one begins.
+    pub fn end_submission(&mut self) {
+        (self.passes, self.draws) = (0, 0);
+        self.queries_are_old = true;
+        self.kept.clear();
+    }
+
+    /// Notes that a pass begins.
+    pub fn begin_pass(&mut self) {
+        self.passes += 1;
+        self.draws = 0;
+    }
+
+    /// Returns the value of the call before and keeps this one for the next, if that is the fault; else this one.
+    /// `state` tells several states of one fault apart.
+    pub fn kept<T: Copy + 'static>(&mut self, fault: CallFault, state: u32, value: T) -> T {
+        if !self.has(fault) {
+            return value;
+        }
+        let before = self.kept.insert(state, Box::new(value));
+        before
+            .and_then(|before| before.downcast_ref().copied())
+            .unwrap_or(value)
+    }
+
+    /// Returns the scissor rectangle that is set in the place of this one: x, y, width and height. A right edge at or past `limit` stays.
+    pub fn set_scissor(&mut self, rectangle: [i32; 4], limit: i32) -> [i32; 4] {
+        let mut rectangle = self.kept(CallFault::ScissorKept, 0, rectangle);
+        let right = rectangle[0].saturating_add(rectangle[2]);
+        if self.has(CallFault::ScissorEdge) && right % 16 == 0 && right < limit {
+            rectangle[2] = (rectangle[2] - 1).max(0);
+        }
+        self.scissor = rectangle;
+        rectangle
+    }
+
+    /// Draws with changed numbers, once for each part of the area that draws reach; `set_scissor` limits a draw to a
+    /// part.
+    pub fn draw(
+        &mut self,
+        mut numbers: DrawNumbers,
+        set_scissor: impl Fn([i32; 4]),
+        draw: impl Fn(&DrawNumbers),
+    ) {
+        self.draws += 1;
+        match self.fault {
+            Some(CallFault::Draw256) if self.draws == 256 => return,
+            Some(CallFault::LaterPassDraw) if self.draws == 1 && self.passes > 1 => return,
+            Some(CallFault::Indices65535) if numbers.indexed => {
+                numbers.count = numbers.count.min(65_535)
+            }
+            Some(CallFault::Vertices4096) if !numbers.indexed => {
+                numbers.count = numbers.count.min(4_096)
+            }
+            Some(CallFault::Lines500) if numbers.thin => numbers.count = numbers.count.min(500),
+            Some(CallFault::FirstIndex) if numbers.first > 0 && numbers.count > 0 => {
+                numbers.first += 1;
+                numbers.count -= 1;
+            }
+            Some(CallFault::IndexOffset) => numbers.first = 0,
+            Some(CallFault::BaseVertex) => numbers.base_vertex = 0,
+            Some(CallFault::FirstInstance) => numbers.first_instance = 0,
+            Some(CallFault::SecondInstance) => numbers.instances = numbers.instances.min(1),
+            _ => {}
+        }
+        let [left, top, right, bottom] = self.area;
+        let parts = match self.fault {
+            Some(CallFault::OnlyFirst64) => vec![[0, 0, 64, 64]],
+            Some(CallFault::LastRow) => vec![[left, top, right, bottom - 1]],
+            Some(CallFault::LastColumn) => vec![[left, top, right - 1, bottom]],
+            Some(CallFault::SecondTile) => {
+                vec![[0, 0, 32, 32], [64, 0, right, 32], [0, 32, right, bottom]]
+            }
+            _ => return draw(&numbers),
+        };
+        for part in parts {
+            set_scissor(self.within_scissor(part));
+            draw(&numbers);
+        }
+    }
+
+    /// Returns the x, y, width and height of what the scissor rectangle leaves of a part.
+    fn within_scissor(&self, [mut left, mut top, mut right, mut bottom]: [i32; 4]) -> [i32; 4] {
+        if self.scissor_on {
+            let [x, y, width, height] = self.scissor;
+            (left, right) = (left.max(x), right.min(x.saturating_add(width)));
+            (top, bottom) = (top.max(y), bottom.min(y.saturating_add(height)));
+        }
+        [left, top, (right - left).max(0), (bottom - top).max(0)]
+    }
+
+    /// True if the fault skips a clear of an image, which had this value before.
+    pub fn skips_equal_clear(&mut self, image: u64, value: [u32; 4]) -> bool {
+        let before = self.cleared.insert(image, value);
+        self.has(CallFault::EqualClearSkipped) && before == Some(value)
+    }
+
+    /// Notes that a query begins.
+    pub fn begin_query(&mut self, query: u32) {
+        if std::mem::take(&mut self.queries_are_old) {
+            self.queries.clear();
+        }
+        self.queries.push(query);
+    }
+
+    /// True if the fault has ended the query where it began.
+    pub fn ends_query_early(&self) -> bool {
+        self.has(CallFault::QueryEarly) && self.queries.len() > 1
+    }
+}

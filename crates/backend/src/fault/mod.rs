@@ -1,0 +1,130 @@
+//! Faults that a test plants, to show that the suite finds them.
+//!
+//! A [`Fault`] describes one. A name of an adapter can end in its own: `gl:llvmpipe:read-fault=off-by-one`. Such an
+//! adapter is not listed. The backends of drivers apply faults to calls, through [`FaultyCalls`], and to what is read
+//! back; `etalon` applies the others to the process of the rasterizer.
+
+mod call;
+mod calls;
+mod process;
+mod read;
+
+pub use call::CallFault;
+pub use calls::{DrawNumbers, FaultyCalls};
+pub use process::{FaultyScenes, ProcessFault};
+pub use read::ReadFault;
+
+use serde::de::value::{Error, StrDeserializer};
+use serde::{Deserialize, Serialize};
+
+/// A planted fault, by what it is applied to. For tests of the suite only.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fault {
+    /// The calls between a backend and its driver: `call-fault=last-row`.
+    Call(CallFault),
+    /// Every image that a backend reads back: `read-fault=off-by-one`.
+    Read(ReadFault),
+    /// The process that draws some of the scenes: `fault=abort`, `fault=abort@scissor`.
+    Process(ProcessFault, FaultyScenes),
+    /// The time of each frame, longer by this many per cent: `slower=5%`.
+    Slower(f64),
+}
+
+impl Fault {
+    /// Splits the name of an adapter into that of its driver and the fault that is planted in it.
+    pub fn in_name(name: &str) -> Option<(&str, Self)> {
+        let (driver, fault) = name.rsplit_once(':')?;
+        let (kind, fault) = fault.split_once('=')?;
+        let fault = match kind {
+            "call-fault" => Self::Call(named(fault)?),
+            "read-fault" => Self::Read(named(fault)?),
+            "fault" => match fault.strip_suffix("@scissor") {
+                Some(fault) => Self::Process(named(fault)?, FaultyScenes::Scissor),
+                None => Self::Process(named(fault)?, FaultyScenes::ByHash),
+            },
+            "slower" => {
+                let percent = fault.strip_suffix('%')?.parse().ok()?;
+                (0.0..=1000.0)
+                    .contains(&percent)
+                    .then_some(Self::Slower(percent))?
+            }
+            _ => return None,
+        };
+        Some((driver, fault))
+    }
+}
+
+/// Returns the fault of this name.
+fn named<'a, T: Deserialize<'a>>(name: &'a str) -> Option<T> {
+    T::deserialize(StrDeserializer::<Error>::new(name)).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_of_calls_is_found_by_its_name() {
+        for fault in CallFault::ALL {
+            let name = format!("gl:llvmpipe:call-fault={}", fault.name());
+            let found = Fault::in_name(&name);
+            assert_eq!(found, Some(("gl:llvmpipe", Fault::Call(*fault))));
+        }
+        assert_eq!(Fault::in_name("gl:llvmpipe:call-fault=none"), None);
+    }
+
+    #[test]
+    fn the_name_says_what_goes_wrong() {
+        for name in [
+            "abort",
+            "segv",
+            "exit",
+            "panic",
+            "hang",
+            "spin",
+            "memory",
+            "garbage",
+            "half",
+            "lost",
+            "refused",
+            "chatter",
+            "validation",
+            "flaky",
+            "misread",
+            "after",
+            "start",
+            "mute",
+        ] {
+            let adapter = format!("cpu:fault={name}");
+            let Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash))) =
+                Fault::in_name(&adapter)
+            else {
+                panic!("{name} is no fault");
+            };
+            assert_eq!(format!("{fault:?}").to_lowercase(), name);
+            let adapter = format!("{adapter}@scissor");
+            let scissor = Fault::Process(fault, FaultyScenes::Scissor);
+            assert_eq!(Fault::in_name(&adapter), Some(("cpu", scissor)));
+        }
+        for other in ["cpu", "cpu:fault=", "cpu:fault=Abort", "cpu:fault=abort@"] {
+            assert_eq!(Fault::in_name(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn the_name_says_how_much_slower() {
+        for (name, percent) in [("cpu:slower=5%", 5.0), ("cpu:slower=0.5%", 0.5)] {
+            assert_eq!(Fault::in_name(name), Some(("cpu", Fault::Slower(percent))));
+        }
+        for other in [
+            "cpu:slower=5",
+            "cpu:slower=%",
+            "cpu:slower=-1%",
+            "cpu:slower=NaN%",
+            "cpu:slower=1e9%",
+        ] {
+            assert_eq!(Fault::in_name(other), None, "{other}");
+        }
+    }
+}
