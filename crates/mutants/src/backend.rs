@@ -1,8 +1,8 @@
 //! The rasterizer with one bug in it.
 
-use super::library::mutants;
 use super::mutant::Mutant;
 use super::plant::Plant;
+use crate::mutants;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::{CpuBackend, PreparedScene};
 use etalon_frame::{Frame, Limits};

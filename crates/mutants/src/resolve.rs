@@ -1,8 +1,8 @@
 //! Bugs of resolves.
 
-use super::hooks::{code, resolve};
-use super::list::{CONFUSION, List, Row, SMALL};
-use super::plant::{nudge, scene};
+use crate::hooks::{code, resolve};
+use crate::list::{CONFUSION, List, SMALL};
+use crate::plant::{nudge, scene};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 
@@ -20,109 +20,78 @@ fn values(encoding: ChannelEncoding, codes: &[u32]) -> Vec<f32> {
 }
 
 fn resolves(list: &mut List) {
-    type Bug = fn(ChannelEncoding, &[u32]) -> u32;
-    list.add(
-        "srgb-encoded",
-        "SwiftShader: sRGB resolved non-linearly, and other averages",
-        "Samples of sRGB formats are averaged as codes.",
-        resolve(|e, c| match e {
+    list.bug("srgb-encoded: Samples of sRGB formats are averaged as codes.")
+        .source("SwiftShader: sRGB resolved non-linearly, and other averages")
+        .legal(CODES_AVERAGED)
+        .plant(resolve(|e, c| match e {
             ChannelEncoding::Srgb8 => c.iter().sum::<u32>() / c.len() as u32,
             _ => average(e, c),
-        }),
-    )
-    .legal(CODES_AVERAGED);
-    let picked: [Row<Bug>; 9] = [
-        (
-            "first-sample",
-            "A resolve takes the first sample.",
-            |_, c| c[0],
-        ),
-        ("last-sample", "A resolve takes the last sample.", |_, c| {
-            c[c.len() - 1]
-        }),
-        ("largest", "A resolve takes the largest sample.", |e, c| {
+        }));
+
+    let source = "SwiftShader: sRGB resolved non-linearly, and other averages";
+    list.source(source);
+    list.bug("first-sample: A resolve takes the first sample.")
+        .plant(resolve(|_, c| c[0]));
+    list.bug("last-sample: A resolve takes the last sample.")
+        .plant(resolve(|_, c| c[c.len() - 1]));
+    list.bug("largest: A resolve takes the largest sample.")
+        .plant(resolve(|e, c| {
             code(e, values(e, c).into_iter().fold(f32::MIN, f32::max))
-        }),
-        (
-            "smallest",
-            "A resolve takes the smallest sample.",
-            |e, c| code(e, values(e, c).into_iter().fold(f32::MAX, f32::min)),
-        ),
-        (
-            "median",
-            "A resolve takes the middle one of the samples.",
-            |e, c| {
-                let mut all = values(e, c);
-                all.sort_by(f32::total_cmp);
-                code(e, all[all.len() / 2])
-            },
-        ),
-        (
-            "first-half",
-            "A resolve averages the first half of the samples.",
-            |e, c| average(e, &c[..c.len() / 2]),
-        ),
-        (
-            "all-but-one",
-            "A resolve leaves out the last sample.",
-            |e, c| average(e, &c[..c.len() - 1]),
-        ),
-        ("weighted", "The first sample weighs twice.", |e, c| {
+        }));
+    list.bug("smallest: A resolve takes the smallest sample.")
+        .plant(resolve(|e, c| {
+            code(e, values(e, c).into_iter().fold(f32::MAX, f32::min))
+        }));
+    list.bug("median: A resolve takes the middle one of the samples.")
+        .plant(resolve(|e, c| {
+            let mut all = values(e, c);
+            all.sort_by(f32::total_cmp);
+            code(e, all[all.len() / 2])
+        }));
+    list.bug("first-half: A resolve averages the first half of the samples.")
+        .plant(resolve(|e, c| average(e, &c[..c.len() / 2])));
+    list.bug("all-but-one: A resolve leaves out the last sample.")
+        .plant(resolve(|e, c| average(e, &c[..c.len() - 1])));
+    list.bug("weighted: The first sample weighs twice.")
+        .plant(resolve(|e, c| {
             let all: Vec<u32> = c.iter().chain(&c[..1]).copied().collect();
             average(e, &all)
-        }),
-        ("of-4-bits", "A resolve computes with four bits.", |e, c| {
+        }));
+    list.bug("of-4-bits: A resolve computes with four bits.")
+        .plant(resolve(|e, c| {
             let mean = values(e, c).iter().sum::<f32>() / c.len() as f32;
             code(e, (mean * 15.0).floor() / 15.0)
-        }),
-    ];
-    let source = "SwiftShader: sRGB resolved non-linearly, and other averages";
-    list.rows(source, resolve, &picked);
-    let wrong: [Row<Bug>; 6] = [
-        ("sum", "A resolve adds the samples up.", |e, c| {
-            code(e, values(e, c).iter().sum())
-        }),
-        ("halved", "A resolve gives half the average.", |e, c| {
+        }));
+
+    list.source(SMALL);
+    list.bug("sum: A resolve adds the samples up.")
+        .plant(resolve(|e, c| code(e, values(e, c).iter().sum())));
+    list.bug("halved: A resolve gives half the average.")
+        .plant(resolve(|e, c| {
             code(e, values(e, c).iter().sum::<f32>() / c.len() as f32 / 2.0)
-        }),
-        (
-            "by-one-more",
-            "A resolve divides by one sample too many.",
-            |e, c| code(e, values(e, c).iter().sum::<f32>() / (c.len() + 1) as f32),
-        ),
-        (
-            "plus-1-lsb",
-            "Resolved texels are one code too large.",
-            |e, c| nudge(e, average(e, c), 1),
-        ),
-        (
-            "minus-1-lsb",
-            "Resolved texels are one code too small.",
-            |e, c| nudge(e, average(e, c), -1),
-        ),
-        ("zero", "A resolve gives 0.", |_, _| 0),
-    ];
-    list.rows(SMALL, resolve, &wrong);
-    list.add(
-        "lost",
-        CONFUSION,
-        "Nothing is resolved.",
-        scene(|scene| scene.passes.iter_mut().for_each(|p| p.resolve.fill(None))),
-    );
-    list.add(
-        "first-pass-alone",
-        CONFUSION,
-        "Passes after the first resolve nothing.",
-        scene(|scene| {
+        }));
+    list.bug("by-one-more: A resolve divides by one sample too many.")
+        .plant(resolve(|e, c| {
+            code(e, values(e, c).iter().sum::<f32>() / (c.len() + 1) as f32)
+        }));
+    list.bug("plus-1-lsb: Resolved texels are one code too large.")
+        .plant(resolve(|e, c| nudge(e, average(e, c), 1)));
+    list.bug("minus-1-lsb: Resolved texels are one code too small.")
+        .plant(resolve(|e, c| nudge(e, average(e, c), -1)));
+    list.bug("zero: A resolve gives 0.")
+        .plant(resolve(|_, _| 0));
+    list.source(CONFUSION);
+    list.bug("lost: Nothing is resolved.").plant(scene(|scene| {
+        scene.passes.iter_mut().for_each(|p| p.resolve.fill(None))
+    }));
+    list.bug("first-pass-alone: Passes after the first resolve nothing.")
+        .plant(scene(|scene| {
             let rest = scene.passes.iter_mut().skip(1);
             rest.for_each(|p| p.resolve.fill(None));
-        }),
-    );
-    list.add(
-        "last-pass-to-all",
-        "a resolve at the end of the frame and not of the pass",
-        "Every resolve takes the final values of the samples.",
-        scene(|scene| {
+        }));
+    list.bug("last-pass-to-all: Every resolve takes the final values of the samples.")
+        .source("a resolve at the end of the frame and not of the pass")
+        .plant(scene(|scene| {
             let mut targets = Vec::new();
             for pass in &mut scene.passes {
                 for (source, target) in pass.color.iter().zip(&mut pass.resolve) {
@@ -139,8 +108,7 @@ fn resolves(list: &mut List) {
                     pass
                 }));
             }
-        }),
-    );
+        }));
 }
 
 fn average(encoding: ChannelEncoding, codes: &[u32]) -> u32 {
