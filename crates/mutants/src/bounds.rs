@@ -3,6 +3,7 @@
 use crate::hooks::{bounds_fail_as_depth, in_bounds};
 use crate::list::{List, SMALL};
 use crate::plant::in_bits;
+
 pub(super) fn add(list: &mut List) {
     list.class("bounds", "depth");
     list.bug("ignored: Every stored depth passes.")

@@ -1,34 +1,26 @@
 //! Bugs of counters.
 
 use crate::list::{List, SMALL};
-use crate::plant::{Plant, from_draw};
-use etalon_frame::{CounterKind, Frame};
-use etalon_scene::Scene;
+use crate::plant::{Plant, frames, from_draw};
+use etalon_frame::CounterKind;
+use std::collections::BTreeSet;
 
-pub(super) fn add(list: &mut List) {
-    list.class("counter", "early-z");
-    counters(list);
-}
-
-/// Changes the counts of some kinds.
-fn counts(
-    kinds: impl Fn(CounterKind) -> bool + Send + Sync + 'static,
-    bug: impl Fn(u64) -> u64 + Send + Sync + 'static,
-) -> Plant {
-    Plant::Frame(Box::new(move |scene: &Scene, frame: &mut Frame| {
+/// Changes the counts of one kind.
+fn counts(kind: CounterKind, bug: fn(u64) -> u64) -> Plant {
+    frames(move |scene, frame| {
         for (counter, count) in scene.counters.iter().zip(&mut frame.counters) {
-            if kinds(counter.kind) {
+            if counter.kind == kind {
                 *count = bug(*count);
             }
         }
-    }))
+    })
 }
 
-fn counters(list: &mut List) {
+pub(super) fn add(list: &mut List) {
     list.class("counter", "early-z");
-    let precise = |kind| kind == CounterKind::SamplesPassed;
-    let any = |kind| kind == CounterKind::AnySamplesPassed;
-    let runs = |kind| kind == CounterKind::ShaderRuns;
+    let precise = CounterKind::SamplesPassed;
+    let any = CounterKind::AnySamplesPassed;
+    let runs = CounterKind::ShaderRuns;
     list.bug("samples-one-more: One sample too many is counted.")
         .source(SMALL)
         .plant(counts(precise, |n| n + 1));
@@ -75,24 +67,14 @@ fn counters(list: &mut List) {
         }));
     list.bug("query-never-ends: A counter continues through later draws.")
         .source("state of the previous draw")
-        .plant(Plant::Scene(Box::new(|scene| {
-            let scene_counters = scene.counters.clone();
-            let occlusion = |i: &usize| scene_counters[*i].kind.is_occlusion();
-            for pass in &mut scene.passes {
-                let mut running: Vec<usize> = Vec::new();
-                for draw in &mut pass.draws {
-                    let own: Vec<usize> = draw.counters.iter().copied().filter(occlusion).collect();
-                    for counter in &running {
-                        if !draw.counters.contains(counter) {
-                            draw.counters.push(*counter);
-                        }
-                    }
-                    for counter in own {
-                        if !running.contains(&counter) {
-                            running.push(counter);
-                        }
-                    }
-                }
+        .passes(|scene, _, pass| {
+            let mut running = BTreeSet::new();
+            for draw in &mut pass.draws {
+                let asked = draw.counters.clone();
+                draw.counters
+                    .extend(running.iter().filter(|counter| !asked.contains(counter)));
+                let queries = asked.into_iter();
+                running.extend(queries.filter(|i| scene.counters[*i].kind.is_occlusion()));
             }
-        })));
+        });
 }

@@ -4,6 +4,7 @@ use crate::fields::Places;
 use crate::hooks::held_to_range;
 use crate::list::{CONFUSION, List};
 use crate::plant::in_bits;
+
 const RANGE: Places<[f32; 2]> = |d| vec![&mut d.viewport.depth];
 const CLAMP: Places<bool> = |d| vec![&mut d.depth_clamp];
 

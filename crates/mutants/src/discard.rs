@@ -3,12 +3,9 @@
 use crate::hooks::kept;
 use crate::list::{CONFUSION, List};
 use crate::plant::Plant;
+
 pub(super) fn add(list: &mut List) {
     list.class("discard", "texture");
-    discards(list);
-}
-
-fn discards(list: &mut List) {
     type Keeps = fn(f32, f32) -> bool;
 
     fn plant(bug: Keeps) -> Plant {

@@ -8,10 +8,6 @@ use etalon_pipeline::BlendInput;
 
 pub(super) fn add(list: &mut List) {
     list.class("dual-source", "blend");
-    second_sources(list);
-}
-
-fn second_sources(list: &mut List) {
     super::blend::factors(list, &tables::second_source_neighbours());
     type Bug = fn(&mut BlendInput<[f32; 1]>);
 

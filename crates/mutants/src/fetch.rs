@@ -2,6 +2,7 @@
 
 use crate::hooks::fetch;
 use crate::list::List;
+
 pub(super) fn add(list: &mut List) {
     list.class("fetch", "blend");
     list.bug("one-texel-right: Texels are fetched one too far to the right.")

@@ -3,7 +3,7 @@
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, ColorTarget, CompareFunction, CullMode, DepthBias,
     DepthState, Draw, EarlyTests, FrontFace, PrimitiveTopology, SampleCoverage, Sampler,
-    StencilFace, StencilOperation,
+    StencilFace, StencilOperation, StencilState,
 };
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ pub(super) const DEPTH_COMPARE: Places<CompareFunction> =
     |d| d.depth.iter_mut().map(|s| &mut s.compare).collect();
 pub(super) const DEPTH_WRITE: Places<bool> = |d| d.depth.iter_mut().map(|s| &mut s.write).collect();
 pub(super) const DEPTH_BIAS: Places<DepthBias> = |d| vec![&mut d.depth_bias];
+pub(super) const STENCIL_TEST: Places<Option<StencilState>> = |d| vec![&mut d.stencil];
+pub(super) const STENCIL: Places<StencilState> = |d| d.stencil.iter_mut().collect();
 pub(super) const FACES: Places<StencilFace> = |d| {
     let states = d.stencil.iter_mut();
     states.flat_map(|s| [&mut s.front, &mut s.back]).collect()
@@ -32,28 +34,16 @@ pub(super) const STENCIL_WRITE_MASK: Places<u8> =
 pub(super) const TARGETS: Places<ColorTarget> = |d| d.targets.iter_mut().collect();
 pub(super) const BLEND: Places<Option<BlendState>> =
     |d| d.targets.iter_mut().map(|t| &mut t.blend).collect();
-pub(super) const EQUATIONS: Places<BlendState> = |d| {
-    d.targets
-        .iter_mut()
-        .filter_map(|t| t.blend.as_mut())
-        .collect()
-};
+pub(super) const EQUATIONS: Places<BlendState> =
+    |d| d.targets.iter_mut().flat_map(|t| &mut t.blend).collect();
 pub(super) const COLOR_EQUATION: Places<BlendComponent> =
     |d| EQUATIONS(d).into_iter().map(|b| &mut b.color).collect();
 pub(super) const ALPHA_EQUATION: Places<BlendComponent> =
     |d| EQUATIONS(d).into_iter().map(|b| &mut b.alpha).collect();
-pub(super) const COLOR_FACTORS: Places<BlendFactor> = |d| {
-    let equations = COLOR_EQUATION(d).into_iter();
-    equations
-        .flat_map(|c| [&mut c.src_factor, &mut c.dst_factor])
-        .collect()
-};
-pub(super) const ALPHA_FACTORS: Places<BlendFactor> = |d| {
-    let equations = ALPHA_EQUATION(d).into_iter();
-    equations
-        .flat_map(|c| [&mut c.src_factor, &mut c.dst_factor])
-        .collect()
-};
+pub(super) const COLOR_FACTORS: Places<BlendFactor> =
+    |d| COLOR_EQUATION(d).into_iter().flat_map(factors).collect();
+pub(super) const ALPHA_FACTORS: Places<BlendFactor> =
+    |d| ALPHA_EQUATION(d).into_iter().flat_map(factors).collect();
 pub(super) const WRITE_MASK: Places<u8> =
     |d| d.targets.iter_mut().map(|t| &mut t.write_mask).collect();
 pub(super) const SAMPLER: Places<Sampler> = |d| d.sampler.iter_mut().collect();
@@ -63,6 +53,10 @@ pub(super) const TOPOLOGY: Places<PrimitiveTopology> = |d| vec![&mut d.topology]
 pub(super) const EARLY_TESTS: Places<EarlyTests> = |d| vec![&mut d.early_tests];
 pub(super) const SAMPLE_COVERAGE: Places<SampleCoverage> =
     |d| d.multisample.sample_coverage.iter_mut().collect();
+
+fn factors(component: &mut BlendComponent) -> [&mut BlendFactor; 2] {
+    [&mut component.src_factor, &mut component.dst_factor]
+}
 
 /// Takes a field over from another draw.
 pub(super) type Take = Arc<dyn Fn(&Draw, &mut Draw) + Send + Sync>;
@@ -86,20 +80,7 @@ impl Field {
     }
 }
 
-/// Takes over a part of each place of a field.
-fn taking<T: 'static>(
-    places: Places<T>,
-    take: impl Fn(&mut T, &T) + Send + Sync + 'static,
-) -> Take {
-    Arc::new(move |before, draw| {
-        let mut before = before.clone();
-        for (to, from) in places(draw).into_iter().zip(places(&mut before)) {
-            take(to, from);
-        }
-    })
-}
-
-/// Fields while a table lists them.
+/// Fields while a table lists them, and the area of the next.
 #[derive(Default)]
 struct Table {
     area: &'static str,
@@ -107,40 +88,48 @@ struct Table {
 }
 
 /// A field of which the places are not told yet.
-struct Entry<'a>(&'a mut Table, Field);
+struct Entry<'a> {
+    table: &'a mut Table,
+    name: String,
+    area: Option<&'static str>,
+    in_sequences: bool,
+}
 
 impl Table {
-    fn row(&mut self, name: &str, area: Option<&'static str>, in_sequences: bool) -> Entry<'_> {
-        let field = Field {
+    fn entry(&mut self, name: &str, in_cases: bool, in_sequences: bool) -> Entry<'_> {
+        Entry {
             name: name.to_owned(),
-            area,
+            area: in_cases.then_some(self.area),
             in_sequences,
-            when_off: false,
-            take: Arc::new(|_, _| ()),
-        };
-        Entry(self, field)
+            table: self,
+        }
     }
 
     /// A field that is stale between cases, and in sequences.
     fn both(&mut self, name: &str) -> Entry<'_> {
-        self.row(name, Some(self.area), true)
+        self.entry(name, true, true)
     }
 
     /// A field that is stale between cases.
     fn cases(&mut self, name: &str) -> Entry<'_> {
-        self.row(name, Some(self.area), false)
+        self.entry(name, true, false)
     }
 
     /// A field that is stale in sequences.
     fn sequences(&mut self, name: &str) -> Entry<'_> {
-        self.row(name, None, true)
+        self.entry(name, false, true)
     }
 }
 
 impl Entry<'_> {
     fn take(self, take: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) {
-        let take: Take = Arc::new(take);
-        self.0.fields.push(Field { take, ..self.1 });
+        self.table.fields.push(Field {
+            name: self.name,
+            area: self.area,
+            in_sequences: self.in_sequences,
+            when_off: false,
+            take: Arc::new(take),
+        });
     }
 
     fn part<T: 'static>(
@@ -148,8 +137,12 @@ impl Entry<'_> {
         places: Places<T>,
         part: impl Fn(&mut T, &T) + Send + Sync + 'static,
     ) {
-        let take = taking(places, part);
-        self.0.fields.push(Field { take, ..self.1 });
+        self.take(move |before, draw| {
+            let mut before = before.clone();
+            for (to, from) in places(draw).into_iter().zip(places(&mut before)) {
+                part(to, from);
+            }
+        });
     }
 
     fn at<T: Clone + 'static>(self, places: Places<T>) {
@@ -158,22 +151,31 @@ impl Entry<'_> {
 
     /// A field that has a value which switches it off, the default one.
     fn switch<T: Clone + Default + PartialEq + 'static>(self, places: Places<T>) {
-        let off = Field {
-            name: self.1.name.clone(),
-            area: self.1.area,
-            in_sequences: false,
-            when_off: true,
-            take: taking(places, |to, from| {
-                if *to == T::default() {
-                    to.clone_from(from);
-                }
-            }),
-        };
-        self.0.fields.push(Field {
-            take: taking(places, T::clone_from),
-            ..self.1
+        let (table, area) = (self.table, self.area);
+        let name = self.name.clone();
+        let in_sequences = self.in_sequences;
+        Entry {
+            table: &mut *table,
+            name,
+            area,
+            in_sequences,
+        }
+        .at(places);
+        let (name, in_sequences) = (self.name, false);
+        Entry {
+            table: &mut *table,
+            name,
+            area,
+            in_sequences,
+        }
+        .part(places, |to, from| {
+            if *to == T::default() {
+                to.clone_from(from);
+            }
         });
-        self.0.fields.push(off);
+        if let Some(off) = table.fields.last_mut() {
+            off.when_off = true;
+        }
     }
 }
 
@@ -226,8 +228,8 @@ fn tests(of: &mut Table) {
 
 fn stencil(of: &mut Table) {
     of.area = "stencil";
-    of.cases("stencil").switch(|d| vec![&mut d.stencil]);
-    of.sequences("stencil-test").at(|d| vec![&mut d.stencil]);
+    of.cases("stencil").switch(STENCIL_TEST);
+    of.sequences("stencil-test").at(STENCIL_TEST);
     of.cases("stencil-operations").at(STENCIL_OPERATIONS);
     for (name, part) in FACE_PARTS {
         let front: Places<StencilFace> = |d| d.stencil.iter_mut().map(|s| &mut s.front).collect();

@@ -5,7 +5,7 @@ mod orders;
 use crate::hooks::{
     blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
 };
-use crate::list::{CONFUSION, List, PRECISION, ROUNDED, SMALL};
+use crate::list::{CONFUSION, List, PRECISION, ROUNDED, SMALL, STEPS};
 use crate::plant::{Plant, nudge};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
@@ -37,14 +37,9 @@ const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
 pub(super) fn add(list: &mut List) {
     list.class("format", "blend");
     for (name, encoding, most) in ENCODINGS {
-        for steps in [1, -1, 3, -3_i64] {
-            if steps.abs() > most {
-                continue;
-            }
-            let by = if steps > 0 { "plus" } else { "minus" };
+        for (by, steps) in STEPS.into_iter().filter(|(_, steps)| steps.abs() <= most) {
             list.bug(format!(
-                "{name}-stored-{by}-{}: {encoding} is stored {steps} codes off.",
-                steps.abs()
+                "{name}-stored-{by}: {encoding} is stored {steps} codes off."
             ))
             .source(SMALL)
             .plant(store(encoding, move |v| {
@@ -161,8 +156,8 @@ fn srgb(list: &mut List) {
 
 fn signed(list: &mut List) {
     let snorm = Snorm(8);
-    let round = |name: &str, about: &str, list: &mut List, round: fn(f32) -> f32| {
-        list.bug(format!("{name}: {about}"))
+    let mut round = |text: &str, round: fn(f32) -> f32| {
+        list.bug(text)
             .source("truncation instead of rounding")
             .legal(ROUNDED)
             .plant(store(snorm, move |v| {
@@ -174,15 +169,11 @@ fn signed(list: &mut List) {
             }));
     };
     round(
-        "snorm8-truncated",
-        "Signed values are rounded towards 0.",
-        list,
+        "snorm8-truncated: Signed values are rounded towards 0.",
         f32::trunc,
     );
     round(
-        "snorm8-rounded-down",
-        "Signed values are rounded down.",
-        list,
+        "snorm8-rounded-down: Signed values are rounded down.",
         f32::floor,
     );
     list.bug("snorm8-negatives-lost: Signed formats store 0 for negative values.")
@@ -207,8 +198,7 @@ fn signed(list: &mut List) {
     list.bug("snorm8-inverse-factors-out-of-range: Factors 1 - x of signed formats exceed 1.")
         .source("llvmpipe: snorm inverse factors out of range")
         .plant(blend_of(signed, |state, _, input| {
-            let clamped = clamp(input, -1.0);
-            faithful_blend(state, [Float32; 4], &clamped)
+            faithful_blend(state, [Float32; 4], &clamp(input, -1.0))
         }));
     list.bug("snorm8-operands-held-above-0: On signed formats, operands are clamped to 0 to 1.")
         .plant(blend_of(signed, |state, encodings, input| {
@@ -357,33 +347,23 @@ fn floats(list: &mut List) {
     };
     inputs(
         "float-constant-clamped: On float formats, the constant is clamped to 0 to 1.",
-        |i| {
-            i.constant = clamp(i, 0.0).constant;
-        },
+        |i| i.constant = clamp(i, 0.0).constant,
     );
     inputs(
         "float-source-clamped: On float formats, sources are clamped to 0 to 1.",
-        |i| {
-            i.src = clamp(i, 0.0).src;
-        },
+        |i| i.src = clamp(i, 0.0).src,
     );
     inputs(
         "float-destination-clamped: On float formats, destinations are clamped to 0 to 1.",
-        |i| {
-            i.dst = clamp(i, 0.0).dst;
-        },
+        |i| i.dst = clamp(i, 0.0).dst,
     );
     inputs(
         "float-source-negatives-lost: On float formats, negative sources count as 0.",
-        |i| {
-            i.src = i.src.map(|[v]| [v.max(0.0)]);
-        },
+        |i| i.src = i.src.map(|[v]| [v.max(0.0)]),
     );
     inputs(
         "float-destination-negatives-lost: Negative destinations of floats count as 0.",
-        |i| {
-            i.dst = i.dst.map(|[v]| [v.max(0.0)]);
-        },
+        |i| i.dst = i.dst.map(|[v]| [v.max(0.0)]),
     );
     list.bug("float-result-clamped: On float formats, blend results are clamped to 0 to 1.")
         .source(CLAMPED)

@@ -2,6 +2,7 @@
 
 use crate::list::List;
 use crate::plant::{Plant, draws};
+
 fn masks(bug: impl Fn(u8) -> u8 + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
         for target in &mut draw.targets {

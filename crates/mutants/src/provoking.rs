@@ -1,27 +1,11 @@
 //! Bugs of the vertex whose attributes are flat over a primitive.
 
 use crate::list::List;
-use crate::plant::{Plant, draws, from_draw};
+use crate::plant::from_draw;
 use etalon_scene::{Draw, PrimitiveTopology, ProvokingVertex, RESTART};
 
 /// True of the draws that a bug strikes.
 type Strikes = fn(&Draw) -> bool;
-
-fn other(vertex: ProvokingVertex) -> ProvokingVertex {
-    match vertex {
-        ProvokingVertex::First => ProvokingVertex::Last,
-        ProvokingVertex::Last => ProvokingVertex::First,
-    }
-}
-
-/// Exchanges the conventions of the draws that a bug strikes.
-fn exchanged(strikes: Strikes) -> Plant {
-    draws(move |draw| {
-        if strikes(draw) {
-            draw.provoking = draw.provoking.map(other);
-        }
-    })
-}
 
 fn is(draw: &Draw, topology: PrimitiveTopology) -> bool {
     draw.topology == topology
@@ -32,16 +16,6 @@ fn is_clipped(draw: &Draw) -> bool {
     let outside = |v: f32| !(-1.0..=1.0).contains(&v);
     let mut all = draw.mesh.vertices.iter();
     all.any(|v| outside(v.position[0]) || outside(v.position[1]))
-}
-
-/// Draws each run of vertices in the opposite direction, which leaves the picture and exchanges the ends.
-fn reversed_runs(draw: &mut Draw) {
-    if let Some(indices) = &mut draw.mesh.indices {
-        let mut runs = indices.split_mut(|i| *i == RESTART);
-        if let Some(run) = runs.nth(1) {
-            run.reverse();
-        }
-    }
 }
 
 pub(super) fn add(list: &mut List) {
@@ -55,24 +29,38 @@ pub(super) fn add(list: &mut List) {
         .draws(|draw| draw.provoking = Some(*vertex));
     }
 
-    list.bug("exchanged: First and last are exchanged.")
-        .plant(exchanged(|_| true));
-    list.bug("exchanged-for-line-lists: First and last are exchanged for lists of lines.")
-        .plant(exchanged(|draw| is(draw, T::LineList)));
-    list.bug("exchanged-for-line-strips: First and last are exchanged for strips of lines.")
-        .plant(exchanged(|draw| is(draw, T::LineStrip)));
-    list.bug("exchanged-for-triangle-lists: First and last are exchanged for lists of triangles.")
-        .plant(exchanged(|draw| is(draw, T::TriangleList)));
-    list.bug(
-        "exchanged-for-triangle-strips: First and last are exchanged for strips of triangles.",
-    )
-    .plant(exchanged(|draw| is(draw, T::TriangleStrip)));
-    list.bug("exchanged-for-fans: First and last are exchanged for fans.")
-        .plant(exchanged(|draw| is(draw, T::TriangleFan)));
-    list.bug("exchanged-for-indices: First and last are exchanged for draws with indices.")
-        .plant(exchanged(|draw| draw.mesh.indices.is_some()));
-    list.bug("exchanged-when-clipped: First and last are exchanged where a triangle is clipped.")
-        .plant(exchanged(is_clipped));
+    let exchanged: [(&str, &str, Strikes); 8] = [
+        ("", "", |_| true),
+        ("-for-line-lists", " for lists of lines", |d| {
+            is(d, T::LineList)
+        }),
+        ("-for-line-strips", " for strips of lines", |d| {
+            is(d, T::LineStrip)
+        }),
+        ("-for-triangle-lists", " for lists of triangles", |d| {
+            is(d, T::TriangleList)
+        }),
+        ("-for-triangle-strips", " for strips of triangles", |d| {
+            is(d, T::TriangleStrip)
+        }),
+        ("-for-fans", " for fans", |d| is(d, T::TriangleFan)),
+        ("-for-indices", " for draws with indices", |d| {
+            d.mesh.indices.is_some()
+        }),
+        ("-when-clipped", " where a triangle is clipped", is_clipped),
+    ];
+    for (name, about, strikes) in exchanged {
+        list.bug(format!(
+            "exchanged{name}: First and last are exchanged{about}."
+        ))
+        .when(strikes)
+        .draws(|draw| {
+            draw.provoking = draw.provoking.map(|vertex| match vertex {
+                ProvokingVertex::First => ProvokingVertex::Last,
+                ProvokingVertex::Last => ProvokingVertex::First,
+            });
+        });
+    }
     list.bug("fan-from-its-hub: The hub of a fan provokes every triangle.")
         .source("a fan made into a list that starts each triangle with the hub")
         .when(|draw| draw.provoking.is_some() && is(draw, T::TriangleFan))
@@ -96,7 +84,10 @@ pub(super) fn add(list: &mut List) {
     list.bug("second-run-reversed: After a restart the primitives are drawn from the other end.")
         .when(|draw| draw.provoking.is_some())
         .draws(|draw| {
-            reversed_runs(draw);
+            // This leaves the picture and exchanges the ends.
+            let indices = draw.mesh.indices.iter_mut();
+            let second = indices.flat_map(|all| all.split_mut(|i| *i == RESTART).nth(1));
+            second.for_each(<[_]>::reverse);
         });
     list.bug("kept-from-the-draw-before: The convention of the draw before holds.")
         .plant(from_draw(|before, draw| {

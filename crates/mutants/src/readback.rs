@@ -140,46 +140,30 @@ fn plane(aspect: Aspect, which: fn(usize) -> usize, from: From) -> Plant {
 fn multisampled(list: &mut List, aspect: Aspect) {
     let name = aspect.name();
     type Order = fn(usize, usize) -> usize;
-    let orders: [(&str, &str, Order); 4] = [
-        (
-            "neighbouring-samples-swapped",
-            "every two exchanged",
-            |s, n| (s ^ 1) % n,
-        ),
-        ("samples-reversed", "the last first", |s, n| n - 1 - s),
-        ("first-sample-for-all", "the first for all", |_, _| 0),
-        (
-            "samples-one-late",
-            "each in the place of the next",
-            |s, n| (s + n - 1) % n,
-        ),
+    let orders: [(&str, Order); 4] = [
+        ("neighbouring-samples-swapped", |s, n| (s ^ 1) % n),
+        ("samples-reversed", |s, n| n - 1 - s),
+        ("first-sample-for-all", |_, _| 0),
+        ("samples-one-late", |s, n| (s + n - 1) % n),
     ];
-    for (bug, about, from) in orders {
+    for (bug, from) in orders {
+        let words = bug.replace('-', " ");
         list.bug(format!(
-            "{name}-{bug}: Samples of {name} are read back with {about}."
+            "{name}-{bug}: The {name} image is read back with {words}."
         ))
         .source("a wrong sample index")
         .plant(samples(aspect, from));
     }
     type Plane = (&'static str, &'static str, fn(usize) -> usize, From);
     let planes: [Plane; 3] = [
-        (
-            "last-sample-upside-down",
-            "upside down",
-            |n| n - 1,
-            upside_down,
-        ),
-        (
-            "second-sample-one-texel-right",
-            "one texel to the right",
-            |_| 1,
-            right,
-        ),
-        ("first-sample-one-texel-down", "one texel down", |_| 0, down),
+        ("last", "upside-down", |n| n - 1, upside_down),
+        ("second", "one-texel-right", |_| 1, right),
+        ("first", "one-texel-down", |_| 0, down),
     ];
-    for (bug, about, which, from) in planes {
+    for (sample, bug, which, from) in planes {
+        let words = bug.replace('-', " ");
         list.bug(format!(
-            "{name}-{bug}: One sample of the {name} image is read back {about}."
+            "{name}-{sample}-sample-{bug}: The {sample} sample of {name} is read back {words}."
         ))
         .source(SMALL)
         .plant(plane(aspect, which, from));
@@ -209,29 +193,20 @@ fn upside_down([x, y]: [u32; 2], [_, h]: [u32; 2]) -> [u32; 2] {
 
 fn places(list: &mut List, aspect: Aspect) {
     let name = aspect.name();
-    let moves: [(&str, &str, From); 8] = [
-        ("one-texel-right", "one texel to the right", right),
-        ("one-texel-left", "one texel to the left", |[x, y], _| {
-            [x + 1, y]
-        }),
-        ("one-texel-down", "one texel down", down),
-        ("one-texel-up", "one texel up", |[x, y], _| [x, y + 1]),
-        ("upside-down", "upside down", upside_down),
-        ("mirrored", "mirrored", |[x, y], [w, _]| [w - 1 - x, y]),
-        (
-            "last-row-repeated",
-            "with the last row lost",
-            |[x, y], [_, h]| [x, y.min(h - 2)],
-        ),
-        (
-            "last-column-repeated",
-            "with the last column lost",
-            |[x, y], [w, _]| [x.min(w - 2), y],
-        ),
+    let moves: [(&str, From); 8] = [
+        ("one-texel-right", right),
+        ("one-texel-left", |[x, y], _| [x + 1, y]),
+        ("one-texel-down", down),
+        ("one-texel-up", |[x, y], _| [x, y + 1]),
+        ("upside-down", upside_down),
+        ("mirrored", |[x, y], [w, _]| [w - 1 - x, y]),
+        ("last-row-repeated", |[x, y], [_, h]| [x, y.min(h - 2)]),
+        ("last-column-repeated", |[x, y], [w, _]| [x.min(w - 2), y]),
     ];
-    for (bug, about, from) in moves {
+    for (bug, from) in moves {
+        let words = bug.replace('-', " ").replace("last", "with the last");
         list.bug(format!(
-            "{name}-{bug}: The {name} image is read back {about}."
+            "{name}-{bug}: The {name} image is read back {words}."
         ))
         .source(match bug {
             "upside-down" => "ANGLE: y flip breaking depth and stencil",
@@ -239,13 +214,11 @@ fn places(list: &mut List, aspect: Aspect) {
         })
         .plant(moved(aspect, from));
     }
-    type At = fn(&Image) -> usize;
+    type At = fn([u32; 2]) -> u32;
     let texels: [(&str, At); 3] = [
         ("first", |_| 0),
-        ("middle", |i| {
-            ((i.size[1] / 2) * i.size[0] + i.size[0] / 2) as usize
-        }),
-        ("last", |i| (i.size[0] * i.size[1]) as usize - 1),
+        ("middle", |[w, h]| (h / 2) * w + w / 2),
+        ("last", |[w, h]| w * h - 1),
     ];
     for (which, at) in texels {
         for (by, steps) in [("one-lsb", 1), ("three-lsb", 3)] {
@@ -254,7 +227,7 @@ fn places(list: &mut List, aspect: Aspect) {
             ))
             .source(SMALL)
             .plant(images(aspect, move |image| {
-                let place = at(image) * image.channels.len() * image.samples as usize;
+                let place = at(image.size) as usize * image.channels.len() * image.samples as usize;
                 inwards(aspect, image, place, steps);
             }));
         }

@@ -1,5 +1,6 @@
 //! Bugs of sample coverage: a share of the samples, or its inverse.
 
+use crate::fields::SAMPLE_COVERAGE;
 use crate::hooks::sample_drawn;
 use crate::list::{CONFUSION, List};
 use crate::plant::Plant;
@@ -54,31 +55,17 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn states(list: &mut List) {
-    let source = "Gallium lowers sample coverage to a mask, inversion included";
-    list.source(source);
+    list.source("Gallium lowers sample coverage to a mask, inversion included");
     list.bug("ignored: Sample coverage is never enabled.")
         .draws(|draw| draw.multisample.sample_coverage = None);
     list.bug("inversion-ignored: Inversion does nothing.")
-        .draws(|draw| {
-            if let Some(share) = &mut draw.multisample.sample_coverage {
-                share.invert = false;
-            }
-        });
+        .each(SAMPLE_COVERAGE, |share| share.invert = false);
     list.bug("always-inverted: Every share is inverted.")
-        .draws(|draw| {
-            if let Some(share) = &mut draw.multisample.sample_coverage {
-                share.invert = true;
-            }
-        });
+        .each(SAMPLE_COVERAGE, |share| share.invert = true);
     list.bug("inverts-the-value: Inversion covers the first samples, by 1 less the value.")
-        .draws(|draw| {
-            if let Some(share) = &mut draw.multisample.sample_coverage
-                && share.invert
-            {
-                *share = SampleCoverage {
-                    value: 1.0 - share.value,
-                    invert: false,
-                };
+        .each(SAMPLE_COVERAGE, |share| {
+            if std::mem::take(&mut share.invert) {
+                share.value = 1.0 - share.value;
             }
         });
     list.bug("lost-under-alpha-to-coverage: Alpha to coverage replaces sample coverage.")
@@ -108,7 +95,6 @@ fn values(list: &mut List) {
         .plant(shares(|v, s, n| s + 1 < count(v, n)));
     const OPEN: &str = "OpenGL 4.6: 14.9.3: between 0 and 1 no algorithm is required; only a number \
                         in proportion is intended";
-
     list.bug("half-as-whole: A share of a half covers all.")
         .legal(OPEN)
         .plant(shares(|v, _, _| v >= 0.5));
@@ -144,8 +130,7 @@ fn combinations(list: &mut List) {
 }
 
 fn single(list: &mut List) {
-    type Bug = fn(&Multisample) -> bool;
-    fn plant(bug: Bug) -> Plant {
+    fn plant(bug: fn(&Multisample) -> bool) -> Plant {
         sample_drawn(move |state, sample, samples| {
             let covered = match state.sample_coverage {
                 Some(share) if samples > 1 => {
@@ -156,7 +141,6 @@ fn single(list: &mut List) {
             covered && in_mask(state, sample)
         })
     }
-
     list.source("sample mask applied without several samples");
     list.bug("of-one-sample: A share of less than a half draws nothing to one sample.")
         .plant(plant(|state| {

@@ -1,8 +1,12 @@
 //! Bugs of sample shading: the share of a texel's samples that have a shader run of their own.
 
+use crate::fields::Places;
 use crate::hooks::{shaded_at, shader_runs};
 use crate::list::{CONFUSION, List};
 use crate::plant::Plant;
+
+const SHARE: Places<Option<f32>> = |d| vec![&mut d.multisample.min_sample_shading];
+
 pub(super) fn add(list: &mut List) {
     list.class("sample-shading", "multisample");
     states(list);
@@ -11,45 +15,32 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn states(list: &mut List) {
-    let source = "llvmpipe, zink: min_samples not part of the shader's key";
-    list.source(source);
+    list.source("llvmpipe, zink: min_samples not part of the shader's key");
     list.bug("ignored: Sample shading is never enabled.")
-        .draws(|draw| draw.multisample.min_sample_shading = None);
+        .set(SHARE, None);
     list.bug("always: Sample shading is always enabled.")
-        .draws(|draw| {
-            draw.multisample.min_sample_shading.get_or_insert(1.0);
-        });
+        .each(SHARE, |share| *share = share.or(Some(1.0)));
     list.bug("whole-share-alone: A share below 1 does not enable it.")
-        .draws(|draw| {
-            let share = &mut draw.multisample.min_sample_shading;
-            *share = share.filter(|share| *share >= 1.0);
-        });
-    list.bug("halved: Half of the share counts.").draws(|draw| {
-        if let Some(share) = &mut draw.multisample.min_sample_shading {
-            *share *= 0.5;
-        }
-    });
+        .each(SHARE, |share| *share = share.filter(|share| *share >= 1.0));
+    list.bug("halved: Half of the share counts.")
+        .each(SHARE, |share| *share = share.map(|share| share * 0.5));
     list.bug("off-under-a-mask: A sample mask that leaves samples out disables it.")
         .when(|draw| draw.multisample.mask & 0xf != 0xf)
-        .draws(|draw| draw.multisample.min_sample_shading = None);
+        .set(SHARE, None);
     list.source(CONFUSION);
 }
 
 fn runs(list: &mut List) {
-    type Bug = fn(f32, usize) -> usize;
-    fn plant(bug: Bug) -> Plant {
-        shader_runs(
-            move |shader, state, samples| match state.min_sample_shading {
-                _ if shader.runs_per_sample() => samples,
-                Some(share) => bug(share, samples),
-                None => 1,
-            },
-        )
+    fn plant(bug: fn(f32, usize) -> usize) -> Plant {
+        shader_runs(move |shader, state, n| match state.min_sample_shading {
+            _ if shader.runs_per_sample() => n,
+            Some(share) => bug(share, n),
+            None => 1,
+        })
     }
     fn exact(share: f32, samples: usize) -> usize {
         (share * samples as f32).ceil() as usize
     }
-
     list.bug("rounded-down: The number of runs is rounded down.")
         .plant(plant(|share, n| (share * n as f32) as usize));
     list.bug("rounded-to-nearest: The number of runs is rounded to the nearest.")
@@ -67,7 +58,6 @@ fn runs(list: &mut List) {
     list.bug("of-four-samples: The share is always taken of four samples.")
         .plant(plant(|share, _| exact(share, 4)));
     const MORE: &str = "Vulkan: Sample Shading; OpenGL 4.6: 14.3.1.1: at least as many";
-
     list.source("Intel: all samples or one");
     list.bug("rounded-up-to-a-power-of-two: The number of runs is a power of two.")
         .legal(MORE)
@@ -79,13 +69,11 @@ fn runs(list: &mut List) {
 }
 
 fn positions(list: &mut List) {
-    type Bug = fn(usize, usize) -> Option<usize>;
-    fn plant(bug: Bug) -> Plant {
+    fn plant(bug: fn(usize, usize) -> Option<usize>) -> Plant {
         shaded_at(move |state, first, samples| {
             state.min_sample_shading.and_then(|_| bug(first, samples))
         })
     }
-
     list.source("lavapipe: FragCoord of the fragment, not of the sample");
     list.bug("at-the-centre: All runs lie at the centre.")
         .plant(plant(|_, _| None));

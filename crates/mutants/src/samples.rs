@@ -17,7 +17,7 @@ pub(super) fn add(list: &mut List) {
 }
 
 /// Changes the multisample state of draws to several samples, given their number.
-fn states(bug: fn(&mut Multisample, u32)) -> Plant {
+fn states(bug: impl Fn(&mut Multisample, u32) + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let samples = scene.pass_samples(&scene.passes[number]);
         if samples > 1 {
@@ -28,13 +28,8 @@ fn states(bug: fn(&mut Multisample, u32)) -> Plant {
 }
 
 fn masks(list: &mut List) {
-    fn masks(bug: fn(u32, u32) -> u32) -> Plant {
-        passes(move |scene, number, pass| {
-            let samples = scene.pass_samples(&scene.passes[number]);
-            for draw in pass.draws.iter_mut().filter(|_| samples > 1) {
-                draw.multisample.mask = bug(draw.multisample.mask, samples);
-            }
-        })
+    fn masks(bug: impl Fn(u32, u32) -> u32 + Send + Sync + 'static) -> Plant {
+        states(move |state, samples| state.mask = bug(state.mask, samples))
     }
     list.source("wgpu, llvmpipe: sample mask hard-coded or ignored");
     list.bug("mask-ignored: All samples are drawn.")
@@ -44,21 +39,18 @@ fn masks(list: &mut List) {
     list.bug("mask-first-bit-for-all: The mask's first bit applies to all samples.")
         .plant(masks(|mask, _| if mask & 1 == 0 { 0 } else { u32::MAX }));
     list.bug("mask-any-bit-for-all: Any bit of the mask enables all samples.")
-        .plant(masks(|mask, n| {
-            if mask & (u32::MAX >> (32 - n)) == 0 {
-                0
-            } else {
-                u32::MAX
-            }
+        .plant(masks(|mask, n| match mask & (u32::MAX >> (32 - n)) {
+            0 => 0,
+            _ => u32::MAX,
         }));
     list.bug("mask-first-bit-alone: Bits of the mask beyond the first are lost.")
         .plant(masks(|mask, _| mask & 1));
-    list.bug("mask-in-2-bits: Bits of the mask beyond the second are lost.")
-        .plant(masks(|mask, _| mask & 3));
-    list.bug("mask-in-4-bits: Bits of the mask beyond the fourth are lost.")
-        .plant(masks(|mask, _| mask & 0xf));
-    list.bug("mask-in-8-bits: Bits of the mask beyond the eighth are lost.")
-        .plant(masks(|mask, _| mask & 0xff));
+    for (bits, last) in [(2, "second"), (4, "fourth"), (8, "eighth")] {
+        list.bug(format!(
+            "mask-in-{bits}-bits: The mask's bits beyond the {last} are lost."
+        ))
+        .plant(masks(move |mask, _| mask & ((1 << bits) - 1)));
+    }
     list.bug("mask-one-up: The mask's bits move to the next sample.")
         .plant(masks(|mask, _| mask << 1));
     list.bug("mask-one-down: The mask's bits move to the sample before.")
@@ -84,7 +76,6 @@ fn positions(list: &mut List) {
     fn each(all: Vec<[u16; 2]>, bug: fn([u16; 2]) -> [u16; 2]) -> Vec<[u16; 2]> {
         all.into_iter().map(bug).collect()
     }
-
     list.source("sample positions rotated");
     list.bug("all-at-the-centre: All samples lie at the centre.")
         .plant(plant(|all| each(all, |_| [128, 128])));

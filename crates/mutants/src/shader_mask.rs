@@ -16,7 +16,6 @@ fn bit(mask: u32, sample: usize) -> bool {
 
 fn masks(list: &mut List) {
     list.class("shader-mask", "multisample");
-
     list.bug("ignored: The mask that a shader writes does nothing.")
         .plant(mask_keeps(|_, _, _| true));
     list.bug("inverted: A bit that is set takes its sample away.")

@@ -1,6 +1,8 @@
 //! Bugs of the stencil test and its updates.
 
-use crate::fields::{FACE_PARTS, FACES, Places, STENCIL_COMPARE, STENCIL_OPERATIONS};
+use crate::fields::{
+    FACE_PARTS, FACES, Places, STENCIL, STENCIL_COMPARE, STENCIL_OPERATIONS, STENCIL_TEST,
+};
 use crate::hooks::{stencil_passes, stencil_write, written};
 use crate::list::{CONFUSION, List};
 use crate::plant::Plant;
@@ -8,10 +10,7 @@ use crate::tables::{compare_neighbours, round};
 use etalon_cpu::steps::Path;
 use etalon_frame::TextureFormat;
 use etalon_pipeline::{compare, stencil_operation, stencil_passes as right};
-use etalon_scene::{CompareFunction, StencilFace, StencilOperation, StencilState};
-
-const STENCIL: Places<Option<StencilState>> = |d| vec![&mut d.stencil];
-const STATE: Places<StencilState> = |d| d.stencil.iter_mut().collect();
+use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
 
 pub(super) fn add(list: &mut List) {
     use StencilOperation as Op;
@@ -55,23 +54,23 @@ pub(super) fn add(list: &mut List) {
 fn sides(list: &mut List) {
     const BACK_LAST: &str = "wgpu: back stencil overwriting front";
     list.bug("faces-swapped: The states of front and back faces are exchanged.")
-        .each(STATE, |s| std::mem::swap(&mut s.front, &mut s.back));
+        .each(STENCIL, |s| std::mem::swap(&mut s.front, &mut s.back));
     list.bug("back-overwrites-front: Both faces take the back's state.")
         .source(BACK_LAST)
-        .each(STATE, |s| s.front = s.back);
+        .each(STENCIL, |s| s.front = s.back);
     list.bug("front-overwrites-back: Both faces take the front's state.")
-        .each(STATE, |s| s.back = s.front);
+        .each(STENCIL, |s| s.back = s.front);
     for (name, take) in FACE_PARTS {
         list.bug(format!(
             "back-{name}-from-front: Back faces take the front's {name}."
         ))
         .source("WebGPU CTS never tests the back's state apart from the front's")
-        .each(STATE, move |s| take(&mut s.back, &s.front));
+        .each(STENCIL, move |s| take(&mut s.back, &s.front));
         list.bug(format!(
             "front-{name}-from-back: Front faces take the back's {name}."
         ))
         .source(BACK_LAST)
-        .each(STATE, move |s| take(&mut s.front, &s.back));
+        .each(STENCIL, move |s| take(&mut s.front, &s.back));
     }
 }
 
@@ -109,11 +108,11 @@ fn masks(list: &mut List) {
         .each(FACES, |face| face.read_mask &= 0x7f);
     list.bug("off-with-read-mask-zero: A draw whose read masks are 0 has no stencil test.")
         .source("wgpu: stencil off when the read mask is 0")
-        .each(STENCIL, |s| {
+        .each(STENCIL_TEST, |s| {
             *s = s.filter(|s| s.front.read_mask | s.back.read_mask != 0)
         });
     list.bug("off-with-write-mask-zero: A draw whose write masks are 0 has no stencil test.")
-        .each(STENCIL, |s| {
+        .each(STENCIL_TEST, |s| {
             *s = s.filter(|s| s.front.write_mask | s.back.write_mask != 0)
         });
 }
@@ -235,7 +234,7 @@ fn operations(list: &mut List) {
 
 fn switches(list: &mut List) {
     list.bug("test-off: There is no stencil test.")
-        .set(STENCIL, None);
+        .set(STENCIL_TEST, None);
     list.bug("test-passes-always: The stencil test always passes.")
         .plant(stencil_passes(|_, _| true));
     list.bug("off-without-depth: An attachment of stencil alone is not tested.")
@@ -247,7 +246,7 @@ fn switches(list: &mut List) {
         });
     list.bug("off-without-depth-test: A draw without a depth test has no stencil test.")
         .when(|draw| draw.depth.is_none())
-        .set(STENCIL, None);
+        .set(STENCIL_TEST, None);
     list.bug("color-where-stencil-fails: Fragments that fail the stencil test write their colour.")
         .plant(written(|[covered, stencil, depth]| {
             [covered && depth, covered && stencil && depth]

@@ -1,14 +1,14 @@
 //! Bugs of the stencil reference that a shader writes.
 
+use crate::fields::{EARLY_TESTS, STENCIL_OPERATIONS, STENCIL_TEST};
 use crate::hooks::exported;
 use crate::list::List;
-use crate::plant::{Plant, draws, from_draw};
+use crate::plant::from_draw;
 use etalon_cpu::steps::{Exported, Path};
 use etalon_scene::{Draw, EarlyTests, Shader, StencilOperation};
 
 pub(super) fn add(list: &mut List) {
     list.class("stencil-export", "stencil");
-
     list.bug("ignored: The reference that a shader writes does nothing.")
         .plant(exported(|of| of.face.reference));
     list.bug("test-alone: The stencil test takes the shader's reference, `replace` the draw's.")
@@ -65,34 +65,24 @@ pub(super) fn add(list: &mut List) {
         .plant(exported(|of| value(of).wrapping_sub(of.plus) as u8));
     list.bug("tested-early: Shaders that write a reference are tested early.")
         .source("llvmpipe, panfrost: early tests despite what a shader does")
-        .plant(exporting(|draw| draw.early_tests = EarlyTests::Forced));
+        .when(exports)
+        .set(EARLY_TESTS, EarlyTests::Forced);
     list.bug("forced-as-late: Forced early tests come late where the shader writes a reference.")
-        .plant(exporting(|draw| draw.early_tests = EarlyTests::Implicit));
+        .when(exports)
+        .set(EARLY_TESTS, EarlyTests::Implicit);
     list.bug("off-without-reading-the-draws: A draw whose own reference is 0 has no stencil test.")
-        .plant(exporting(|draw| {
-            draw.stencil = draw
-                .stencil
-                .filter(|s| s.front.reference != 0 || s.back.reference != 0)
-        }));
+        .when(exports)
+        .each(STENCIL_TEST, |s| {
+            *s = s.filter(|s| s.front.reference | s.back.reference != 0)
+        });
     list.bug("update-lost: `replace` keeps the stored value.")
-        .source(
-            "drivers that take stencil for unchanged where the draw's own reference leaves it so",
-        )
-        .plant(exporting(|draw| {
-            if let Some(stencil) = &mut draw.stencil {
-                for face in [&mut stencil.front, &mut stencil.back] {
-                    for operation in [
-                        &mut face.fail_op,
-                        &mut face.depth_fail_op,
-                        &mut face.pass_op,
-                    ] {
-                        if *operation == StencilOperation::Replace {
-                            *operation = StencilOperation::Keep;
-                        }
-                    }
-                }
+        .source("drivers that take stencil for unchanged where the draw's own reference is")
+        .when(exports)
+        .each(STENCIL_OPERATIONS, |operation| {
+            if *operation == StencilOperation::Replace {
+                *operation = StencilOperation::Keep;
             }
-        }));
+        });
     list.bug("lingers: A draw takes the reference that the shader of the draw before it writes.")
         .plant(from_draw(|before, draw| {
             if before.shader.writes_reference() && draw.shader == Shader::UniformColor {
@@ -112,6 +102,11 @@ pub(super) fn add(list: &mut List) {
     }));
 }
 
+/// True of draws whose shader writes a reference.
+fn exports(draw: &Draw) -> bool {
+    draw.shader.writes_reference()
+}
+
 /// Returns what the shader writes for the texel.
 fn value(of: &Exported) -> i32 {
     of.written[of.lane]
@@ -119,17 +114,9 @@ fn value(of: &Exported) -> i32 {
 
 /// Returns the shader's reference, or the draw's if not `exported`.
 fn if_so(of: &Exported, exported: bool) -> u8 {
-    match exported {
-        true => value(of) as u8,
-        false => of.face.reference,
+    if exported {
+        value(of) as u8
+    } else {
+        of.face.reference
     }
-}
-
-/// A bug of a draw whose shader writes a reference.
-fn exporting(bug: fn(&mut Draw)) -> Plant {
-    draws(move |draw| {
-        if draw.shader.writes_reference() {
-            bug(draw);
-        }
-    })
 }

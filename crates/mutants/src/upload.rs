@@ -5,11 +5,6 @@ use crate::plant::{Plant, contents, in_bits};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::Contents;
 
-pub(super) fn add(list: &mut List) {
-    list.class("upload", "blend");
-    uploads(list);
-}
-
 /// Changes the codes of uploads, given the attachment and the numbers of codes per texel and row.
 fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
@@ -49,7 +44,8 @@ fn half(value: f32) -> f32 {
     encoding.value_of_order(order) as f32
 }
 
-fn uploads(list: &mut List) {
+pub(super) fn add(list: &mut List) {
+    list.class("upload", "blend");
     list.source("a wrong row pitch or origin");
     list.bug("red-blue-swapped: Red and blue of uploads are exchanged.")
         .plant(texels(|codes, _, [texel, _]| {

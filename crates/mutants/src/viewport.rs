@@ -3,12 +3,9 @@
 use crate::list::{CONFUSION, List, SMALL};
 use crate::plant::{Plant, sized};
 use crate::tables::ONE_TEXEL;
+
 pub(super) fn add(list: &mut List) {
     list.class("viewport", "scissor");
-    viewports(list);
-}
-
-fn viewports(list: &mut List) {
     type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
     fn rects(bug: Bug) -> Plant {
         sized(move |draw, size| {
@@ -25,7 +22,6 @@ fn viewports(list: &mut List) {
                 }
             });
     }
-
     list.source("ANGLE: y flip; misread rectangles");
     list.bug("ignored: Viewports are the whole attachment.")
         .plant(rects(|_, [w, h]| [0.0, 0.0, w, h]));

@@ -3,7 +3,7 @@
 use crate::list::List;
 use crate::plant::{Plant, contents, images_of, passes};
 use etalon_frame::TextureFormat::{self, *};
-use etalon_scene::{Contents, Draw};
+use etalon_scene::{Attachment, Contents, Draw};
 
 /// The formats, and the two channels that a mistake would exchange.
 const ORDERS: [(TextureFormat, [usize; 2]); 11] = [
@@ -26,39 +26,29 @@ pub(super) fn add(list: &mut List) {
         let channels = ["red", "green", "blue", "alpha"];
         let (first, second) = (channels[a], channels[b]);
         let n = format.color_channels().len();
-        let mut add = |what: &str, about: &str, plant| {
+        let mut add = |what: &str, plant| {
             list.bug(format!(
-                "{name}-{what}-{first}-{second}-swapped: On {name}, they are exchanged {about}."
+                "{name}-{what}-{first}-{second}-swapped: Each {what} of {name} exchanges {first} and \
+                 {second}."
             ))
             .plant(plant);
         };
-        add(
-            "read",
-            "in read-back",
-            images_of(
-                move |a| a.format == format,
-                move |image| image.codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b)),
-            ),
-        );
-        add(
-            "clear",
-            "in clear values",
-            contents_of(format, move |contents| {
-                if let Contents::Color(color) = contents {
-                    color.swap(a, b);
-                }
-            }),
-        );
+        let texels = move |codes: &mut [u32]| codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
+        let of = move |attachment: &Attachment| attachment.format == format;
+        add("read", images_of(of, move |image| texels(&mut image.codes)));
+        let clear = move |contents: &mut Contents| {
+            if let Contents::Color(color) = contents {
+                color.swap(a, b);
+            }
+        };
+        add("clear", contents_of(format, clear));
+        let upload = move |contents: &mut Contents| {
+            if let Contents::Texels(codes) = contents {
+                texels(codes);
+            }
+        };
         if format != Rgba32Float {
-            add(
-                "upload",
-                "in uploads",
-                contents_of(format, move |contents| {
-                    if let Contents::Texels(codes) = contents {
-                        codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
-                    }
-                }),
-            );
+            add("upload", contents_of(format, upload));
         }
     }
     list.bug(

@@ -1,7 +1,7 @@
 //! Passes that lose what earlier ones drew, their draws, attachments or resolves, or their promises; and
 //! submissions after the first.
 
-use crate::fields::{DEPTH, DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
+use crate::fields::{DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
 use crate::list::{CONFUSION, List};
 use crate::plant::{Plant, again, all_draws, passes};
 use etalon_frame::TextureFormat;
@@ -20,6 +20,15 @@ fn lose(lost: impl Fn(&Pass, &Pass, usize) -> bool + Send + Sync + 'static) -> P
     passes(move |asked, number, pass| {
         let mut later = (1..).zip(&asked.passes[number + 1..]);
         if later.any(|(distance, later)| lost(&asked.passes[number], later, distance)) {
+            pass.draws.clear();
+        }
+    })
+}
+
+/// Empties some passes, given those before each.
+fn emptied(strikes: fn(&[Pass], &Pass) -> bool) -> Plant {
+    passes(move |asked, number, pass| {
+        if strikes(&asked.passes[..number], pass) {
             pass.draws.clear();
         }
     })
@@ -106,20 +115,14 @@ fn lost(list: &mut List) {
         "depth-and-stencil-lost-without-colour: Depth and stencil of a pass without colour \
          are lost.",
     )
-    .passes(|_, _, pass| {
-        if pass.color.is_empty() {
-            pass.draws.clear();
-        }
-    });
+    .plant(emptied(|_, pass| pass.color.is_empty()));
     list.bug("texture-as-first-sampled: A texture that was sampled keeps what it held then.")
         .source("wgpu's GL, Zink: a cache that is not flushed")
-        .passes(|asked, number, pass| {
-            let before = asked.passes[..number].iter().flat_map(|p| &p.draws);
-            let read: Vec<usize> = before.flat_map(|d| d.textures.clone()).collect();
-            if pass.color.iter().any(|c| read.contains(c)) {
-                pass.draws.clear();
-            }
-        });
+        .plant(emptied(|before, pass| {
+            let draws = before.iter().flat_map(|p| &p.draws);
+            let mut read = draws.flat_map(|d| &d.textures);
+            read.any(|texture| pass.color.contains(texture))
+        }));
     list.bug("texture-as-uploaded: What was drawn to a texture does not reach the next pass.")
         .source(CONFUSION)
         .plant(lose(|pass, later, distance| {
@@ -131,24 +134,13 @@ fn lost(list: &mut List) {
 fn draws(list: &mut List) {
     list.source(CONFUSION);
     list.bug("third-pass-dropped: The third pass on an attachment draws nothing.")
-        .passes(|asked, number, pass| {
-            let before = asked.passes[..number].iter().filter(|b| share(b, pass));
-            if before.count() == 2 {
-                pass.draws.clear();
-            }
-        });
+        .plant(emptied(|before, pass| {
+            before.iter().filter(|b| share(b, pass)).count() == 2
+        }));
     list.bug("sixteenth-pass-dropped: Passes behind the fifteenth draw nothing.")
-        .passes(|_, number, pass| {
-            if number >= 15 {
-                pass.draws.clear();
-            }
-        });
+        .plant(emptied(|before, _| before.len() >= 15));
     list.bug("second-pass-lost: The second pass draws nothing.")
-        .passes(|_, number, pass| {
-            if number == 1 {
-                pass.draws.clear();
-            }
-        });
+        .plant(emptied(|before, _| before.len() == 1));
     list.bug("first-draw-of-later-passes-lost: Every pass but the first loses its first draw.")
         .plant(after(|_, pass| {
             drop(pass.draws.drain(..1.min(pass.draws.len())))
@@ -254,10 +246,7 @@ fn promises(list: &mut List) {
     list.bug("depth-test-off-in-read-only: A read-only pass after another does not test depth.")
         .plant(after(|_, pass| {
             if pass.depth_stencil_read_only {
-                pass.draws
-                    .iter_mut()
-                    .flat_map(DEPTH)
-                    .for_each(|depth| *depth = None);
+                pass.draws.iter_mut().for_each(|draw| draw.depth = None);
             }
         }));
 }
@@ -267,11 +256,9 @@ fn resolves(list: &mut List) {
         .passes(|_, _, pass| pass.resolve.iter_mut().skip(1).for_each(|r| *r = None));
     list.bug("resolve-second-target: Of several targets, the second is not resolved.")
         .passes(|_, _, pass| {
-            pass.resolve
-                .iter_mut()
-                .skip(1)
-                .take(1)
-                .for_each(|r| *r = None)
+            if let Some(second) = pass.resolve.get_mut(1) {
+                *second = None;
+            }
         });
     list.bug("resolve-once: A target that was resolved to is not resolved to again.")
         .passes(|asked, number, pass| {
@@ -317,9 +304,8 @@ fn submissions(list: &mut List) {
     )
     .source("a ring of uniform buffers that wraps")
     .plant(again(2, |scene| {
-        let params = all_draws(scene).last().map(|d| d.params);
-        all_draws(scene)
-            .zip(params.into_iter().cycle())
-            .for_each(|(d, p)| d.params = p);
+        if let Some(params) = all_draws(scene).last().map(|d| d.params) {
+            all_draws(scene).for_each(|d| d.params = params);
+        }
     }));
 }
