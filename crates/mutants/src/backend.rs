@@ -1,8 +1,8 @@
 //! The rasterizer with one bug in it.
 
-use super::library::mutants;
 use super::mutant::Mutant;
 use super::plant::Plant;
+use crate::mutants;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::{CpuBackend, PreparedScene};
 use etalon_frame::{Frame, Limits};
@@ -112,22 +112,25 @@ struct PreparedAgain<P> {
     submissions: u32,
 }
 
+impl<P> PreparedAgain<P> {
+    /// What the last submission drew.
+    fn drawn(&mut self) -> &mut P {
+        if self.submissions >= self.from {
+            &mut self.wrong
+        } else {
+            &mut self.right
+        }
+    }
+}
+
 impl<P: Prepared> Prepared for PreparedAgain<P> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         self.submissions += 1;
-        if self.submissions >= self.from {
-            self.wrong.submit()
-        } else {
-            self.right.submit()
-        }
+        self.drawn().submit()
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
-        if self.submissions >= self.from {
-            self.wrong.read_back()
-        } else {
-            self.right.read_back()
-        }
+        self.drawn().read_back()
     }
 }
 

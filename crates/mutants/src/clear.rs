@@ -1,40 +1,35 @@
 //! Bugs of clear values.
 
-use super::hooks::{clear_code, code};
-use super::list::{CONFUSION, List, SMALL};
-use super::plant::{Plant, in_bits, nudge, scene};
-use etalon_frame::ChannelEncoding;
+use crate::hooks::{clear_code, code};
+use crate::list::{CONFUSION, List, ROUNDED, SMALL, STEPS};
+use crate::plant::{Plant, contents, in_bits, nudge};
+use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_scene::Contents;
 
-const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
-                       Fixed-Point: one of the two closest values, the nearest only recommended";
-
 fn colors(bug: impl Fn(&mut [f32; 4]) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for attachment in &mut scene.attachments {
-            if let Contents::Color(color) = &mut attachment.contents {
-                bug(color);
-            }
+    contents(move |attachment| {
+        if let Contents::Color(color) = &mut attachment.contents {
+            bug(color);
         }
     })
 }
 
 fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for attachment in &mut scene.attachments {
-            if let Contents::DepthStencil { depth, stencil } = &mut attachment.contents {
-                bug(depth, stencil);
-            }
+    contents(move |attachment| {
+        if let Contents::DepthStencil { depth, stencil } = &mut attachment.contents {
+            bug(depth, stencil);
         }
     })
 }
 
+/// Moves the codes of some encodings and values.
+fn off(steps: i64, of: fn(ChannelEncoding, f32) -> bool) -> Plant {
+    clear_code(move |e, v| nudge(e, code(e, v), if of(e, v) { steps } else { 0 }))
+}
+
 /// True if an encoding is one of depth. Colours of 32-bit floats count as depths too.
 fn is_depth(encoding: ChannelEncoding) -> bool {
-    matches!(
-        encoding,
-        ChannelEncoding::Unorm(16 | 24) | ChannelEncoding::Float32
-    )
+    matches!(encoding, Unorm(16 | 24) | Float32)
 }
 
 pub(super) fn add(list: &mut List) {
@@ -47,234 +42,121 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn color(list: &mut List) {
-    for (name, lsb) in [
-        ("plus-1", 1),
-        ("minus-1", -1),
-        ("plus-3", 3),
-        ("minus-3", -3),
-    ] {
-        list.add(
-            &format!("color-{name}-lsb"),
-            SMALL,
-            format!("Cleared colours are {lsb} codes off, within their range."),
-            clear_code(move |encoding, v| {
-                let right = code(encoding, v);
-                if is_depth(encoding) {
-                    right
-                } else {
-                    nudge(encoding, right, lsb)
-                }
-            }),
-        );
+    list.source(SMALL);
+    for (name, steps) in STEPS {
+        list.bug(format!(
+            "color-{name}-lsb: Cleared colours are {steps} codes off, within their range."
+        ))
+        .plant(off(steps, |encoding, _| !is_depth(encoding)));
     }
-    list.add(
-        "color-ignored",
-        CONFUSION,
-        "Colour starts from 0.",
-        colors(|color| *color = [0.0; 4]),
-    );
-    list.add(
-        "alpha-ignored",
-        CONFUSION,
-        "Cleared alpha is 1.",
-        colors(|color| color[3] = 1.0),
-    );
-    list.add(
-        "alpha-zero",
-        CONFUSION,
-        "Cleared alpha is 0.",
-        colors(|color| color[3] = 0.0),
-    );
-    list.add(
-        "color-red-blue-swapped",
-        CONFUSION,
-        "Cleared red and blue are exchanged.",
-        colors(|color| color.swap(0, 2)),
-    );
-    list.add(
-        "color-channels-reversed",
-        CONFUSION,
-        "Cleared channels stand in reverse order.",
-        colors(|color| color.reverse()),
-    );
-    list.add(
-        "color-green-alpha-swapped",
-        CONFUSION,
-        "Cleared green and alpha are exchanged.",
-        colors(|color| color.swap(1, 3)),
-    );
     for bits in [5, 6, 7] {
-        list.add(
-            &format!("color-in-{bits}-bits"),
-            SMALL,
-            format!("Cleared colours keep {bits} bits."),
-            colors(move |color| *color = color.map(|v| in_bits(v, bits))),
-        );
+        list.bug(format!(
+            "color-in-{bits}-bits: Cleared colours keep {bits} bits."
+        ))
+        .plant(colors(move |color| {
+            *color = color.map(|v| in_bits(v, bits))
+        }));
     }
-    list.add(
-        "color-clamped-late",
-        CONFUSION,
-        "Cleared colours outside 0 to 1 wrap around instead of being clamped.",
-        colors(|color| {
-            *color = color.map(|v| {
-                if (0.0..=1.0).contains(&v) {
-                    v
-                } else {
-                    v - v.floor()
-                }
-            });
-        }),
-    );
-    list.add(
-        "color-encoded-as-srgb",
-        "a linear format treated as sRGB",
-        "Cleared colours are encoded as sRGB.",
-        colors(|color| {
+    list.source(CONFUSION);
+    list.bug("color-ignored: Colour starts from 0.")
+        .plant(colors(|color| *color = [0.0; 4]));
+    list.bug("alpha-ignored: Cleared alpha is 1.")
+        .plant(colors(|color| color[3] = 1.0));
+    list.bug("alpha-zero: Cleared alpha is 0.")
+        .plant(colors(|color| color[3] = 0.0));
+    list.bug("color-red-blue-swapped: Cleared red and blue are exchanged.")
+        .plant(colors(|color| color.swap(0, 2)));
+    list.bug("color-channels-reversed: Cleared channels stand in reverse order.")
+        .plant(colors(|color| color.reverse()));
+    list.bug("color-green-alpha-swapped: Cleared green and alpha are exchanged.")
+        .plant(colors(|color| color.swap(1, 3)));
+    list.bug("color-clamped-late: Cleared colours outside 0 to 1 wrap around.")
+        .plant(colors(|color| {
+            let outside = |v: f32| !(0.0..=1.0).contains(&v);
+            *color = color.map(|v| if outside(v) { v - v.floor() } else { v });
+        }));
+    list.bug("color-encoded-as-srgb: Cleared colours are encoded as sRGB.")
+        .source("a linear format treated as sRGB")
+        .plant(colors(|color| {
             for v in &mut color[..3] {
                 *v = v.max(0.0).powf(1.0 / 2.2);
             }
-        }),
-    );
-    for (name, up) in [("down", false), ("up", true)] {
-        list.add(
-            &format!("color-rounded-{name}"),
-            "drivers differ in clear rounding: 0.3 becomes 76 or 77",
-            format!("Cleared colours are rounded {name}."),
-            clear_code(move |encoding, v| {
-                let ChannelEncoding::Unorm(1..=10) = encoding else {
-                    return code(encoding, v);
-                };
-                let exact = f64::from(v.clamp(0.0, 1.0)) * encoding.max_order() as f64;
-                (if up { exact.ceil() } else { exact.floor() }) as u32
-            }),
-        )
-        .legal(ROUNDED);
+        }));
+    type Round = fn(f64) -> f64;
+    let rounds: [(&str, Round); 2] = [("down", f64::floor), ("up", f64::ceil)];
+    for (name, round) in rounds {
+        list.bug(format!(
+            "color-rounded-{name}: Cleared colours are rounded {name}."
+        ))
+        .source("drivers differ in clear rounding: 0.3 becomes 76 or 77")
+        .legal(ROUNDED)
+        .plant(clear_code(move |encoding, v| match encoding {
+            Unorm(1..=10) => {
+                round(f64::from(v.clamp(0.0, 1.0)) * encoding.max_order() as f64) as u32
+            }
+            _ => code(encoding, v),
+        }));
     }
 }
 
 fn depth(list: &mut List) {
-    list.add(
-        "depth-ignored",
-        CONFUSION,
-        "Depth starts from 1.",
-        depths_and_stencils(|depth, _| *depth = 1.0),
-    );
-    list.add(
-        "depth-zero",
-        CONFUSION,
-        "Depth starts from 0.",
-        depths_and_stencils(|depth, _| *depth = 0.0),
-    );
-    list.add(
-        "depth-inverted",
-        CONFUSION,
-        "Depth starts from 1 minus its clear value.",
-        depths_and_stencils(|depth, _| *depth = 1.0 - *depth),
-    );
-    list.add(
-        "depth-halved",
-        "a depth range of -1 to 1",
-        "Depth starts from its clear value mapped from -1 to 1.",
-        depths_and_stencils(|depth, _| *depth = *depth * 0.5 + 0.5),
-    );
-    for bits in [8, 15, 16] {
-        list.add(
-            &format!("depth-in-{bits}-bits"),
-            SMALL,
-            format!("Cleared depths keep {bits} bits."),
-            depths_and_stencils(move |depth, _| *depth = in_bits(*depth, bits)),
-        );
-    }
-    list.add(
-        "depth-one-code-up",
-        SMALL,
-        "Cleared depths are one code too large.",
-        clear_code(|encoding, v| {
-            let right = code(encoding, v);
-            nudge(encoding, right, i64::from(is_depth(encoding) && v < 1.0))
-        }),
-    );
-    list.add(
-        "depth-one-code-down",
-        SMALL,
-        "Cleared depths are one code too small.",
-        clear_code(|encoding, v| {
-            let right = code(encoding, v);
-            nudge(encoding, right, -i64::from(is_depth(encoding) && v > 0.0))
-        }),
-    );
-    list.add(
-        "depth-rounded-down",
-        "truncation instead of rounding",
-        "Cleared depths are rounded down.",
-        clear_code(|encoding, v| match encoding {
-            ChannelEncoding::Unorm(16 | 24) => {
-                (f64::from(v) * encoding.max_order() as f64).floor() as u32
-            }
-            _ => code(encoding, v),
-        }),
-    )
-    .legal(ROUNDED);
-    list.add(
-        "depth-lost-with-stencil",
-        CONFUSION,
-        "A clear value of stencil other than 0 resets depth to 1.",
-        depths_and_stencils(|depth, stencil| {
+    list.bug("depth-ignored: Depth starts from 1.")
+        .plant(depths_and_stencils(|depth, _| *depth = 1.0));
+    list.bug("depth-zero: Depth starts from 0.")
+        .plant(depths_and_stencils(|depth, _| *depth = 0.0));
+    list.bug("depth-inverted: Depth starts from 1 minus its clear value.")
+        .plant(depths_and_stencils(|depth, _| *depth = 1.0 - *depth));
+    list.bug("depth-halved: Depth starts from its clear value mapped from -1 to 1.")
+        .source("a depth range of -1 to 1")
+        .plant(depths_and_stencils(|depth, _| *depth = *depth * 0.5 + 0.5));
+    list.bug("depth-lost-with-stencil: A clear value of stencil other than 0 resets depth to 1.")
+        .plant(depths_and_stencils(|depth, stencil| {
             if *stencil != 0 {
                 *depth = 1.0;
             }
-        }),
-    );
+        }));
+    list.source(SMALL);
+    for bits in [8, 15, 16] {
+        list.bug(format!(
+            "depth-in-{bits}-bits: Cleared depths keep {bits} bits."
+        ))
+        .plant(depths_and_stencils(move |depth, _| {
+            *depth = in_bits(*depth, bits)
+        }));
+    }
+    list.bug("depth-one-code-up: Cleared depths are one code too large.")
+        .plant(off(1, |encoding, v| is_depth(encoding) && v < 1.0));
+    list.bug("depth-one-code-down: Cleared depths are one code too small.")
+        .plant(off(-1, |encoding, v| is_depth(encoding) && v > 0.0));
+    list.bug("depth-rounded-down: Cleared depths are rounded down.")
+        .source("truncation instead of rounding")
+        .legal(ROUNDED)
+        .plant(clear_code(|encoding, v| match encoding {
+            Unorm(16 | 24) => (f64::from(v) * encoding.max_order() as f64).floor() as u32,
+            _ => code(encoding, v),
+        }));
 }
 
 fn stencil(list: &mut List) {
-    type Bug = (&'static str, &'static str, fn(u8) -> u8);
-    let bugs: [Bug; 6] = [
-        ("stencil-ignored", "Stencil starts from 0.", |_| 0),
-        (
-            "stencil-in-7-bits",
-            "Cleared stencil loses its highest bit.",
-            |s| s & 0x7f,
-        ),
-        (
-            "stencil-in-4-bits",
-            "Cleared stencil loses its upper four bits.",
-            |s| s & 0x0f,
-        ),
-        (
-            "stencil-plus-1",
-            "Cleared stencil is one too large, round the end.",
-            |s| s.wrapping_add(1),
-        ),
-        (
-            "stencil-inverted",
-            "Cleared stencil's bits are inverted.",
-            |s| !s,
-        ),
-        (
-            "stencil-all-ones",
-            "A cleared stencil other than 0 becomes 255.",
-            |s| {
-                if s == 0 { 0 } else { 255 }
-            },
-        ),
-    ];
-    for (name, about, bug) in bugs {
-        list.add(
-            name,
-            CONFUSION,
-            about,
-            depths_and_stencils(move |_, stencil| *stencil = bug(*stencil)),
-        );
+    fn stencils(bug: fn(u8) -> u8) -> Plant {
+        depths_and_stencils(move |_, stencil| *stencil = bug(*stencil))
     }
-    list.add(
-        "stencil-lost-with-depth",
-        CONFUSION,
-        "A clear value of depth other than 1 resets stencil to 0.",
-        depths_and_stencils(|depth, stencil| {
+    list.bug("stencil-ignored: Stencil starts from 0.")
+        .plant(stencils(|_| 0));
+    list.bug("stencil-in-7-bits: Cleared stencil loses its highest bit.")
+        .plant(stencils(|s| s & 0x7f));
+    list.bug("stencil-in-4-bits: Cleared stencil loses its upper four bits.")
+        .plant(stencils(|s| s & 0x0f));
+    list.bug("stencil-plus-1: Cleared stencil is one too large, round the end.")
+        .plant(stencils(|s| s.wrapping_add(1)));
+    list.bug("stencil-inverted: Cleared stencil's bits are inverted.")
+        .plant(stencils(|s| !s));
+    list.bug("stencil-all-ones: A cleared stencil other than 0 becomes 255.")
+        .plant(stencils(|s| if s == 0 { 0 } else { 255 }));
+    list.bug("stencil-lost-with-depth: A clear value of depth other than 1 resets stencil to 0.")
+        .plant(depths_and_stencils(|depth, stencil| {
             if *depth != 1.0 {
                 *stencil = 0;
             }
-        }),
-    );
+        }));
 }

@@ -1,282 +1,145 @@
 //! Bugs of the depth test and of stored depths.
 
-use super::hooks::{code, depth_code, depth_passes, written};
-use super::list::{CONFUSION, List, SMALL};
-use super::plant::{draws, in_bits};
-use super::tables;
-use etalon_frame::ChannelEncoding;
+use crate::fields::{DEPTH, DEPTH_COMPARE, DEPTH_WRITE, WRITE_MASK};
+use crate::hooks::{code, depth_code, depth_passes, written};
+use crate::list::{List, ROUNDED, SMALL};
+use crate::plant::{Plant, in_bits};
+use crate::tables::compare_neighbours;
+use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_pipeline::compare;
 use etalon_scene::{CompareFunction, DepthState, Shader};
 
-const KEPT_BITS: &str = "drivers that keep 22 or 15 bits of D24 or D16";
-
 pub(super) fn add(list: &mut List) {
     list.class("depth", "depth");
-    for (right, wrong) in tables::compare_neighbours() {
-        list.add(
-            &format!("compare-{}-as-{}", right.name(), wrong.name()),
-            CONFUSION,
-            format!("The depth test {} acts as {}.", right.name(), wrong.name()),
-            draws(move |draw| {
-                if let Some(depth) = &mut draw.depth
-                    && depth.compare == right
-                {
-                    depth.compare = wrong;
-                }
-            }),
-        );
-    }
-    list.add(
-        "compare-operands-swapped",
-        CONFUSION,
-        "The stored depth stands on the left of the comparison.",
-        depth_passes(|function, incoming, stored| compare(function, stored, incoming)),
+    list.swaps(
+        "compare-",
+        "The depth test ",
+        DEPTH_COMPARE,
+        compare_neighbours(),
     );
-    list.add(
-        "equal-within-one-code",
-        SMALL,
-        "Depths that differ by one code count as equal.",
-        depth_passes(|function, incoming, stored| match function {
+    list.bug("compare-operands-swapped: The stored depth stands on the left of the comparison.")
+        .plant(depth_passes(|function, incoming, stored| {
+            compare(function, stored, incoming)
+        }));
+    list.bug("equal-within-one-code: Depths that differ by one code count as equal.")
+        .source(SMALL)
+        .plant(depth_passes(|function, incoming, stored| match function {
             CompareFunction::Equal => incoming.abs_diff(stored) <= 1,
             CompareFunction::NotEqual => incoming.abs_diff(stored) > 1,
             _ => compare(function, incoming, stored),
-        }),
-    );
-    list.add(
-        "compare-high-20-bits",
-        SMALL,
-        "Float depths are compared by their upper 20 bits.",
-        depth_passes(|function, incoming, stored| compare(function, incoming >> 12, stored >> 12)),
-    );
+        }));
+    list.bug("compare-high-20-bits: Float depths are compared by their upper 20 bits.")
+        .source(SMALL)
+        .plant(depth_passes(|function, incoming, stored| {
+            compare(function, incoming >> 12, stored >> 12)
+        }));
     writes(list);
     precision(list);
 }
 
 fn writes(list: &mut List) {
-    list.add(
-        "write-ignored",
-        CONFUSION,
-        "Depth is never written.",
-        draws(|draw| {
-            if let Some(depth) = &mut draw.depth {
-                depth.write = false;
-            }
-        }),
-    );
-    list.add(
-        "write-always",
-        CONFUSION,
-        "Passing fragments write depth although writing is off.",
-        draws(|draw| {
-            if let Some(depth) = &mut draw.depth {
-                depth.write = true;
-            }
-        }),
-    );
-    list.add(
-        "write-inverted",
-        CONFUSION,
-        "The write setting means its opposite.",
-        draws(|draw| {
-            if let Some(depth) = &mut draw.depth {
-                depth.write = !depth.write;
-            }
-        }),
-    );
-    list.add(
-        "write-with-test-off",
-        "ANGLE: writes persisting with the test off",
-        "A draw without a depth test writes its depth.",
-        draws(|draw| {
-            draw.depth.get_or_insert(DepthState {
-                compare: CompareFunction::Always,
-                write: true,
-            });
-        }),
-    );
-    list.add(
-        "write-off-with-always",
-        CONFUSION,
-        "A test that always passes counts as no test, and its write is lost.",
-        draws(|draw| {
-            draw.depth = draw.depth.filter(|d| d.compare != CompareFunction::Always);
-        }),
-    );
-    list.add(
-        "test-off",
-        CONFUSION,
-        "The depth test always passes.",
-        draws(|draw| {
-            if let Some(depth) = &mut draw.depth {
-                depth.compare = CompareFunction::Always;
-            }
-        }),
-    );
-    list.add(
-        "test-off-without-write",
-        CONFUSION,
-        "A draw that does not write depth is not tested either.",
-        draws(|draw| draw.depth = draw.depth.filter(|d| d.write)),
-    );
-    list.add(
-        "test-on-with-test-off",
-        CONFUSION,
-        "A draw without a depth test is tested by `less`.",
-        draws(|draw| {
-            draw.depth.get_or_insert(DepthState {
-                compare: CompareFunction::Less,
-                write: false,
-            });
-        }),
-    );
-    list.add(
-        "color-where-depth-fails",
-        CONFUSION,
-        "Fragments that fail the depth test still write their colour.",
-        written(|[covered, stencil, depth]| [covered && stencil, covered && stencil && depth]),
-    );
-    list.add(
-        "written-where-depth-fails",
-        CONFUSION,
-        "Fragments that fail the depth test still write their depth.",
-        written(|[covered, stencil, depth]| [covered && stencil && depth, covered && stencil]),
-    );
-    list.add(
-        "no-color-with-depth-write",
-        CONFUSION,
-        "A draw that writes depth is treated as depth-only and writes no colour.",
-        draws(|draw| {
-            if draw.depth.is_some_and(|d| d.write) {
-                draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
-            }
-        }),
-    );
-    list.add(
-        "shader-depth-ignored",
-        "the vertex depth kept despite a written one",
-        "The depth that the shader writes is ignored.",
-        draws(|draw| {
-            if draw.shader == Shader::FlatColorDepth {
-                draw.shader = Shader::UniformColor;
-            }
-        }),
-    );
-    list.add(
-        "written-before-stencil-decides",
-        "v3d: early depth against stencil writes",
-        "Depth is written before the stencil test.",
-        written(|[covered, stencil, depth]| [covered && stencil && depth, covered && depth]),
-    );
+    let state = |compare, write| Some(DepthState { compare, write });
+    list.bug("write-ignored: Depth is never written.")
+        .set(DEPTH_WRITE, false);
+    list.bug("write-always: Passing fragments write depth although writing is off.")
+        .set(DEPTH_WRITE, true);
+    list.bug("write-inverted: The write setting means its opposite.")
+        .each(DEPTH_WRITE, |write| *write = !*write);
+    list.bug("write-with-test-off: A draw without a depth test writes its depth.")
+        .source("ANGLE: writes persisting with the test off")
+        .when(|draw| draw.depth.is_none())
+        .set(DEPTH, state(CompareFunction::Always, true));
+    list.bug(
+        "write-off-with-always: A test that always passes counts as none, and its write is lost.",
+    )
+    .when(|draw| {
+        draw.depth
+            .is_some_and(|d| d.compare == CompareFunction::Always)
+    })
+    .set(DEPTH, None);
+    list.bug("test-off: The depth test always passes.")
+        .set(DEPTH_COMPARE, CompareFunction::Always);
+    list.bug("test-off-without-write: A draw that does not write depth is not tested either.")
+        .when(|draw| draw.depth.is_some_and(|d| !d.write))
+        .set(DEPTH, None);
+    list.bug("test-on-with-test-off: A draw without a depth test is tested by `less`.")
+        .when(|draw| draw.depth.is_none())
+        .set(DEPTH, state(CompareFunction::Less, false));
+    list.bug("color-where-depth-fails: Fragments that fail the depth test write their colour.")
+        .plant(written(|[covered, stencil, depth]| {
+            [covered && stencil, covered && stencil && depth]
+        }));
+    list.bug("written-where-depth-fails: Fragments that fail the depth test write their depth.")
+        .plant(written(|[covered, stencil, depth]| {
+            [covered && stencil && depth, covered && stencil]
+        }));
+    list.bug("no-color-with-depth-write: A draw that writes depth writes no colour.")
+        .when(|draw| draw.depth.is_some_and(|d| d.write))
+        .set(WRITE_MASK, 0);
+    list.bug("shader-depth-ignored: The depth that the shader writes is ignored.")
+        .source("the vertex depth kept despite a written one")
+        .when(|draw| draw.shader == Shader::FlatColorDepth)
+        .draws(|draw| draw.shader = Shader::UniformColor);
     // Only draws with a stencil test show it.
-    if let Some(last) = list.mutants.last_mut() {
-        last.area = "stencil";
-    }
+    list.bug("written-before-stencil-decides: Depth is written before the stencil test.")
+        .source("v3d: early depth against stencil writes")
+        .area("stencil")
+        .plant(written(|[covered, stencil, depth]| {
+            [covered && stencil && depth, covered && depth]
+        }));
+}
+
+/// Replaces the conversion to one encoding.
+fn stored(encoding: ChannelEncoding, bug: impl Fn(f32) -> u32 + Send + Sync + 'static) -> Plant {
+    depth_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
 }
 
 fn precision(list: &mut List) {
-    let unorm = |bits: u8, kept: u32| {
-        depth_code(move |encoding, v| match encoding {
-            ChannelEncoding::Unorm(b) if b == bits => code(encoding, in_bits(v, kept)),
-            _ => code(encoding, v),
-        })
-    };
-    let float = |kept: u32| {
-        depth_code(move |encoding, v| match encoding {
-            ChannelEncoding::Float32 => in_bits(v, kept).to_bits(),
-            _ => code(encoding, v),
-        })
-    };
-    list.add(
-        "d16-truncated",
-        "truncation instead of rounding",
-        "16-bit depths are rounded down.",
-        depth_code(|encoding, v| match encoding {
-            ChannelEncoding::Unorm(16) => (f64::from(v) * 65535.0) as u32,
-            _ => code(encoding, v),
-        }),
-    )
-    .legal(
-        "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of the \
-         two closest values, the nearest only recommended",
-    );
-    list.add(
-        "d16-rounded-up",
-        "rounding up",
-        "16-bit depths are rounded up.",
-        depth_code(|encoding, v| match encoding {
-            ChannelEncoding::Unorm(16) => (f64::from(v) * 65535.0).ceil() as u32,
-            _ => code(encoding, v),
-        }),
-    )
-    .legal(
-        "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of the \
-         two closest values, the nearest only recommended",
-    );
-    list.add(
-        "d16-in-15-bits",
-        KEPT_BITS,
-        "16-bit depths keep 15 bits.",
-        unorm(16, 15),
-    );
-    list.add(
-        "d16-in-12-bits",
-        KEPT_BITS,
-        "16-bit depths keep 12 bits.",
-        unorm(16, 12),
-    );
-    list.add(
-        "d24-in-22-bits",
-        KEPT_BITS,
-        "24-bit depths keep 22 bits.",
-        unorm(24, 22),
-    );
-    list.add(
-        "d24-in-16-bits",
-        KEPT_BITS,
-        "24-bit depths keep 16 bits.",
-        unorm(24, 16),
-    );
-    list.add(
-        "d32f-in-24-bits",
-        "a float format backed by D24",
-        "Float depths are rounded to 24-bit normalized ones.",
-        float(24),
-    );
-    list.add(
-        "d32f-in-16-bits",
-        "a float format backed by D16",
-        "Float depths are rounded to 16-bit normalized ones.",
-        float(16),
-    );
-    list.add(
-        "d32f-one-ulp-up",
-        SMALL,
-        "Float depths between 0 and 1 are stored one unit in the last place too far.",
-        depth_code(|encoding, v| {
-            let right = code(encoding, v);
-            let inside = encoding == ChannelEncoding::Float32 && v > 0.0 && v < 1.0;
-            right + u32::from(inside)
-        }),
-    );
-    list.add(
-        "d32f-denormals-and-small-flushed",
-        SMALL,
-        "Float depths below 2^-24 become 0.",
-        depth_code(|encoding, v| {
-            let flushed = encoding == ChannelEncoding::Float32 && v < f32::powi(2.0, -24);
-            code(encoding, if flushed { 0.0 } else { v })
-        }),
-    );
-    list.add(
-        "one-minus-depth",
-        "a reversed range",
-        "Depths are stored reversed.",
-        depth_code(|encoding, v| code(encoding, 1.0 - v)),
-    );
-    list.add(
-        "one-never-reached",
-        SMALL,
-        "The farthest depth is stored one code short.",
-        depth_code(|encoding, v| code(encoding, v) - u32::from(v == 1.0)),
-    );
+    list.bug("d16-truncated: 16-bit depths are rounded down.")
+        .source("truncation instead of rounding")
+        .legal(ROUNDED)
+        .plant(stored(Unorm(16), |v| (f64::from(v) * 65535.0) as u32));
+    list.bug("d16-rounded-up: 16-bit depths are rounded up.")
+        .source("rounding up")
+        .legal(ROUNDED)
+        .plant(stored(Unorm(16), |v| {
+            (f64::from(v) * 65535.0).ceil() as u32
+        }));
+    for (bits, kept) in [(16, 15), (16, 12), (24, 22), (24, 16)] {
+        list.bug(format!(
+            "d{bits}-in-{kept}-bits: {bits}-bit depths keep {kept} bits."
+        ))
+        .source("drivers that keep 22 or 15 bits of D24 or D16")
+        .plant(stored(Unorm(bits), move |v| {
+            code(Unorm(bits), in_bits(v, kept))
+        }));
+    }
+    for (bits, source) in [
+        (24, "a float format backed by D24"),
+        (16, "a float format backed by D16"),
+    ] {
+        list.bug(format!(
+            "d32f-in-{bits}-bits: Float depths are rounded to {bits}-bit normalized ones."
+        ))
+        .source(source)
+        .plant(stored(Float32, move |v| in_bits(v, bits).to_bits()));
+    }
+    list.bug("d32f-one-ulp-up: Float depths between 0 and 1 are stored one unit too far.")
+        .source(SMALL)
+        .plant(stored(Float32, |v| {
+            code(Float32, v) + u32::from(v > 0.0 && v < 1.0)
+        }));
+    list.bug("d32f-denormals-and-small-flushed: Float depths below 2^-24 become 0.")
+        .source(SMALL)
+        .plant(stored(Float32, |v| {
+            code(Float32, if v < f32::powi(2.0, -24) { 0.0 } else { v })
+        }));
+    list.bug("one-minus-depth: Depths are stored reversed.")
+        .source("a reversed range")
+        .plant(depth_code(|encoding, v| code(encoding, 1.0 - v)));
+    list.bug("one-never-reached: The farthest depth is stored one code short.")
+        .source(SMALL)
+        .plant(depth_code(|encoding, v| {
+            code(encoding, v) - u32::from(v == 1.0)
+        }));
 }

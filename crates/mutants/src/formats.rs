@@ -2,11 +2,11 @@
 
 mod orders;
 
-use super::hooks::{
+use crate::hooks::{
     blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
 };
-use super::list::{CONFUSION, List, Row, SMALL};
-use super::plant::{Plant, nudge};
+use crate::list::{CONFUSION, List, PRECISION, ROUNDED, SMALL, STEPS};
+use crate::plant::{Plant, nudge};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{BlendFactor, BlendState};
@@ -14,13 +14,9 @@ use etalon_scene::{BlendFactor, BlendState};
 type Input = BlendInput<[f32; 1]>;
 type Encodings = [ChannelEncoding; 4];
 
-const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
-                       Fixed-Point: one of the two closest values, the nearest only recommended";
 const SMALL_FLOATS: &str = "Vulkan: Fundamentals, 16-Bit and Unsigned 11-Bit and 10-Bit \
                             Floating-Point Numbers: either neighbouring value, and the largest \
                             finite one or infinity for values beyond it";
-const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
-                         destination components, read as codes of the destination";
 
 /// The encodings, and the largest offset in codes that stays within their range.
 const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
@@ -41,17 +37,14 @@ const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
 pub(super) fn add(list: &mut List) {
     list.class("format", "blend");
     for (name, encoding, most) in ENCODINGS {
-        for steps in [1, -1, 3, -3_i64] {
-            if steps.abs() > most {
-                continue;
-            }
-            let by = if steps > 0 { "plus" } else { "minus" };
-            list.add(
-                &format!("{name}-stored-{by}-{}", steps.abs()),
-                SMALL,
-                format!("Channels of {encoding} are stored {steps} codes off, within their range."),
-                store(encoding, move |v| nudge(encoding, code(encoding, v), steps)),
-            );
+        for (by, steps) in STEPS.into_iter().filter(|(_, steps)| steps.abs() <= most) {
+            list.bug(format!(
+                "{name}-stored-{by}: {encoding} is stored {steps} codes off."
+            ))
+            .source(SMALL)
+            .plant(store(encoding, move |v| {
+                nudge(encoding, code(encoding, v), steps)
+            }));
         }
     }
     srgb(list);
@@ -103,44 +96,29 @@ fn linear(encoded: f32) -> f32 {
 
 fn srgb(list: &mut List) {
     const NONLINEAR: &str = "SwiftShader: sRGB treated as linear";
-    list.add(
-        "srgb-stored-linear",
-        NONLINEAR,
-        "An sRGB format stores linear values as they are.",
-        store(Srgb8, |v| code(Unorm(8), v)),
-    );
-    list.add(
-        "srgb-stored-by-gamma",
-        "a power of 1/2.2 for the sRGB curve",
-        "An sRGB format stores by a power of 1/2.2.",
-        store(Srgb8, |v| code(Unorm(8), v.clamp(0.0, 1.0).powf(1.0 / 2.2))),
-    );
-    list.add(
-        "srgb-stored-without-straight-part",
-        "the sRGB curve without its straight part",
-        "An sRGB format stores small values by the power alone.",
-        store(Srgb8, |v| {
+    list.bug("srgb-stored-linear: An sRGB format stores linear values as they are.")
+        .source(NONLINEAR)
+        .plant(store(Srgb8, |v| code(Unorm(8), v)));
+    list.bug("srgb-stored-by-gamma: An sRGB format stores by a power of 1/2.2.")
+        .source("a power of 1/2.2 for the sRGB curve")
+        .plant(store(Srgb8, |v| {
+            code(Unorm(8), v.clamp(0.0, 1.0).powf(1.0 / 2.2))
+        }));
+    list.bug("srgb-stored-without-straight-part: Small values are stored by the power alone.")
+        .source("the sRGB curve without its straight part")
+        .plant(store(Srgb8, |v| {
             let power = 1.055 * v.clamp(0.0, 1.0).powf(1.0 / 2.4) - 0.055;
             code(Unorm(8), power)
-        }),
-    );
-    list.add(
-        "srgb-stored-in-7-bits",
-        SMALL,
-        "An sRGB format loses its lowest bit.",
-        store(Srgb8, |v| code(Srgb8, v) & 0xfe),
-    );
-    list.add(
-        "srgb-destination-read-linear",
-        NONLINEAR,
-        "An sRGB destination is read as if it were linear.",
-        read(Srgb8, |c| value(Unorm(8), c)),
-    );
-    list.add(
-        "srgb-blended-encoded",
-        NONLINEAR,
-        "An sRGB format is blended in encoded values.",
-        blend_of(
+        }));
+    list.bug("srgb-stored-in-7-bits: An sRGB format loses its lowest bit.")
+        .source(SMALL)
+        .plant(store(Srgb8, |v| code(Srgb8, v) & 0xfe));
+    list.bug("srgb-destination-read-linear: An sRGB destination is read as if it were linear.")
+        .source(NONLINEAR)
+        .plant(read(Srgb8, |c| value(Unorm(8), c)));
+    list.bug("srgb-blended-encoded: An sRGB format is blended in encoded values.")
+        .source(NONLINEAR)
+        .plant(blend_of(
             |e| e == Srgb8,
             |state, _, input| {
                 let mut as_stored = *input;
@@ -151,13 +129,9 @@ fn srgb(list: &mut List) {
                 let result = faithful_blend(state, [Unorm(8); 4], &as_stored);
                 std::array::from_fn(|c| if c == 3 { result[c] } else { linear(result[c]) })
             },
-        ),
-    );
-    list.add(
-        "srgb-alpha-encoded",
-        CONFUSION,
-        "The alpha of an sRGB format is blended as if it were sRGB too.",
-        blend_of(
+        ));
+    list.bug("srgb-alpha-encoded: The alpha of an sRGB format is blended as if it were sRGB too.")
+        .plant(blend_of(
             |e| e == Srgb8,
             |state, encodings, input| {
                 let mut with_alpha = *input;
@@ -166,126 +140,76 @@ fn srgb(list: &mut List) {
                 result[3] = encoded(result[3]);
                 result
             },
-        ),
-    );
-    list.add(
-        "srgb-cleared-linear",
-        NONLINEAR,
-        "An sRGB format takes clear values without converting them.",
-        clear_code(|e, v| code(if e == Srgb8 { Unorm(8) } else { e }, v)),
-    );
-    list.add(
-        "unorm8-stored-as-srgb",
-        "a linear format treated as sRGB",
-        "Linear 8-bit formats are stored as sRGB.",
-        store(Unorm(8), |v| code(Srgb8, v)),
-    );
-    list.add(
-        "unorm8-destination-read-as-srgb",
-        "a linear format treated as sRGB",
-        "Linear 8-bit destinations are read as sRGB.",
-        read(Unorm(8), |c| value(Srgb8, c)),
-    );
+        ));
+    list.bug("srgb-cleared-linear: An sRGB format takes clear values without converting them.")
+        .source(NONLINEAR)
+        .plant(clear_code(|e, v| {
+            code(if e == Srgb8 { Unorm(8) } else { e }, v)
+        }));
+    list.bug("unorm8-stored-as-srgb: Linear 8-bit formats are stored as sRGB.")
+        .source("a linear format treated as sRGB")
+        .plant(store(Unorm(8), |v| code(Srgb8, v)));
+    list.bug("unorm8-destination-read-as-srgb: Linear 8-bit destinations are read as sRGB.")
+        .source("a linear format treated as sRGB")
+        .plant(read(Unorm(8), |c| value(Srgb8, c)));
 }
 
 fn signed(list: &mut List) {
     let snorm = Snorm(8);
-    let round = |name: &str, about: &str, list: &mut List, round: fn(f32) -> f32| {
-        list.add(
-            name,
-            "truncation instead of rounding",
-            about,
-            store(snorm, move |v| {
+    let mut round = |text: &str, round: fn(f32) -> f32| {
+        list.bug(text)
+            .source("truncation instead of rounding")
+            .legal(ROUNDED)
+            .plant(store(snorm, move |v| {
                 // Codes are rounded, so that the product's last bit does not matter.
                 let exact = v.clamp(-1.0, 1.0) * 127.0;
                 let near = exact.round();
                 let whole = (exact - near).abs() < 1e-4;
                 snorm.code_of_order((if whole { near } else { round(exact) }) as i64)
-            }),
-        )
-        .legal(ROUNDED);
+            }));
     };
     round(
-        "snorm8-truncated",
-        "Signed values are rounded towards 0.",
-        list,
+        "snorm8-truncated: Signed values are rounded towards 0.",
         f32::trunc,
     );
     round(
-        "snorm8-rounded-down",
-        "Signed values are rounded down.",
-        list,
+        "snorm8-rounded-down: Signed values are rounded down.",
         f32::floor,
     );
-    type Store = (&'static str, &'static str, fn(f32) -> u32);
-    let stores: [Store; 5] = [
-        (
-            "snorm8-negatives-lost",
-            "Signed formats store 0 for negative values.",
-            |v| code(Snorm(8), v.max(0.0)),
-        ),
-        (
-            "snorm8-minus-one-as-lowest",
-            "-1 is stored as the lowest code.",
-            |v| if v <= -1.0 { 0x80 } else { code(Snorm(8), v) },
-        ),
-        (
-            "snorm8-times-128",
-            "Signed formats are stored by the power of two.",
-            |v| Snorm(8).code_of_order((v * 128.0).round().clamp(-128.0, 127.0) as i64),
-        ),
-        (
-            "snorm8-wraps",
-            "Signed values outside -1 to 1 wrap around.",
-            |v| ((v * 127.0).round() as i64 & 0xff) as u32,
-        ),
-        (
-            "snorm8-stored-as-unorm8",
-            "Signed formats are stored as unsigned ones.",
-            |v| code(Unorm(8), v),
-        ),
-    ];
-    for (name, about, bug) in stores {
-        list.add(name, CONFUSION, about, store(snorm, bug));
-    }
-    list.add(
-        "snorm8-destination-read-as-unorm8",
-        CONFUSION,
-        "Signed destinations are read as unsigned ones.",
-        read(snorm, |c| value(Unorm(8), c)),
-    );
-    list.add(
-        "snorm8-destination-negatives-lost",
-        CONFUSION,
-        "Negative destinations are read as 0.",
-        read(snorm, |c| value(Snorm(8), c).max(0.0)),
-    );
+    list.bug("snorm8-negatives-lost: Signed formats store 0 for negative values.")
+        .plant(store(snorm, |v| code(Snorm(8), v.max(0.0))));
+    list.bug("snorm8-minus-one-as-lowest: -1 is stored as the lowest code.")
+        .plant(store(snorm, |v| {
+            if v <= -1.0 { 0x80 } else { code(Snorm(8), v) }
+        }));
+    list.bug("snorm8-times-128: Signed formats are stored by the power of two.")
+        .plant(store(snorm, |v| {
+            Snorm(8).code_of_order((v * 128.0).round().clamp(-128.0, 127.0) as i64)
+        }));
+    list.bug("snorm8-wraps: Signed values outside -1 to 1 wrap around.")
+        .plant(store(snorm, |v| ((v * 127.0).round() as i64 & 0xff) as u32));
+    list.bug("snorm8-stored-as-unorm8: Signed formats are stored as unsigned ones.")
+        .plant(store(snorm, |v| code(Unorm(8), v)));
+    list.bug("snorm8-destination-read-as-unorm8: Signed destinations are read as unsigned ones.")
+        .plant(read(snorm, |c| value(Unorm(8), c)));
+    list.bug("snorm8-destination-negatives-lost: Negative destinations are read as 0.")
+        .plant(read(snorm, |c| value(Snorm(8), c).max(0.0)));
     let signed = |e| e == Snorm(8);
-    list.add(
-        "snorm8-inverse-factors-out-of-range",
-        "llvmpipe: snorm inverse factors out of range",
-        "On signed formats, factors 1 - x reach beyond 1.",
-        blend_of(signed, |state, _, input| {
-            let clamped = clamp(input, -1.0);
-            faithful_blend(state, [Float32; 4], &clamped)
-        }),
-    );
-    list.add(
-        "snorm8-operands-held-above-0",
-        CONFUSION,
-        "On signed formats, sources and constants are clamped to 0 to 1.",
-        blend_of(signed, |state, encodings, input| {
+    list.bug("snorm8-inverse-factors-out-of-range: Factors 1 - x of signed formats exceed 1.")
+        .source("llvmpipe: snorm inverse factors out of range")
+        .plant(blend_of(signed, |state, _, input| {
+            faithful_blend(state, [Float32; 4], &clamp(input, -1.0))
+        }));
+    list.bug("snorm8-operands-held-above-0: On signed formats, operands are clamped to 0 to 1.")
+        .plant(blend_of(signed, |state, encodings, input| {
             let mut held = clamp(input, 0.0);
             held.dst = input.dst;
             faithful_blend(state, encodings, &held)
-        }),
-    );
-    list.add(
-        "snorm8-cleared-above-0",
-        CONFUSION,
-        "Signed formats take negative clear values for 0.",
-        clear_code(|e, v| code(e, if e == Snorm(8) { v.max(0.0) } else { v })),
-    );
+        }));
+    list.bug("snorm8-cleared-above-0: Signed formats take negative clear values for 0.")
+        .plant(clear_code(|e, v| {
+            code(e, if e == Snorm(8) { v.max(0.0) } else { v })
+        }));
 }
 
 /// Returns the input clamped to a lower end and 1.
@@ -302,211 +226,155 @@ fn clamp(input: &Input, low: f32) -> Input {
 fn few_bits(list: &mut List) {
     const FEW: &str = "SwiftShader: 565/5551 blended on truncated bits";
     for bits in [4_u8, 5, 6] {
-        list.add(
-            &format!("unorm{bits}-destination-truncated"),
-            FEW,
-            format!("Destinations of {bits} bits are shifted into 8 bits whose lowest stay 0."),
-            read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0),
-        );
+        list.bug(format!(
+            "unorm{bits}-destination-truncated: Destinations of {bits} bits are read as the upper of 8."
+        ))
+        .source(FEW)
+        .plant(read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0));
         // Four bits repeated are exactly their value.
         if bits > 4 {
-            list.add(
-                &format!("unorm{bits}-destination-replicated"),
-                "blending in 8 bits, as mobile GPUs do it",
-                format!("Destinations of {bits} bits are blended as 8 bits that repeat them."),
-                read(Unorm(bits), move |c| {
-                    (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0
-                }),
-            )
-            .legal(PRECISION);
+            list.bug(format!(
+                "unorm{bits}-destination-replicated: Destinations of {bits} bits are read as 8 that repeat them."
+            ))
+            .source("blending in 8 bits, as mobile GPUs do it")
+            .legal(PRECISION)
+            .plant(read(Unorm(bits), move |c| {
+                (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0
+            }));
         }
-        list.add(
-            &format!("unorm{bits}-stored-through-8-bits"),
-            "blending in 8 bits, as mobile GPUs do it",
-            format!("Formats of {bits} bits take the upper bits of 8."),
-            store(Unorm(bits), move |v| code(Unorm(8), v) >> (8 - bits)),
-        )
-        .legal(ROUNDED);
-        list.add(
-            &format!("unorm{bits}-stored-in-{}-bits", bits - 1),
-            SMALL,
-            format!("Formats of {bits} bits lose their lowest."),
-            store(Unorm(bits), move |v| code(Unorm(bits), v) & !1),
-        );
+        list.bug(format!(
+            "unorm{bits}-stored-through-8-bits: Formats of {bits} bits take the upper bits of 8."
+        ))
+        .source("blending in 8 bits, as mobile GPUs do it")
+        .legal(ROUNDED)
+        .plant(store(Unorm(bits), move |v| code(Unorm(8), v) >> (8 - bits)));
+        list.bug(format!(
+            "unorm{bits}-stored-in-{}-bits: Formats of {bits} bits lose their lowest.",
+            bits - 1
+        ))
+        .source(SMALL)
+        .plant(store(Unorm(bits), move |v| code(Unorm(bits), v) & !1));
     }
-    list.add(
-        "unorm10-stored-in-8-bits",
-        "a format of 10 bits backed by one of 8",
-        "Formats of 10 bits keep 8.",
-        store(Unorm(10), |v| {
+    list.bug("unorm10-stored-in-8-bits: Formats of 10 bits keep 8.")
+        .source("a format of 10 bits backed by one of 8")
+        .plant(store(Unorm(10), |v| {
             code(Unorm(10), code(Unorm(8), v) as f32 / 255.0)
-        }),
-    );
-    list.add(
-        "unorm10-destination-in-8-bits",
-        "a format of 10 bits backed by one of 8",
-        "Destinations of 10 bits are read by their upper 8.",
-        read(Unorm(10), |c| (c >> 2) as f32 / 255.0),
-    );
-    list.add(
-        "unorm2-stored-in-1-bit",
-        SMALL,
-        "Alpha of 2 bits is stored as all or nothing.",
-        store(Unorm(2), |v| if v < 0.5 { 0 } else { 3 }),
-    );
-    list.add(
-        "unorm2-opaque",
-        CONFUSION,
-        "Alpha of 2 bits is stored as 1.",
-        store(Unorm(2), |_| 3),
-    );
-    list.add(
-        "unorm1-opaque",
-        CONFUSION,
-        "Alpha of 1 bit is stored as 1.",
-        store(Unorm(1), |_| 1),
-    );
-    list.add(
-        "unorm1-only-for-one",
-        "truncation instead of rounding",
-        "Alpha of 1 bit is set for 1 alone.",
-        store(Unorm(1), |v| u32::from(v >= 1.0)),
-    )
-    .legal(ROUNDED);
+        }));
+    list.bug("unorm10-destination-in-8-bits: Destinations of 10 bits are read by their upper 8.")
+        .source("a format of 10 bits backed by one of 8")
+        .plant(read(Unorm(10), |c| (c >> 2) as f32 / 255.0));
+    list.bug("unorm2-stored-in-1-bit: Alpha of 2 bits is stored as all or nothing.")
+        .source(SMALL)
+        .plant(store(Unorm(2), |v| if v < 0.5 { 0 } else { 3 }));
+    list.bug("unorm2-opaque: Alpha of 2 bits is stored as 1.")
+        .plant(store(Unorm(2), |_| 3));
+    list.bug("unorm1-opaque: Alpha of 1 bit is stored as 1.")
+        .plant(store(Unorm(1), |_| 1));
+    list.bug("unorm1-only-for-one: Alpha of 1 bit is set for 1 alone.")
+        .source("truncation instead of rounding")
+        .legal(ROUNDED)
+        .plant(store(Unorm(1), |v| u32::from(v >= 1.0)));
 }
 
 fn floats(list: &mut List) {
     const CLAMPED: &str = "SwiftShader: negative float blends clamped";
     let is_float: fn(ChannelEncoding) -> bool = ChannelEncoding::is_float;
     for (name, encoding) in [("float16", Float16), ("float32", Float32)] {
-        list.add(
-            &format!("{name}-clamped"),
-            CLAMPED,
-            format!("Channels of {encoding} are clamped to 0 to 1 at the store."),
-            store(encoding, move |v| code(encoding, v.clamp(0.0, 1.0))),
-        );
-        list.add(
-            &format!("{name}-negatives-lost"),
-            CLAMPED,
-            format!("Channels of {encoding} store 0 for negative values."),
-            store(encoding, move |v| code(encoding, v.max(0.0))),
-        );
-        list.add(
-            &format!("{name}-sign-lost"),
-            CONFUSION,
-            format!("Channels of {encoding} lose their sign."),
-            store(encoding, move |v| code(encoding, v.abs())),
-        );
+        list.bug(format!(
+            "{name}-clamped: Channels of {encoding} are clamped to 0 to 1 at the store."
+        ))
+        .source(CLAMPED)
+        .plant(store(encoding, move |v| code(encoding, v.clamp(0.0, 1.0))));
+        list.bug(format!(
+            "{name}-negatives-lost: Channels of {encoding} store 0 for negative values."
+        ))
+        .source(CLAMPED)
+        .plant(store(encoding, move |v| code(encoding, v.max(0.0))));
+        list.bug(format!(
+            "{name}-sign-lost: Channels of {encoding} lose their sign."
+        ))
+        .plant(store(encoding, move |v| code(encoding, v.abs())));
     }
-    list.add(
-        "float16-truncated",
-        "truncation instead of rounding",
-        "16-bit floats are rounded towards 0.",
-        store(Float16, |v| truncated(Float16, v)),
-    )
-    .legal(SMALL_FLOATS);
-    list.add(
-        "float16-overflow-to-largest",
-        "a saturating conversion",
-        "16-bit floats hold the largest finite value instead of infinity.",
-        store(Float16, |v| code(Float16, v.clamp(-65504.0, 65504.0))),
-    )
-    .legal(SMALL_FLOATS);
-    list.add(
-        "float16-in-8-bits",
-        SMALL,
-        "16-bit floats lose the lowest two bits.",
-        store(Float16, |v| code(Float16, v) & !3),
-    );
-    list.add(
-        "float32-in-16-bits",
-        "a 32-bit float format backed by a 16-bit one",
-        "32-bit floats are rounded to 16-bit ones.",
-        store(Float32, |v| value(Float16, code(Float16, v)).to_bits()),
-    );
+    list.bug("float16-truncated: 16-bit floats are rounded towards 0.")
+        .source("truncation instead of rounding")
+        .legal(SMALL_FLOATS)
+        .plant(store(Float16, |v| truncated(Float16, v)));
+    list.bug("float16-overflow-to-largest: 16-bit floats hold the largest value, not infinity.")
+        .source("a saturating conversion")
+        .legal(SMALL_FLOATS)
+        .plant(store(Float16, |v| {
+            code(Float16, v.clamp(-65504.0, 65504.0))
+        }));
+    list.bug("float16-in-8-bits: 16-bit floats lose the lowest two bits.")
+        .source(SMALL)
+        .plant(store(Float16, |v| code(Float16, v) & !3));
+    list.bug("float32-in-16-bits: 32-bit floats are rounded to 16-bit ones.")
+        .source("a 32-bit float format backed by a 16-bit one")
+        .plant(store(Float32, |v| {
+            value(Float16, code(Float16, v)).to_bits()
+        }));
     for (name, bits) in [("ufloat11", 6), ("ufloat10", 5)] {
         let encoding = Ufloat(bits);
-        list.add(
-            &format!("{name}-truncated"),
-            "truncation instead of rounding",
-            format!("Channels of {encoding} are rounded down."),
-            store(encoding, move |v| truncated(encoding, v)),
-        )
-        .legal(SMALL_FLOATS);
-        list.add(
-            &format!("{name}-sign-lost"),
-            CONFUSION,
-            format!("Channels of {encoding} store negative values without their sign."),
-            store(encoding, move |v| code(encoding, v.abs())),
-        );
-        list.add(
-            &format!("{name}-clamped"),
-            CLAMPED,
-            format!("Channels of {encoding} are clamped to 0 to 1."),
-            store(encoding, move |v| code(encoding, v.min(1.0))),
-        );
-        list.add(
-            &format!("{name}-lowest-bit-lost"),
-            SMALL,
-            format!("Channels of {encoding} lose their lowest bit."),
-            store(encoding, move |v| code(encoding, v) & !1),
-        );
+        list.bug(format!(
+            "{name}-truncated: Channels of {encoding} are rounded down."
+        ))
+        .source("truncation instead of rounding")
+        .legal(SMALL_FLOATS)
+        .plant(store(encoding, move |v| truncated(encoding, v)));
+        list.bug(format!(
+            "{name}-sign-lost: Channels of {encoding} store negative values without their sign."
+        ))
+        .plant(store(encoding, move |v| code(encoding, v.abs())));
+        list.bug(format!(
+            "{name}-clamped: Channels of {encoding} are clamped to 0 to 1."
+        ))
+        .source(CLAMPED)
+        .plant(store(encoding, move |v| code(encoding, v.min(1.0))));
+        list.bug(format!(
+            "{name}-lowest-bit-lost: Channels of {encoding} lose their lowest bit."
+        ))
+        .source(SMALL)
+        .plant(store(encoding, move |v| code(encoding, v) & !1));
     }
-    let blends: [Row<fn(&mut Input)>; 5] = [
-        (
-            "float-constant-clamped",
-            "On float formats, the constant is clamped to 0 to 1.",
-            |i| i.constant = clamp(i, 0.0).constant,
-        ),
-        (
-            "float-source-clamped",
-            "On float formats, sources are clamped to 0 to 1.",
-            |i| i.src = clamp(i, 0.0).src,
-        ),
-        (
-            "float-destination-clamped",
-            "On float formats, destinations are clamped to 0 to 1.",
-            |i| i.dst = clamp(i, 0.0).dst,
-        ),
-        (
-            "float-source-negatives-lost",
-            "On float formats, negative sources are blended as 0.",
-            |i| i.src = i.src.map(|[v]| [v.max(0.0)]),
-        ),
-        (
-            "float-destination-negatives-lost",
-            "On float formats, negative destinations are blended as 0.",
-            |i| i.dst = i.dst.map(|[v]| [v.max(0.0)]),
-        ),
-    ];
-    for (name, about, bug) in blends {
-        list.add(
-            name,
-            CLAMPED,
-            about,
-            blend_of(is_float, move |state, encodings, input| {
+    list.source(CLAMPED);
+    let mut inputs = |text: &str, bug: fn(&mut Input)| {
+        list.bug(text)
+            .plant(blend_of(is_float, move |state, encodings, input| {
                 let mut changed = *input;
                 bug(&mut changed);
                 faithful_blend(state, encodings, &changed)
-            }),
-        );
-    }
-    list.add(
-        "float-result-clamped",
-        CLAMPED,
-        "On float formats, blend results are clamped to 0 to 1.",
-        blend_of(is_float, |state, encodings, input| {
+            }));
+    };
+    inputs(
+        "float-constant-clamped: On float formats, the constant is clamped to 0 to 1.",
+        |i| i.constant = clamp(i, 0.0).constant,
+    );
+    inputs(
+        "float-source-clamped: On float formats, sources are clamped to 0 to 1.",
+        |i| i.src = clamp(i, 0.0).src,
+    );
+    inputs(
+        "float-destination-clamped: On float formats, destinations are clamped to 0 to 1.",
+        |i| i.dst = clamp(i, 0.0).dst,
+    );
+    inputs(
+        "float-source-negatives-lost: On float formats, negative sources count as 0.",
+        |i| i.src = i.src.map(|[v]| [v.max(0.0)]),
+    );
+    inputs(
+        "float-destination-negatives-lost: Negative destinations of floats count as 0.",
+        |i| i.dst = i.dst.map(|[v]| [v.max(0.0)]),
+    );
+    list.bug("float-result-clamped: On float formats, blend results are clamped to 0 to 1.")
+        .source(CLAMPED)
+        .plant(blend_of(is_float, |state, encodings, input| {
             faithful_blend(state, encodings, input).map(|v| v.clamp(0.0, 1.0))
-        }),
-    );
-    list.add(
-        "float-result-negatives-lost",
-        CLAMPED,
-        "On float formats, negative results of blending become 0.",
-        blend_of(is_float, |state, encodings, input| {
+        }));
+    list.bug("float-result-negatives-lost: Negative results of blending floats become 0.")
+        .source(CLAMPED)
+        .plant(blend_of(is_float, |state, encodings, input| {
             faithful_blend(state, encodings, input).map(|v| v.max(0.0))
-        }),
-    );
+        }));
 }
 
 /// The code next to a value on the side of 0.
@@ -521,21 +389,15 @@ fn truncated(encoding: ChannelEncoding, v: f32) -> u32 {
 }
 
 fn alpha(list: &mut List) {
-    list.add(
-        "missing-alpha-zero",
-        CONFUSION,
-        "Formats without alpha are blended as if it were 0.",
-        missing_alpha(|_| 0.0),
-    );
-    list.add(
-        "missing-alpha-zero-for-saturate",
-        "llvmpipe: saturate wrong on formats without alpha",
-        "On formats without alpha, saturate takes the destination's alpha for 0.",
-        missing_alpha(|state| {
+    list.source(CONFUSION);
+    list.bug("missing-alpha-zero: Formats without alpha are blended as if it were 0.")
+        .plant(missing_alpha(|_| 0.0));
+    list.bug("missing-alpha-zero-for-saturate: Saturate takes a missing destination alpha for 0.")
+        .source("llvmpipe: saturate wrong on formats without alpha")
+        .plant(missing_alpha(|state| {
             let saturated = BlendFactor::SrcAlphaSaturated;
             let color = &state.color;
             let used = [color.src_factor, color.dst_factor].contains(&saturated);
             if used { 0.0 } else { 1.0 }
-        }),
-    );
+        }));
 }

@@ -3,17 +3,18 @@
 //! The rasterizer has none, so these bugs bring one: without a bug it changes no frame, since it only
 //! rejects tiles in which no fragment passes. Each bug makes it wrong in one way.
 
-use super::hooks::code;
-use super::list::{CONFUSION, List};
-use super::memory::{Area, Memory, copy};
-use super::plant::{Plant, memory};
+use crate::aspects::reaches;
+use crate::hooks::code;
+use crate::list::List;
+use crate::memory::{Area, Memory, copy};
+use crate::plant::{Plant, memory};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
-    Clear, ClearTarget, CompareFunction, DepthBias, Draw, Pass, PrimitiveTopology,
-    PrimitiveVertices, Scene, StencilFace, StencilOperation,
+    CompareFunction, DepthBias, DepthState, Draw, Pass, PrimitiveTopology, PrimitiveVertices,
+    Scene, StencilFace, StencilOperation, Vertex,
 };
 
 /// The bug of a coarse depth.
@@ -23,15 +24,15 @@ enum Bug {
     #[cfg_attr(not(test), expect(dead_code, reason = "a test plants it"))]
     Faithful,
     /// What these draws write is not noted.
-    Missed(fn(&Scene, usize, &Draw) -> bool),
+    Missed(Strikes),
     /// Of these draws, every fragment of every tile that they touch is noted as written.
-    Overrated(fn(&Pass, &Draw) -> bool),
-    /// A draw is tested as though it were another, given the draw before.
-    TestedAs(fn(&Draw, &mut Draw)),
-    /// These draws are tested by the depth of their vertices, which is not that of their fragments.
-    Trusted(fn(&Draw) -> bool),
+    Overrated(fn(&Draw) -> bool),
+    /// A draw is tested with another comparison, given the depth test of the draw before.
+    TestedAs(fn(Option<DepthState>, CompareFunction) -> CompareFunction),
+    /// Draws whose shader writes depth are tested by the depth of their vertices.
+    VertexDepth,
     /// A comparison with the least and the greatest depth rejects too much.
-    Rejects(fn(CompareFunction, [u32; 2], [u32; 2]) -> bool),
+    Rejects(CompareFunction, fn([u32; 2], [u32; 2]) -> bool),
     /// The initial clear is not noted: all depths are this one.
     Initial(f32),
     /// A pass change brings back what the initial clear left.
@@ -61,7 +62,7 @@ struct Coarse {
     maps: Vec<Map>,
     /// The maps after the initial clear.
     initial: Vec<Map>,
-    before: Option<Draw>,
+    before: Option<DepthState>,
     /// The tiles that are rejected, and the attachments as they are before the draw.
     rejected: Vec<Area>,
     kept: Vec<(usize, Surface)>,
@@ -162,8 +163,9 @@ impl Coarse {
                 }
             }
             Moment::Cleared { pass, clear } => {
-                if let Some(index) = scene.passes[pass].depth_stencil {
-                    self.cleared(scene, index, &clear, surfaces);
+                let index = scene.passes[pass].depth_stencil;
+                if let Some(index) = index.filter(|_| reaches(&clear, Aspect::Depth)) {
+                    self.note(scene, index, surfaces);
                 }
             }
             Moment::End { .. } => {}
@@ -204,16 +206,12 @@ impl Coarse {
         let columns = self.maps[index].columns;
         let rows = self.maps[index].ranges.len() / columns.max(1);
         let mut found: Vec<Option<[u32; 2]>> = vec![None; columns * rows];
-        let near = draw.viewport.depth[0].min(draw.viewport.depth[1]);
-        let far = draw.viewport.depth[0].max(draw.viewport.depth[1]);
-        let vertices: Vec<[f32; 3]> = draw
-            .mesh
-            .vertices
-            .iter()
-            .map(|v| {
-                window_position(&mut Plain::<1>, v.position, &draw.viewport).map(|[value]| value)
-            })
-            .collect();
+        let [near, far] = draw.viewport.depth;
+        let (near, far) = (near.min(far), near.max(far));
+        let position = |v: &Vertex| {
+            window_position(&mut Plain::<1>, v.position, &draw.viewport).map(|[value]| value)
+        };
+        let vertices: Vec<[f32; 3]> = draw.mesh.vertices.iter().map(position).collect();
         if draw.mesh.vertices.iter().any(|v| v.position[3] <= 0.0) {
             return Vec::new();
         }
@@ -248,28 +246,17 @@ impl Coarse {
             .collect()
     }
 
-    /// Notes a clear command.
-    fn cleared(&mut self, scene: &Scene, index: usize, clear: &Clear, surfaces: &[Surface]) {
-        let ClearTarget::DepthStencil { depth, .. } = clear.target else {
-            return;
-        };
-        if depth.is_some() {
-            self.note(scene, index, surfaces);
-        }
-    }
-
     /// Finds the tiles in which a draw is rejected.
-    fn reject(&mut self, scene: &Scene, pass: &Pass, asked: &Draw, surfaces: &[Surface]) {
+    fn reject(&mut self, scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &[Surface]) {
         let Some(index) = pass.depth_stencil else {
             return;
         };
-        let mut draw = asked.clone();
-        if let (Bug::TestedAs(change), Some(before)) = (self.bug, &self.before) {
-            change(before, &mut draw);
+        let before = std::mem::replace(&mut self.before, draw.depth);
+        let Some(mut depth) = draw.depth else { return };
+        if let Bug::TestedAs(change) = self.bug {
+            depth.compare = change(before, depth.compare);
         }
-        self.before = Some(asked.clone());
-        let Some(depth) = draw.depth else { return };
-        let trusted = matches!(self.bug, Bug::Trusted(of) if of(&draw));
+        let trusted = matches!(self.bug, Bug::VertexDepth) && draw.shader.writes_depth();
         let moves = draw.shader.writes_depth() || draw.depth_bias != DepthBias::default();
         let lost = matches!(self.bug, Bug::StencilLost);
         let faces = draw.stencil.iter().flat_map(|s| [s.front, s.back]);
@@ -280,7 +267,7 @@ impl Coarse {
         let map = self.maps.get(index);
         let Some(map) = map else { return };
         let columns = self.maps[index].columns.max(1);
-        for (tile, codes) in self.touched(scene, index, &draw) {
+        for (tile, codes) in self.touched(scene, index, draw) {
             let known = match self.bug {
                 Bug::Wraps(n) => tile / columns * columns + tile % columns % n,
                 _ => tile,
@@ -288,7 +275,7 @@ impl Coarse {
             let Some(range) = map.ranges.get(known) else {
                 continue;
             };
-            let wrongly = matches!(self.bug, Bug::Rejects(of) if of(depth.compare, codes, *range));
+            let wrongly = matches!(self.bug, Bug::Rejects(compare, of) if compare == depth.compare && of(codes, *range));
             if wrongly || rejects(depth.compare, codes, *range) {
                 let (x, y) = (tile % columns * self.side, tile / columns * self.side);
                 self.rejected.push([x, y, x + self.side, y + self.side]);
@@ -306,17 +293,16 @@ impl Coarse {
         let Some(index) = pass.depth_stencil else {
             return;
         };
-        if matches!(self.bug, Bug::Missed(of) if of(scene, number, draw)) {
-            return;
-        }
-        if draw.depth.is_some_and(|d| d.write) {
-            self.note(scene, index, surfaces);
-        }
-        let Bug::Overrated(of) = self.bug else { return };
-        if !of(pass, draw) {
+        if matches!(self.bug, Bug::Missed(of) if of(number, draw)) {
             return;
         }
         let Some(depth) = draw.depth else { return };
+        if depth.write {
+            self.note(scene, index, surfaces);
+        }
+        if !matches!(self.bug, Bug::Overrated(of) if of(draw)) {
+            return;
+        }
         for (tile, [lo, hi]) in self.touched(scene, index, draw) {
             let [min, max] = &mut self.maps[index].ranges[tile];
             match depth.compare {
@@ -343,226 +329,131 @@ fn plant(side: usize, bug: Bug) -> Plant {
 /// The side of a tile, where a bug is not one of a certain side.
 const SIDE: usize = 8;
 
+/// True of the draws that a bug strikes, given the number of the pass.
+type Strikes = fn(usize, &Draw) -> bool;
+
 fn compares(draw: &Draw, functions: &[CompareFunction]) -> bool {
     draw.depth.is_some_and(|d| functions.contains(&d.compare))
 }
 
 pub(super) fn add(list: &mut List) {
+    use CompareFunction::{Always, Equal, Greater, GreaterEqual, Less, LessEqual};
     list.class("hierarchy", "size");
-    missed(list);
-    overrated(list);
-    tested(list);
-    kept(list);
-}
-
-fn missed(list: &mut List) {
-    type Row = (&'static str, &'static str, fn(&Scene, usize, &Draw) -> bool);
-    let rows: [Row; 6] = [
-        ("shader-depth", "depths that shaders write", |_, _, d| {
-            d.shader.writes_depth()
+    let shader_depth: Strikes = |_, draw| draw.shader.writes_depth();
+    let always: Strikes = |_, draw| compares(draw, &[Always]);
+    let missed: [(&str, &str, Strikes); 7] = [
+        ("shader-depth", "depths that shaders write", shader_depth),
+        ("always", "draws that always pass", always),
+        ("greater", "draws with greater", |_, draw| {
+            compares(draw, &[Greater, GreaterEqual])
         }),
-        ("always", "draws that always pass", |_, _, d| {
-            compares(d, &[CompareFunction::Always])
+        ("less", "draws with less", |_, draw| {
+            compares(draw, &[Less, LessEqual])
         }),
-        ("greater", "draws that compare with greater", |_, _, d| {
-            let greater = [CompareFunction::Greater, CompareFunction::GreaterEqual];
-            compares(d, &greater)
+        ("stencil", "draws with stencil", |_, draw| {
+            draw.stencil.is_some()
         }),
-        ("less", "draws that compare with less", |_, _, d| {
-            compares(d, &[CompareFunction::Less, CompareFunction::LessEqual])
-        }),
-        ("stencil", "draws with a stencil test", |_, _, d| {
-            d.stencil.is_some()
-        }),
-        ("later-passes", "passes after the first", |_, pass, _| {
-            pass > 0
+        ("later-passes", "later passes", |pass, _| pass > 0),
+        ("points", "points and lines", |_, draw| {
+            use PrimitiveTopology::{LineList, LineStrip, PointList};
+            [PointList, LineList, LineStrip].contains(&draw.topology)
         }),
     ];
-    for (name, what, of) in rows {
-        list.add(
-            &format!("{name}-missed"),
-            CONFUSION,
-            format!("The coarse depth misses what is written by {what}."),
-            plant(SIDE, Bug::Missed(of)),
-        );
+    for (name, what, of) in missed {
+        list.bug(format!(
+            "{name}-missed: The coarse depth misses what is written by {what}."
+        ))
+        .plant(plant(SIDE, Bug::Missed(of)));
     }
     for side in [16, 32, 64] {
-        list.add(
-            &format!("shader-depth-missed-in-tiles-of-{side}"),
-            CONFUSION,
-            format!("A coarse depth of tiles of {side}×{side} misses depths that shaders write."),
-            plant(side, Bug::Missed(|_, _, draw| draw.shader.writes_depth())),
-        );
-        list.add(
-            &format!("always-missed-in-tiles-of-{side}"),
-            CONFUSION,
-            format!("A coarse depth of tiles of {side}×{side} misses draws that always pass."),
-            plant(
-                side,
-                Bug::Missed(|_, _, draw| compares(draw, &[CompareFunction::Always])),
-            ),
-        );
+        for (name, what, of) in &missed[..2] {
+            list.bug(format!(
+                "{name}-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses {what}."
+            ))
+            .plant(plant(side, Bug::Missed(*of)));
+        }
     }
-}
-
-fn overrated(list: &mut List) {
-    type Row = (&'static str, &'static str, fn(&Pass, &Draw) -> bool);
-    let rows: [Row; 4] = [
-        ("write-off", "a draw that writes no depth", |_, d| {
+    type Overrated = fn(&Draw) -> bool;
+    let overrated: [(&str, &str, Overrated); 4] = [
+        ("write-off", "writes no depth", |d| {
             d.depth.is_some_and(|depth| !depth.write)
         }),
-        ("discard", "a draw whose shader discards", |_, d| {
-            d.shader.discards()
+        ("discard", "discards", |d| d.shader.discards()),
+        ("partly-covered", "covers a part of a tile", |d| {
+            d.depth.is_some_and(|depth| depth.write) && d.scissor.is_none()
         }),
-        (
-            "partly-covered",
-            "a draw that covers a part of a tile",
-            |_, d| d.depth.is_some_and(|depth| depth.write) && d.scissor.is_none(),
-        ),
-        ("stencil", "a draw whose stencil test may fail", |_, d| {
-            d.stencil.is_some()
+        ("stencil", "has a stencil test", |d| d.stencil.is_some()),
+    ];
+    for (name, what, of) in overrated {
+        list.bug(format!(
+            "{name}-noted-as-written: A draw that {what} counts as writing every texel it touches."
+        ))
+        .plant(plant(SIDE, Bug::Overrated(of)));
+    }
+    let mut add = |text: &str, bug| list.bug(text).plant(plant(SIDE, bug));
+    add(
+        "compare-kept: The coarse depth is tested with the comparison of the draw before.",
+        Bug::TestedAs(|before, compare| before.map_or(compare, |before| before.compare)),
+    );
+    add(
+        "first-direction-kept: The coarse depth is tested with less behind a draw with less.",
+        Bug::TestedAs(|before, compare| match before {
+            Some(before) if before.compare == Less => Less,
+            _ => compare,
         }),
-    ];
-    for (name, what, of) in rows {
-        list.add(
-            &format!("{name}-noted-as-written"),
-            CONFUSION,
-            format!("The coarse depth counts every texel that {what} touches as written."),
-            plant(SIDE, Bug::Overrated(of)),
-        );
-    }
-}
-
-fn tested(list: &mut List) {
-    type Test = (&'static str, &'static str, fn(&Draw, &mut Draw));
-    let tests: [Test; 2] = [
-        (
-            "compare-kept",
-            "The coarse depth is tested with the comparison of the draw before.",
-            |before, draw| {
-                if let (Some(depth), Some(before)) = (&mut draw.depth, before.depth) {
-                    depth.compare = before.compare;
-                }
-            },
-        ),
-        (
-            "first-direction-kept",
-            "The coarse depth is tested with less where the draw before compared with less.",
-            |before, draw| {
-                if let Some(depth) = &mut draw.depth
-                    && compares(before, &[CompareFunction::Less])
-                {
-                    depth.compare = CompareFunction::Less;
-                }
-            },
-        ),
-    ];
-    for (name, about, change) in tests {
-        list.add(name, CONFUSION, about, plant(SIDE, Bug::TestedAs(change)));
-    }
-    list.add(
-        "shader-depth-ignored",
-        CONFUSION,
-        "Draws whose shader writes depth are rejected by the depth of their vertices.",
-        plant(SIDE, Bug::Trusted(|draw| draw.shader.writes_depth())),
     );
-    type Reject = (
-        &'static str,
-        &'static str,
-        fn(CompareFunction, [u32; 2], [u32; 2]) -> bool,
+    add(
+        "shader-depth-ignored: Draws whose shader writes depth are rejected by that of their vertices.",
+        Bug::VertexDepth,
     );
-    let rejects: [Reject; 5] = [
-        (
-            "greatest-used-for-greater",
-            "Greater is tested against the greatest depth of a tile.",
-            |compare, [_, hi], [_, max]| compare == CompareFunction::Greater && hi <= max,
-        ),
-        (
-            "least-used-for-less",
-            "Less is tested against the least depth of a tile.",
-            |compare, [lo, _], [min, _]| compare == CompareFunction::Less && lo >= min,
-        ),
-        (
-            "less-equal-bound-rejected",
-            "Less-equal rejects a draw whose least depth is a tile's greatest.",
-            |compare, [lo, _], [_, max]| compare == CompareFunction::LessEqual && lo >= max,
-        ),
-        (
-            "greater-equal-bound-rejected",
-            "Greater-equal rejects a draw whose greatest depth is a tile's least.",
-            |compare, [_, hi], [min, _]| compare == CompareFunction::GreaterEqual && hi <= min,
-        ),
-        (
-            "equal-bound-rejected",
-            "Equal rejects a draw that meets a tile's depths at one end only.",
-            |compare, [lo, hi], [min, max]| {
-                compare == CompareFunction::Equal && (lo >= max || hi <= min)
-            },
-        ),
-    ];
-    for (name, about, of) in rejects {
-        list.add(name, CONFUSION, about, plant(SIDE, Bug::Rejects(of)));
-    }
-}
-
-fn kept(list: &mut List) {
-    for (name, depth) in [("0", 0.0), ("1", 1.0)] {
-        list.add(
-            &format!("clear-missed-after-{name}"),
-            CONFUSION,
-            format!("The coarse depth misses the clear of an attachment and holds {name}."),
-            plant(SIDE, Bug::Initial(depth)),
-        );
-    }
-    list.add(
-        "reset-between-passes",
-        CONFUSION,
-        "In the next pass, the coarse depth is that of the clear.",
-        plant(SIDE, Bug::Forgets),
+    add(
+        "greatest-used-for-greater: Greater is tested against the greatest depth of a tile.",
+        Bug::Rejects(Greater, |[_, hi], [_, max]| hi <= max),
+    );
+    add(
+        "least-used-for-less: Less is tested against the least depth of a tile.",
+        Bug::Rejects(Less, |[lo, _], [min, _]| lo >= min),
+    );
+    add(
+        "less-equal-bound-rejected: Less-equal rejects what is equal to the greatest depth.",
+        Bug::Rejects(LessEqual, |[lo, _], [_, max]| lo >= max),
+    );
+    add(
+        "greater-equal-bound-rejected: Greater-equal rejects what is equal to the least depth.",
+        Bug::Rejects(GreaterEqual, |[_, hi], [min, _]| hi <= min),
+    );
+    add(
+        "equal-bound-rejected: Equal rejects a draw that meets a tile's depths at one end only.",
+        Bug::Rejects(Equal, |[lo, hi], [min, max]| lo >= max || hi <= min),
+    );
+    add(
+        "clear-missed-after-0: The coarse depth misses the first clear and holds 0.",
+        Bug::Initial(0.0),
+    );
+    add(
+        "clear-missed-after-1: The coarse depth misses the first clear and holds 1.",
+        Bug::Initial(1.0),
+    );
+    add(
+        "reset-between-passes: In the next pass, the coarse depth is that of the clear.",
+        Bug::Forgets,
     );
     for n in [4, 8, 16] {
-        list.add(
-            &format!("columns-wrap-at-{n}"),
-            CONFUSION,
-            format!("A row of coarse depths has {n} tiles and begins anew after them."),
-            plant(SIDE, Bug::Wraps(n)),
-        );
+        let text =
+            format!("columns-wrap-at-{n}: A row of coarse depths begins anew after {n} tiles.");
+        add(&text, Bug::Wraps(n));
     }
-    let clears = [(
-        "load-missed",
-        "The coarse depth misses the clear of a load operation.",
+    add(
+        "load-missed: The coarse depth misses the clear of a load operation.",
         Bug::LoadMissed,
-    )];
-    for (name, about, bug) in clears {
-        list.add(name, CONFUSION, about, plant(SIDE, bug));
-    }
-    list.add(
-        "edge-missed",
-        CONFUSION,
-        "Tiles that extend beyond the attachment keep the coarse depth of the clear.",
-        plant(SIDE, Bug::Partial),
     );
-    list.add(
-        "stencil-lost",
-        CONFUSION,
-        "In rejected tiles, stencil is not changed by fragments that fail the depth test.",
-        plant(SIDE, Bug::StencilLost),
+    add(
+        "edge-missed: Tiles that extend beyond the attachment keep the coarse depth of the clear.",
+        Bug::Partial,
     );
-    list.add(
-        "points-missed",
-        CONFUSION,
-        "The coarse depth misses what is written by points and lines.",
-        plant(
-            SIDE,
-            Bug::Missed(|_, _, draw| {
-                matches!(
-                    draw.topology,
-                    PrimitiveTopology::PointList
-                        | PrimitiveTopology::LineList
-                        | PrimitiveTopology::LineStrip
-                )
-            }),
-        ),
+    add(
+        "stencil-lost: Where tiles are rejected, fragments that fail the depth test leave stencil.",
+        Bug::StencilLost,
     );
 }
 

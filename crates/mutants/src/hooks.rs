@@ -132,7 +132,41 @@ pub(super) fn faithful_advanced(
     advanced_blend(&mut Plain::<1>, mode, encodings, lanes(src), lanes(dst)).map(|[v]| v)
 }
 
+/// Declares the steps that take what their replacement does.
+macro_rules! replaced {
+    ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty;)+) => {
+        $(fn $name(&self, $($argument: $type),*) -> $result {
+            match &self.$name {
+                None => Faithful.$name($($argument),*),
+                Some(bug) => bug($($argument),*),
+            }
+        })+
+    };
+}
+
 impl Steps for &Hooks {
+    replaced! {
+        exported(of: &Exported) -> u8;
+        stencil_passes(face: &StencilFace, stored: u8) -> bool;
+        stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
+        depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
+        clear_code(encoding: ChannelEncoding, value: f32) -> u32;
+        missing_alpha(state: &BlendState) -> f32;
+        bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
+        bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
+        biases_lines() -> bool;
+        lines_face_front() -> bool;
+        held_to_range(depth: f32, range: [f32; 2]) -> f32;
+        in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
+        bounds_fail_as_depth() -> bool;
+        sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
+        sample_drawn(state: &Multisample, sample: usize, samples: usize) -> bool;
+        shaded_at(state: &Multisample, first: usize, samples: usize) -> Option<usize>;
+        stored_sample(aspect: Aspect, sample: usize) -> usize;
+        depth_sample(sample: usize, samples: usize) -> usize;
+        resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
+    }
+
     fn covered(&self, x: usize, y: usize, size: [u32; 2], mask: Mask) -> Mask {
         match &self.covered {
             None => mask,
@@ -159,38 +193,10 @@ impl Steps for &Hooks {
         })
     }
 
-    fn exported(&self, of: &Exported) -> u8 {
-        match &self.exported {
-            None => Faithful.exported(of),
-            Some(bug) => bug(of),
-        }
-    }
-
-    fn stencil_passes(&self, face: &StencilFace, stored: u8) -> bool {
-        match &self.stencil_passes {
-            None => Faithful.stencil_passes(face, stored),
-            Some(bug) => bug(face, stored),
-        }
-    }
-
-    fn stencil_write(&self, face: &StencilFace, path: Path, stored: u8) -> u8 {
-        match &self.stencil_write {
-            None => Faithful.stencil_write(face, path, stored),
-            Some(bug) => bug(face, path, stored),
-        }
-    }
-
     fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
         match &self.depth_code {
             None => Faithful.depth_codes(encoding, depth),
             Some(bug) => depth.map(|v| bug(encoding, v.clamp(0.0, 1.0))),
-        }
-    }
-
-    fn depth_passes(&self, function: CompareFunction, incoming: u32, stored: u32) -> bool {
-        match &self.depth_passes {
-            None => Faithful.depth_passes(function, incoming, stored),
-            Some(bug) => bug(function, incoming, stored),
         }
     }
 
@@ -257,24 +263,10 @@ impl Steps for &Hooks {
         }
     }
 
-    fn clear_code(&self, encoding: ChannelEncoding, value: f32) -> u32 {
-        match &self.clear_code {
-            None => Faithful.clear_code(encoding, value),
-            Some(bug) => bug(encoding, value),
-        }
-    }
-
     fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
         match &self.color_value {
             None => Faithful.color_value(encoding, codes),
             Some(bug) => codes.map(|c| bug(encoding, c)),
-        }
-    }
-
-    fn missing_alpha(&self, state: &BlendState) -> f32 {
-        match &self.missing_alpha {
-            None => Faithful.missing_alpha(state),
-            Some(bug) => bug(state),
         }
     }
 
@@ -301,53 +293,6 @@ impl Steps for &Hooks {
         }
     }
 
-    fn bias_unit(&self, encoding: ChannelEncoding, largest: f64) -> f64 {
-        match &self.bias_unit {
-            None => Faithful.bias_unit(encoding, largest),
-            Some(bug) => bug(encoding, largest),
-        }
-    }
-
-    fn bias(&self, state: &DepthBias, unit: f64, slope: f64) -> f64 {
-        match &self.bias {
-            None => Faithful.bias(state, unit, slope),
-            Some(bug) => bug(state, unit, slope),
-        }
-    }
-
-    fn biases_lines(&self) -> bool {
-        self.biases_lines.as_ref().is_some_and(|bug| bug())
-    }
-
-    fn lines_face_front(&self) -> bool {
-        self.lines_face_front.as_ref().is_none_or(|bug| bug())
-    }
-
-    fn held_to_range(&self, depth: f32, range: [f32; 2]) -> f32 {
-        match &self.held_to_range {
-            None => Faithful.held_to_range(depth, range),
-            Some(bug) => bug(depth, range),
-        }
-    }
-
-    fn in_bounds(&self, bounds: [f32; 2], stored: f32, incoming: f32) -> bool {
-        match &self.in_bounds {
-            None => Faithful.in_bounds(bounds, stored, incoming),
-            Some(bug) => bug(bounds, stored, incoming),
-        }
-    }
-
-    fn bounds_fail_as_depth(&self) -> bool {
-        self.bounds_fail_as_depth.as_ref().is_some_and(|bug| bug())
-    }
-
-    fn sample_positions(&self, standard: Vec<[u16; 2]>) -> Vec<[u16; 2]> {
-        match &self.sample_positions {
-            None => standard,
-            Some(bug) => bug(standard),
-        }
-    }
-
     fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
         match &self.alpha_covers {
             None => Faithful.alpha_covers(alpha, sample, samples),
@@ -355,38 +300,10 @@ impl Steps for &Hooks {
         }
     }
 
-    fn sample_drawn(&self, state: &Multisample, sample: usize, samples: usize) -> bool {
-        match &self.sample_drawn {
-            None => Faithful.sample_drawn(state, sample, samples),
-            Some(bug) => bug(state, sample, samples),
-        }
-    }
-
     fn shader_runs(&self, shader: Shader, state: &Multisample, samples: usize) -> usize {
         match &self.shader_runs {
             None => Faithful.shader_runs(shader, state, samples),
             Some(bug) => bug(shader, state, samples).clamp(1, samples),
-        }
-    }
-
-    fn shaded_at(&self, state: &Multisample, first: usize, samples: usize) -> Option<usize> {
-        match &self.shaded_at {
-            None => Faithful.shaded_at(state, first, samples),
-            Some(bug) => bug(state, first, samples),
-        }
-    }
-
-    fn stored_sample(&self, aspect: Aspect, sample: usize) -> usize {
-        match &self.stored_sample {
-            None => sample,
-            Some(bug) => bug(aspect, sample),
-        }
-    }
-
-    fn depth_sample(&self, sample: usize, samples: usize) -> usize {
-        match &self.depth_sample {
-            None => sample,
-            Some(bug) => bug(sample, samples),
         }
     }
 
@@ -403,13 +320,6 @@ impl Steps for &Hooks {
         match &self.kept {
             None => Faithful.kept(kept),
             Some(bug) => std::array::from_fn(|i| bug(kept.value[i], kept.limit[i])),
-        }
-    }
-
-    fn resolve(&self, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
-        match &self.resolve {
-            None => Faithful.resolve(encoding, codes),
-            Some(bug) => bug(encoding, codes),
         }
     }
 }

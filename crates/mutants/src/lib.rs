@@ -5,14 +5,15 @@
 //! rasterizer free of test code. `tests/hunt` holds that cases catch each mutant or that a clause allows
 //! it; `etalon mutants` reports which cases do.
 //!
-//! To add one, call `List::add` in the file of its class.
+//! Most follow from data: an operator (stale, swapped, always, never …) applied to a field of `fields`.
+//! To add one, call `List::bug` in the file of its class, or name the field in `fields`.
 
+mod aspects;
 mod backend;
 mod bias;
 mod blend;
 mod bounds;
 mod capability;
-mod carried;
 mod clear;
 mod clip_distance;
 mod counter;
@@ -23,13 +24,13 @@ mod discard;
 mod dual_source;
 mod early;
 mod fetch;
+mod fields;
 mod formats;
 mod geometry;
 mod held;
 mod hierarchy;
 mod hooks;
 mod invariance;
-mod library;
 mod list;
 mod logic;
 mod mask;
@@ -47,9 +48,9 @@ mod scissor;
 mod sequence;
 mod shader_mask;
 mod size;
+mod stale;
 mod stencil;
 mod stencil_export;
-mod sticky;
 mod tables;
 mod targets;
 mod tessellation;
@@ -60,8 +61,34 @@ mod upload;
 mod viewport;
 
 pub use backend::MutantBackend;
-pub use library::mutants;
 pub use mutant::Mutant;
+
+use list::List;
+use std::sync::LazyLock;
+
+/// Adds the mutants of a class.
+type Class = fn(&mut List);
+
+#[rustfmt::skip]
+const CLASSES: &[Class] = &[
+    depth::add, bias::add, depth_range::add, bounds::add, read_only::add, stencil::add, blend::add,
+    blend::precision::add, blend::advanced::add, mask::add, formats::add, targets::add, dual_source::add,
+    logic::add, cull::add, topology::add, tessellation::add, provoking::add, samples::add,
+    sample_shading::add, sample_coverage::add, resolve::add, scissor::add, viewport::add,
+    clip_distance::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
+    discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
+    hierarchy::add, sequence::add, size::add, shader_mask::add, stencil_export::add, held::add,
+];
+
+/// Returns all mutants, class by class.
+pub fn mutants() -> &'static [Mutant] {
+    static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
+        let mut list = List::default();
+        CLASSES.iter().for_each(|add| add(&mut list));
+        list.mutants
+    });
+    &ALL
+}
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! Bugs of the colour write mask.
 
-use super::list::{CONFUSION, List};
-use super::plant::{Plant, draws};
+use crate::list::List;
+use crate::plant::{Plant, draws};
 
 fn masks(bug: impl Fn(u8) -> u8 + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
@@ -27,73 +27,37 @@ pub(super) fn add(list: &mut List) {
         ("green-alpha-swapped", 1, 3),
         ("blue-alpha-swapped", 2, 3),
     ] {
-        list.add(
-            name,
-            CONFUSION,
-            "Two channels' bits of the write mask are exchanged.",
-            masks(move |mask| exchanged(mask, a, b)),
-        );
+        list.bug(format!(
+            "{name}: Two channels' bits of the write mask are exchanged."
+        ))
+        .plant(masks(move |mask| exchanged(mask, a, b)));
     }
-    list.add(
-        "ignored",
-        CONFUSION,
-        "All channels are written.",
-        masks(|_| 0xf),
-    );
-    list.add(
-        "zero-still-writes",
-        "SwiftShader: write mask 0 still writing",
-        "A write mask of 0 writes all channels.",
-        masks(|mask| if mask == 0 { 0xf } else { mask }),
-    );
-    list.add(
-        "alpha-always",
-        CONFUSION,
-        "Alpha is always written.",
-        masks(|mask| mask | 8),
-    );
-    list.add(
-        "alpha-never",
-        CONFUSION,
-        "Alpha is never written.",
-        masks(|mask| mask & 7),
-    );
-    list.add(
-        "inverted",
-        CONFUSION,
-        "The bits mean their opposite.",
-        masks(|mask| !mask),
-    );
-    list.add(
-        "any-is-all-colors",
-        "one bit for all three colour channels",
-        "Any of red, green and blue writes all three.",
-        masks(|mask| if mask & 7 == 0 { mask } else { mask | 7 }),
-    );
-    list.add(
-        "partial-is-nothing",
-        CONFUSION,
-        "A partial mask writes nothing.",
-        masks(|mask| if mask == 0xf { mask } else { 0 }),
-    );
-    list.add(
-        "ignored-without-blending",
-        CONFUSION,
-        "All channels are written where nothing is blended.",
-        draws(|draw| {
+    list.bug("ignored: All channels are written.")
+        .plant(masks(|_| 0xf));
+    list.bug("zero-still-writes: A write mask of 0 writes all channels.")
+        .source("SwiftShader: write mask 0 still writing")
+        .plant(masks(|mask| if mask == 0 { 0xf } else { mask }));
+    list.bug("alpha-always: Alpha is always written.")
+        .plant(masks(|mask| mask | 8));
+    list.bug("alpha-never: Alpha is never written.")
+        .plant(masks(|mask| mask & 7));
+    list.bug("inverted: The bits mean their opposite.")
+        .plant(masks(|mask| !mask));
+    list.bug("any-is-all-colors: Any of red, green and blue writes all three.")
+        .source("one bit for all three colour channels")
+        .plant(masks(|mask| if mask & 7 == 0 { mask } else { mask | 7 }));
+    list.bug("partial-is-nothing: A partial mask writes nothing.")
+        .plant(masks(|mask| if mask == 0xf { mask } else { 0 }));
+    list.bug("ignored-without-blending: All channels are written where nothing is blended.")
+        .draws(|draw| {
             for target in draw.targets.iter_mut().filter(|t| t.blend.is_none()) {
                 target.write_mask = 0xf;
             }
-        }),
-    );
-    list.add(
-        "ignored-with-blending",
-        CONFUSION,
-        "All channels are written where something is blended.",
-        draws(|draw| {
+        });
+    list.bug("ignored-with-blending: All channels are written where something is blended.")
+        .draws(|draw| {
             for target in draw.targets.iter_mut().filter(|t| t.blend.is_some()) {
                 target.write_mask = 0xf;
             }
-        }),
-    );
+        });
 }

@@ -17,10 +17,3 @@ pub struct Mutant {
     pub legal: Option<&'static str>,
     pub(super) plant: Plant,
 }
-
-impl Mutant {
-    /// States the clause that allows it.
-    pub(super) fn legal(&mut self, why: &'static str) {
-        self.legal = Some(why);
-    }
-}

@@ -1,10 +1,10 @@
 //! Planting a bug: in the scene, in a step, or in the frame.
 
-use super::hooks::Hooks;
-use super::memory::Memory;
+use crate::hooks::Hooks;
+use crate::memory::Memory;
 use etalon_cpu::steps::{Moment, Stored};
-use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
-use etalon_scene::{BlendComponent, Draw, Scene, StencilFace};
+use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
+use etalon_scene::{Attachment, Draw, Pass, Scene};
 use std::fmt;
 
 type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
@@ -70,59 +70,44 @@ pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static)
     Plant::Again(from, Box::new(bug))
 }
 
+/// Changes every pass, given the scene that is asked for and the number of the pass.
+pub(super) fn passes(bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        let asked = scene.clone();
+        for (number, pass) in scene.passes.iter_mut().enumerate() {
+            bug(&asked, number, pass);
+        }
+    })
+}
+
 /// Changes every draw.
 pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        scene
-            .passes
-            .iter_mut()
-            .flat_map(|p| &mut p.draws)
-            .for_each(&bug);
-    })
+    scene(move |scene| all_draws(scene).for_each(&bug))
+}
+
+/// Returns the draws of all passes.
+pub(super) fn all_draws(scene: &mut Scene) -> impl Iterator<Item = &mut Draw> {
+    scene.passes.iter_mut().flat_map(|pass| &mut pass.draws)
 }
 
 /// Changes draws, given the size of the attachments.
 pub(super) fn sized(bug: impl Fn(&mut Draw, [u32; 2]) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for at in 0..scene.passes.len() {
-            let size = scene.pass_size(&scene.passes[at]);
-            scene.passes[at].draws.iter_mut().for_each(|d| bug(d, size));
-        }
+    passes(move |scene, number, pass| {
+        let size = scene.pass_size(&scene.passes[number]);
+        pass.draws.iter_mut().for_each(|d| bug(d, size));
     })
 }
 
-/// Changes both faces of every stencil test.
-pub(super) fn faces(bug: impl Fn(&mut StencilFace) + Send + Sync + 'static) -> Plant {
-    draws(move |draw| {
-        if let Some(stencil) = &mut draw.stencil {
-            bug(&mut stencil.front);
-            bug(&mut stencil.back);
-        }
-    })
-}
-
-/// Changes the blend equation of colour.
-pub(super) fn color_blend(bug: impl Fn(&mut BlendComponent) + Send + Sync + 'static) -> Plant {
-    draws(move |draw| {
-        let states = draw.targets.iter_mut().filter_map(|t| t.blend.as_mut());
-        states.for_each(|state| bug(&mut state.color));
-    })
-}
-
-/// Changes the blend equation of alpha.
-pub(super) fn alpha_blend(bug: impl Fn(&mut BlendComponent) + Send + Sync + 'static) -> Plant {
-    draws(move |draw| {
-        let states = draw.targets.iter_mut().filter_map(|t| t.blend.as_mut());
-        states.for_each(|state| bug(&mut state.alpha));
-    })
+/// Changes what attachments start from.
+pub(super) fn contents(bug: impl Fn(&mut Attachment) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| scene.attachments.iter_mut().for_each(&bug))
 }
 
 /// Changes the first draw of a scene, given the last draw of the previous scene.
 pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     Plant::Sticky(Box::new(move |before, scene| {
         let last = before.passes.iter().flat_map(|p| &p.draws).next_back();
-        let first = scene.passes.iter_mut().flat_map(|p| &mut p.draws).next();
-        if let (Some(last), Some(first)) = (last, first) {
+        if let (Some(last), Some(first)) = (last, all_draws(scene).next()) {
             bug(last, first);
         }
     }))
@@ -132,7 +117,7 @@ pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
 pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
         let mut before: Option<Draw> = None;
-        for draw in scene.passes.iter_mut().flat_map(|p| &mut p.draws) {
+        for draw in all_draws(scene) {
             let asked = draw.clone();
             if let Some(before) = &before {
                 bug(before, draw);
@@ -142,27 +127,32 @@ pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
     })
 }
 
-/// Changes every image of one aspect.
-pub(super) fn images(aspect: Aspect, bug: impl Fn(&mut Image) + Send + Sync + 'static) -> Plant {
-    Plant::Frame(Box::new(move |_, frame| {
-        let chosen = frame.images.iter_mut().filter(|i| i.aspect == aspect);
-        chosen.for_each(&bug);
-    }))
+/// Changes the frame, given the scene.
+pub(super) fn frames(bug: impl Fn(&Scene, &mut Frame) + Send + Sync + 'static) -> Plant {
+    Plant::Frame(Box::new(bug))
 }
 
-/// Changes every image of an attachment of this format.
+/// Changes every image of one aspect.
+pub(super) fn images(aspect: Aspect, bug: impl Fn(&mut Image) + Send + Sync + 'static) -> Plant {
+    frames(move |_, frame| {
+        let chosen = frame.images.iter_mut().filter(|i| i.aspect == aspect);
+        chosen.for_each(&bug);
+    })
+}
+
+/// Changes every image of some attachments.
 pub(super) fn images_of(
-    format: TextureFormat,
+    which: impl Fn(&Attachment) -> bool + Send + Sync + 'static,
     bug: impl Fn(&mut Image) + Send + Sync + 'static,
 ) -> Plant {
-    Plant::Frame(Box::new(move |scene, frame| {
+    frames(move |scene, frame| {
         for image in &mut frame.images {
             let mut all = scene.attachments.iter();
-            if all.any(|a| a.name == image.attachment && a.format == format) {
+            if all.any(|a| a.name == image.attachment && which(a)) {
                 bug(image);
             }
         }
-    }))
+    })
 }
 
 /// Fetches every texel of one aspect from another place: `from([x, y], [width, height])`.
@@ -170,20 +160,20 @@ pub(super) fn moved(
     aspect: Aspect,
     from: impl Fn([u32; 2], [u32; 2]) -> [u32; 2] + Send + Sync + 'static,
 ) -> Plant {
-    images(aspect, move |image| {
-        let original = image.clone();
-        let [width, height] = image.size;
-        // A texel's samples lie side by side and move together.
-        let n = image.channels.len() * image.samples as usize;
-        for y in 0..height {
-            for x in 0..width {
-                let [from_x, from_y] = from([x, y], image.size);
-                let at = (y * width + x) as usize * n;
-                let source = (from_y.min(height - 1) * width + from_x.min(width - 1)) as usize * n;
-                image.codes[at..at + n].copy_from_slice(&original.codes[source..source + n]);
-            }
-        }
-    })
+    images(aspect, move |image| move_texels(image, &from))
+}
+
+/// Fetches every texel of an image from another place.
+pub(super) fn move_texels(image: &mut Image, from: impl Fn([u32; 2], [u32; 2]) -> [u32; 2]) {
+    let original = image.codes.clone();
+    let [width, height] = image.size;
+    // A texel's samples lie side by side and move together.
+    let n = image.channels.len() * image.samples as usize;
+    for (at, texel) in (0..).zip(image.codes.chunks_exact_mut(n)) {
+        let [x, y] = from([at % width, at / width], image.size);
+        let source = (y.min(height - 1) * width + x.min(width - 1)) as usize * n;
+        texel.copy_from_slice(&original[source..source + n]);
+    }
 }
 
 /// Returns a code moved by a number of steps, clamped to its encoding.

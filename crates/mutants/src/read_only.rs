@@ -1,64 +1,43 @@
 //! Bugs of read-only depth and stencil.
 
-use super::list::{CONFUSION, List, Row};
-use super::plant::{Plant, scene};
-use etalon_scene::{Pass, StencilOperation};
+use crate::fields::{DEPTH_WRITE, FACES};
+use crate::list::{CONFUSION, List};
+use crate::plant::{Plant, all_draws, passes};
+use etalon_scene::{Draw, StencilOperation};
+
+/// Changes the draws of read-only passes.
+fn read_only(bug: fn(&mut Draw)) -> Plant {
+    passes(move |_, _, pass| {
+        if pass.depth_stencil_read_only {
+            pass.draws.iter_mut().for_each(bug);
+        }
+    })
+}
 
 pub(super) fn add(list: &mut List) {
     list.class("read-only", "depth");
-    read_only(list);
-}
-
-fn read_only(list: &mut List) {
-    fn passes(bug: fn(&mut Pass)) -> Plant {
-        scene(move |scene| {
-            let all = scene.passes.iter_mut();
-            all.filter(|p| p.depth_stencil_read_only).for_each(bug);
-        })
-    }
-    let rows: [Row<fn(&mut Pass)>; 4] = [
-        (
-            "depth-still-written",
-            "Read-only depth is still written.",
-            |pass| {
-                let states = pass.draws.iter_mut().filter_map(|d| d.depth.as_mut());
-                states.for_each(|d| d.write = true);
-            },
-        ),
-        ("depth-untested", "Read-only depth is not tested.", |pass| {
-            pass.draws.iter_mut().for_each(|d| d.depth = None);
-        }),
-        (
-            "stencil-still-written",
-            "Read-only stencil is replaced.",
-            |pass| {
-                for stencil in pass.draws.iter_mut().filter_map(|d| d.stencil.as_mut()) {
-                    stencil.front.pass_op = StencilOperation::Replace;
-                    stencil.back.pass_op = StencilOperation::Replace;
-                }
-            },
-        ),
-        (
-            "stencil-untested",
-            "Read-only stencil is not tested.",
-            |pass| {
-                pass.draws.iter_mut().for_each(|d| d.stencil = None);
-            },
-        ),
-    ];
-    list.rows("read-only attachments treated as writable", passes, &rows);
-    list.add(
-        "from-the-start",
-        CONFUSION,
-        "A read-only attachment is not written by earlier passes either.",
-        scene(|scene| {
+    list.source("read-only attachments treated as writable");
+    list.bug("depth-still-written: Read-only depth is still written.")
+        .plant(read_only(|d| {
+            DEPTH_WRITE(d).into_iter().for_each(|write| *write = true)
+        }));
+    list.bug("depth-untested: Read-only depth is not tested.")
+        .plant(read_only(|d| d.depth = None));
+    list.bug("stencil-still-written: Read-only stencil is replaced.")
+        .plant(read_only(|d| {
+            FACES(d)
+                .into_iter()
+                .for_each(|f| f.pass_op = StencilOperation::Replace)
+        }));
+    list.bug("stencil-untested: Read-only stencil is not tested.")
+        .plant(read_only(|d| d.stencil = None));
+    list.source(CONFUSION);
+    list.bug("from-the-start: A read-only attachment is not written by earlier passes either.")
+        .scene(|scene| {
             if scene.passes.iter().any(|p| p.depth_stencil_read_only) {
-                for draw in scene.passes.iter_mut().flat_map(|p| &mut p.draws) {
-                    if let Some(depth) = &mut draw.depth {
-                        depth.write = false;
-                    }
-                }
+                all_draws(scene)
+                    .flat_map(DEPTH_WRITE)
+                    .for_each(|write| *write = false);
             }
-        }),
-    );
+        });
 }

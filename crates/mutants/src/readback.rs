@@ -1,7 +1,7 @@
 //! Bugs of read-back.
 
-use super::list::{CONFUSION, List, Row, SMALL};
-use super::plant::{Plant, images, moved, nudge};
+use crate::list::{List, SMALL, STEPS};
+use crate::plant::{Plant, images, move_texels, moved, nudge};
 use etalon_frame::{Aspect, ChannelEncoding, Image};
 
 const ASPECTS: [(Aspect, &str); 3] = [
@@ -33,23 +33,15 @@ fn channel(aspect: Aspect, channel: usize, steps: i64) -> Plant {
     })
 }
 
-/// Moves the first channel of one texel by a number of codes, inwards from an end of its range.
-fn one_texel(
-    aspect: Aspect,
-    steps: i64,
-    at: impl Fn(&Image) -> usize + Send + Sync + 'static,
-) -> Plant {
-    images(aspect, move |image| {
-        let place = at(image) * image.channels.len() * image.samples as usize;
-        let encoding = image.channels[0];
-        let code = image.codes[place];
-        let up = held(aspect, encoding, code, steps);
-        image.codes[place] = if up == code {
-            held(aspect, encoding, code, -steps)
-        } else {
-            up
-        };
-    })
+/// Moves a code by a number of steps, inwards from an end of its range.
+fn inwards(aspect: Aspect, image: &mut Image, place: usize, steps: i64) {
+    let (encoding, code) = (image.channels[0], image.codes[place]);
+    let up = held(aspect, encoding, code, steps);
+    image.codes[place] = if up == code {
+        held(aspect, encoding, code, -steps)
+    } else {
+        up
+    };
 }
 
 pub(super) fn add(list: &mut List) {
@@ -63,18 +55,12 @@ pub(super) fn add(list: &mut List) {
     }
     list.class("readback", "blend");
     for (c, name) in ["red", "green", "blue", "alpha"].into_iter().enumerate() {
-        for (by, steps) in [
-            ("plus-1", 1),
-            ("minus-1", -1),
-            ("plus-3", 3),
-            ("minus-3", -3),
-        ] {
-            list.add(
-                &format!("{name}-{by}-lsb"),
-                SMALL,
-                format!("Every {name} is {steps} codes off, within its range."),
-                channel(Aspect::Color, c, steps),
-            );
+        for (by, steps) in STEPS {
+            list.bug(format!(
+                "{name}-{by}-lsb: Every {name} is {steps} codes off, within its range."
+            ))
+            .source(SMALL)
+            .plant(channel(Aspect::Color, c, steps));
         }
     }
     let swaps: [(&str, usize, usize); 3] = [
@@ -83,54 +69,36 @@ pub(super) fn add(list: &mut List) {
         ("green-alpha", 1, 3),
     ];
     for (name, a, b) in swaps {
-        list.add(
-            &format!("{name}-swapped"),
-            CONFUSION,
-            format!("Channels {name} are exchanged."),
-            images(Aspect::Color, move |image| {
+        list.bug(format!("{name}-swapped: Channels {name} are exchanged."))
+            .plant(images(Aspect::Color, move |image| {
                 let n = image.channels.len();
                 if b < n {
                     image.codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
                 }
-            }),
-        );
+            }));
     }
     for (name, alpha) in [("alpha-one", 1.0), ("alpha-zero", 0.0)] {
-        list.add(
-            name,
-            CONFUSION,
-            format!("Every alpha is read back as {alpha}."),
-            images(Aspect::Color, move |image| {
+        list.bug(format!("{name}: Every alpha is read back as {alpha}."))
+            .plant(images(Aspect::Color, move |image| {
                 if let Some(encoding) = image.channels.get(3) {
                     let code = encoding.nearest_code(alpha);
                     image.codes.chunks_exact_mut(4).for_each(|t| t[3] = code);
                 }
-            }),
-        );
+            }));
     }
     list.class("readback", "stencil");
-    list.add(
-        "stencil-zero",
-        CONFUSION,
-        "Stencil is read back as 0.",
-        images(Aspect::Stencil, |image| image.codes.fill(0)),
-    );
-    list.add(
-        "stencil-highest-bit-lost",
-        SMALL,
-        "Stencil is read back without its highest bit.",
-        images(Aspect::Stencil, |image| {
-            image.codes.iter_mut().for_each(|c| *c &= 0x7f);
-        }),
-    );
-    list.add(
-        "stencil-lowest-bit-lost",
-        SMALL,
-        "Stencil is read back without its lowest bit.",
-        images(Aspect::Stencil, |image| {
-            image.codes.iter_mut().for_each(|c| *c &= 0xfe);
-        }),
-    );
+    list.bug("stencil-zero: Stencil is read back as 0.")
+        .plant(images(Aspect::Stencil, |image| image.codes.fill(0)));
+    list.bug("stencil-highest-bit-lost: Stencil is read back without its highest bit.")
+        .source(SMALL)
+        .plant(images(Aspect::Stencil, |image| {
+            image.codes.iter_mut().for_each(|c| *c &= 0x7f)
+        }));
+    list.bug("stencil-lowest-bit-lost: Stencil is read back without its lowest bit.")
+        .source(SMALL)
+        .plant(images(Aspect::Stencil, |image| {
+            image.codes.iter_mut().for_each(|c| *c &= 0xfe)
+        }));
 }
 
 /// Permutes the samples of every texel: each gets the codes of sample `from(sample, samples)`.
@@ -147,21 +115,22 @@ fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
     })
 }
 
+/// A place of a texel, given its own and the size.
+type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
+
 /// Moves the texels of one sample: each gets the codes of texel `from([x, y], size)`.
-fn plane(aspect: Aspect, which: fn(u32) -> u32, from: fn([u32; 2], [u32; 2]) -> [u32; 2]) -> Plant {
+fn plane(aspect: Aspect, which: fn(usize) -> usize, from: From) -> Plant {
     images(aspect, move |image| {
-        let original = image.clone();
-        let (n, sample) = (image.channels.len(), which(image.samples));
-        let [width, height] = image.size;
-        if image.samples == 1 {
-            return;
-        }
-        for y in 0..height {
-            for x in 0..width {
-                let at = ((y * width + x) * image.samples + sample) as usize * n;
-                let [from_x, from_y] = from([x, y], image.size);
-                let codes = original.sample(from_x.min(width - 1), from_y.min(height - 1), sample);
-                image.codes[at..at + n].copy_from_slice(codes);
+        let original = image.codes.clone();
+        let (n, samples) = (image.channels.len(), image.samples as usize);
+        move_texels(image, from);
+        let texels = image
+            .codes
+            .chunks_exact_mut(n)
+            .zip(original.chunks_exact(n));
+        for (number, (moved, original)) in texels.enumerate() {
+            if samples == 1 || number % samples != which(samples) {
+                moved.copy_from_slice(original);
             }
         }
     })
@@ -171,160 +140,105 @@ fn plane(aspect: Aspect, which: fn(u32) -> u32, from: fn([u32; 2], [u32; 2]) -> 
 fn multisampled(list: &mut List, aspect: Aspect) {
     let name = aspect.name();
     type Order = fn(usize, usize) -> usize;
-    let orders: [Row<Order>; 4] = [
-        (
-            "neighbouring-samples-swapped",
-            "with every two samples exchanged",
-            |s, n| (s ^ 1) % n,
-        ),
-        (
-            "samples-reversed",
-            "with its samples in reverse order",
-            |s, n| n - 1 - s,
-        ),
-        (
-            "first-sample-for-all",
-            "with the first sample for all",
-            |_, _| 0,
-        ),
-        (
-            "samples-one-late",
-            "with each sample in the place of the next",
-            |s, n| (s + n - 1) % n,
-        ),
+    let orders: [(&str, Order); 4] = [
+        ("neighbouring-samples-swapped", |s, n| (s ^ 1) % n),
+        ("samples-reversed", |s, n| n - 1 - s),
+        ("first-sample-for-all", |_, _| 0),
+        ("samples-one-late", |s, n| (s + n - 1) % n),
     ];
-    for (bug, about, from) in orders {
-        list.add(
-            &format!("{name}-{bug}"),
-            "a wrong sample index",
-            format!("The {name} image is read back {about}."),
-            samples(aspect, from),
-        );
+    for (bug, from) in orders {
+        let words = bug.replace('-', " ");
+        list.bug(format!(
+            "{name}-{bug}: The {name} image is read back with {words}."
+        ))
+        .source("a wrong sample index")
+        .plant(samples(aspect, from));
     }
-    type Plane = (
-        &'static str,
-        &'static str,
-        fn(u32) -> u32,
-        fn([u32; 2], [u32; 2]) -> [u32; 2],
-    );
+    type Plane = (&'static str, &'static str, fn(usize) -> usize, From);
     let planes: [Plane; 3] = [
-        (
-            "last-sample-upside-down",
-            "upside down",
-            |n| n - 1,
-            |[x, y], [_, h]| [x, h - 1 - y],
-        ),
-        (
-            "second-sample-one-texel-right",
-            "one texel to the right",
-            |_| 1,
-            |[x, y], _| [x.saturating_sub(1), y],
-        ),
-        (
-            "first-sample-one-texel-down",
-            "one texel down",
-            |_| 0,
-            |[x, y], _| [x, y.saturating_sub(1)],
-        ),
+        ("last", "upside-down", |n| n - 1, upside_down),
+        ("second", "one-texel-right", |_| 1, right),
+        ("first", "one-texel-down", |_| 0, down),
     ];
-    for (bug, about, which, from) in planes {
-        list.add(
-            &format!("{name}-{bug}"),
-            SMALL,
-            format!("One sample of the {name} image is read back {about}."),
-            plane(aspect, which, from),
-        );
+    for (sample, bug, which, from) in planes {
+        let words = bug.replace('-', " ");
+        list.bug(format!(
+            "{name}-{sample}-sample-{bug}: The {sample} sample of {name} is read back {words}."
+        ))
+        .source(SMALL)
+        .plant(plane(aspect, which, from));
     }
-    list.add(
-        &format!("{name}-last-sample-off-by-one-lsb"),
-        SMALL,
-        format!("The last sample of the {name} image's last texel is one code off."),
-        images(aspect, move |image| {
-            if image.samples > 1 {
-                let at = image.codes.len() - image.channels.len();
-                let encoding = image.channels[0];
-                let up = held(aspect, encoding, image.codes[at], 1);
-                image.codes[at] = if up == image.codes[at] {
-                    held(aspect, encoding, up, -1)
-                } else {
-                    up
-                };
-            }
-        }),
-    );
+    list.bug(format!(
+        "{name}-last-sample-off-by-one-lsb: The last sample of {name} is one code off."
+    ))
+    .source(SMALL)
+    .plant(images(aspect, move |image| {
+        if image.samples > 1 {
+            inwards(aspect, image, image.codes.len() - image.channels.len(), 1);
+        }
+    }));
+}
+
+fn right([x, y]: [u32; 2], _: [u32; 2]) -> [u32; 2] {
+    [x.saturating_sub(1), y]
+}
+
+fn down([x, y]: [u32; 2], _: [u32; 2]) -> [u32; 2] {
+    [x, y.saturating_sub(1)]
+}
+
+fn upside_down([x, y]: [u32; 2], [_, h]: [u32; 2]) -> [u32; 2] {
+    [x, h - 1 - y]
 }
 
 fn places(list: &mut List, aspect: Aspect) {
     let name = aspect.name();
-    type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
-    let moves: [(&str, &str, From); 8] = [
-        ("one-texel-right", "one texel to the right", |[x, y], _| {
-            [x.saturating_sub(1), y]
-        }),
-        ("one-texel-left", "one texel to the left", |[x, y], _| {
-            [x + 1, y]
-        }),
-        ("one-texel-down", "one texel down", |[x, y], _| {
-            [x, y.saturating_sub(1)]
-        }),
-        ("one-texel-up", "one texel up", |[x, y], _| [x, y + 1]),
-        ("upside-down", "upside down", |[x, y], [_, h]| {
-            [x, h - 1 - y]
-        }),
-        ("mirrored", "mirrored", |[x, y], [w, _]| [w - 1 - x, y]),
-        (
-            "last-row-repeated",
-            "with the row above in place of the last",
-            |[x, y], [_, h]| [x, y.min(h - 2)],
-        ),
-        (
-            "last-column-repeated",
-            "with the column before in place of the last",
-            |[x, y], [w, _]| [x.min(w - 2), y],
-        ),
+    let moves: [(&str, From); 8] = [
+        ("one-texel-right", right),
+        ("one-texel-left", |[x, y], _| [x + 1, y]),
+        ("one-texel-down", down),
+        ("one-texel-up", |[x, y], _| [x, y + 1]),
+        ("upside-down", upside_down),
+        ("mirrored", |[x, y], [w, _]| [w - 1 - x, y]),
+        ("last-row-repeated", |[x, y], [_, h]| [x, y.min(h - 2)]),
+        ("last-column-repeated", |[x, y], [w, _]| [x.min(w - 2), y]),
     ];
-    for (bug, about, from) in moves {
-        list.add(
-            &format!("{name}-{bug}"),
-            match bug {
-                "upside-down" => "ANGLE: y flip breaking depth and stencil",
-                _ => "a shift of one texel, which dEQP's groups do not see in depth and stencil",
-            },
-            format!("The {name} image is read back {about}."),
-            moved(aspect, from),
-        );
+    for (bug, from) in moves {
+        let words = bug.replace('-', " ").replace("last", "with the last");
+        list.bug(format!(
+            "{name}-{bug}: The {name} image is read back {words}."
+        ))
+        .source(match bug {
+            "upside-down" => "ANGLE: y flip breaking depth and stencil",
+            _ => "a shift of one texel, which dEQP's groups do not see in depth and stencil",
+        })
+        .plant(moved(aspect, from));
     }
-    type At = fn(&Image) -> usize;
+    type At = fn([u32; 2]) -> u32;
     let texels: [(&str, At); 3] = [
         ("first", |_| 0),
-        ("middle", |i| {
-            ((i.size[1] / 2) * i.size[0] + i.size[0] / 2) as usize
-        }),
-        ("last", |i| (i.size[0] * i.size[1]) as usize - 1),
+        ("middle", |[w, h]| (h / 2) * w + w / 2),
+        ("last", |[w, h]| w * h - 1),
     ];
     for (which, at) in texels {
         for (by, steps) in [("one-lsb", 1), ("three-lsb", 3)] {
-            list.add(
-                &format!("{name}-{which}-texel-off-by-{by}"),
-                SMALL,
-                format!("The {which} texel of the {name} image is {steps} codes off."),
-                one_texel(aspect, steps, at),
-            );
+            list.bug(format!(
+                "{name}-{which}-texel-off-by-{by}: The {which} texel of {name} is {steps} codes off."
+            ))
+            .source(SMALL)
+            .plant(images(aspect, move |image| {
+                let place = at(image.size) as usize * image.channels.len() * image.samples as usize;
+                inwards(aspect, image, place, steps);
+            }));
         }
     }
     if aspect != Aspect::Color {
-        for (by, steps) in [
-            ("plus-1", 1),
-            ("minus-1", -1),
-            ("plus-3", 3),
-            ("minus-3", -3),
-        ] {
-            list.add(
-                &format!("{name}-{by}-lsb"),
-                SMALL,
-                format!("Every {name} is {steps} codes off, within its range."),
-                channel(aspect, 0, steps),
-            );
+        for (by, steps) in STEPS {
+            list.bug(format!(
+                "{name}-{by}-lsb: Every {name} is {steps} codes off, within its range."
+            ))
+            .source(SMALL)
+            .plant(channel(aspect, 0, steps));
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Bugs of sample coverage: a share of the samples, or its inverse.
 
-use super::hooks::sample_drawn;
-use super::list::{CONFUSION, List, Row};
-use super::plant::{Plant, draws};
-use etalon_scene::{Draw, Multisample, SampleCoverage};
+use crate::fields::SAMPLE_COVERAGE;
+use crate::hooks::sample_drawn;
+use crate::list::{CONFUSION, List};
+use crate::plant::Plant;
+use etalon_scene::{Multisample, SampleCoverage};
 
 /// Decides whether a value covers a sample, given its index and the number of samples.
 type Share = fn(f32, usize, usize) -> bool;
@@ -54,146 +55,82 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn states(list: &mut List) {
-    let rows: [Row<fn(&mut Draw)>; 5] = [
-        ("ignored", "Sample coverage is never enabled.", |draw| {
-            draw.multisample.sample_coverage = None;
-        }),
-        ("inversion-ignored", "Inversion does nothing.", |draw| {
-            if let Some(share) = &mut draw.multisample.sample_coverage {
-                share.invert = false;
+    list.source("Gallium lowers sample coverage to a mask, inversion included");
+    list.bug("ignored: Sample coverage is never enabled.")
+        .draws(|draw| draw.multisample.sample_coverage = None);
+    list.bug("inversion-ignored: Inversion does nothing.")
+        .each(SAMPLE_COVERAGE, |share| share.invert = false);
+    list.bug("always-inverted: Every share is inverted.")
+        .each(SAMPLE_COVERAGE, |share| share.invert = true);
+    list.bug("inverts-the-value: Inversion covers the first samples, by 1 less the value.")
+        .each(SAMPLE_COVERAGE, |share| {
+            if std::mem::take(&mut share.invert) {
+                share.value = 1.0 - share.value;
             }
-        }),
-        ("always-inverted", "Every share is inverted.", |draw| {
-            if let Some(share) = &mut draw.multisample.sample_coverage {
-                share.invert = true;
-            }
-        }),
-        (
-            "inverts-the-value",
-            "Inversion takes 1 less the value, and covers the first samples as ever.",
-            |draw| {
-                if let Some(share) = &mut draw.multisample.sample_coverage
-                    && share.invert
-                {
-                    *share = SampleCoverage {
-                        value: 1.0 - share.value,
-                        invert: false,
-                    };
-                }
-            },
-        ),
-        (
-            "lost-under-alpha-to-coverage",
-            "Alpha to coverage replaces sample coverage.",
-            |draw| {
-                if draw.multisample.alpha_to_coverage {
-                    draw.multisample.sample_coverage = None;
-                }
-            },
-        ),
-    ];
-    let source = "Gallium lowers sample coverage to a mask, inversion included";
-    list.rows(source, |bug: fn(&mut Draw)| draws(bug), &rows);
-    list.add(
-        "replaces-alpha-to-coverage",
-        CONFUSION,
-        "Sample coverage replaces alpha to coverage.",
-        draws(|draw| {
-            draw.multisample.alpha_to_coverage &= draw.multisample.sample_coverage.is_none();
-        }),
-    );
+        });
+    list.bug("lost-under-alpha-to-coverage: Alpha to coverage replaces sample coverage.")
+        .when(|draw| draw.multisample.alpha_to_coverage)
+        .draws(|draw| draw.multisample.sample_coverage = None);
+    list.source(CONFUSION);
+    list.bug("replaces-alpha-to-coverage: Sample coverage replaces alpha to coverage.")
+        .draws(|draw| {
+            draw.multisample.alpha_to_coverage &= draw.multisample.sample_coverage.is_none()
+        });
 }
 
 fn values(list: &mut List) {
-    let rows: [Row<Share>; 6] = [
-        (
-            "negative-as-all",
-            "A value below 0 wraps to all samples.",
-            |v, s, n| v < 0.0 || s < count(v, n),
-        ),
-        (
-            "above-one-wraps",
-            "A value above 1 loses its whole part.",
-            |v, s, n| s < count(if v > 1.0 { v.fract() } else { v }, n),
-        ),
-        (
-            "zero-covers-one",
-            "A share covers at least one.",
-            |v, s, n| s < count(v, n).max(1),
-        ),
-        (
-            "whole-lacks-one",
-            "A share of 1 leaves the last sample out.",
-            |v, s, n| s < count(v, n).min(n - 1),
-        ),
-        ("never", "No share covers anything.", |_, _, _| false),
-        ("one-less", "A share covers one too few.", |v, s, n| {
-            s + 1 < count(v, n)
-        }),
-    ];
-    list.rows(CONFUSION, shares, &rows);
+    list.bug("negative-as-all: A value below 0 wraps to all samples.")
+        .plant(shares(|v, s, n| v < 0.0 || s < count(v, n)));
+    list.bug("above-one-wraps: A value above 1 loses its whole part.")
+        .plant(shares(|v, s, n| {
+            s < count(if v > 1.0 { v.fract() } else { v }, n)
+        }));
+    list.bug("zero-covers-one: A share covers at least one.")
+        .plant(shares(|v, s, n| s < count(v, n).max(1)));
+    list.bug("whole-lacks-one: A share of 1 leaves the last sample out.")
+        .plant(shares(|v, s, n| s < count(v, n).min(n - 1)));
+    list.bug("never: No share covers anything.")
+        .plant(shares(|_, _, _| false));
+    list.bug("one-less: A share covers one too few.")
+        .plant(shares(|v, s, n| s + 1 < count(v, n)));
     const OPEN: &str = "OpenGL 4.6: 14.9.3: between 0 and 1 no algorithm is required; only a number \
                         in proportion is intended";
-    let open: [Row<Share>; 3] = [
-        (
-            "half-as-whole",
-            "A share of a half covers all.",
-            |v, _, _| v >= 0.5,
-        ),
-        (
-            "truncated",
-            "The number of samples is truncated.",
-            |v, s, n| s < (v.clamp(0.0, 1.0) * n as f32) as usize,
-        ),
-        (
-            "from-the-last",
-            "A share covers the last samples.",
-            |v, s, n| n - 1 - s < count(v, n),
-        ),
-    ];
-    for (name, about, bug) in open {
-        list.add(name, CONFUSION, about, shares(bug)).legal(OPEN);
-    }
+    list.bug("half-as-whole: A share of a half covers all.")
+        .legal(OPEN)
+        .plant(shares(|v, _, _| v >= 0.5));
+    list.bug("truncated: The number of samples is truncated.")
+        .legal(OPEN)
+        .plant(shares(|v, s, n| {
+            s < (v.clamp(0.0, 1.0) * n as f32) as usize
+        }));
+    list.bug("from-the-last: A share covers the last samples.")
+        .legal(OPEN)
+        .plant(shares(|v, s, n| n - 1 - s < count(v, n)));
 }
 
 fn combinations(list: &mut List) {
-    let rows: [Row<Combined>; 5] = [
-        (
-            "or-mask",
-            "A sample is drawn that either the share or the mask lets through.",
-            |covered, invert, mask| (covered != invert) || mask,
-        ),
-        (
-            "replaces-the-mask",
-            "The sample mask is lost under sample coverage.",
-            |covered, invert, _| covered != invert,
-        ),
-        (
-            "replaced-by-the-mask",
-            "A mask that leaves samples out replaces the share.",
-            |_, _, mask| mask,
-        ),
-        (
-            "inversion-takes-the-mask-along",
-            "Inversion applies to the share and the mask together.",
-            |covered, invert, mask| (covered && mask) != invert,
-        ),
-        (
-            "exclusive-with-the-mask",
-            "A sample is drawn that one of share and mask lets through.",
-            |covered, invert, mask| (covered != invert) != mask,
-        ),
-    ];
-    list.rows(
-        "freedreno: sample mask and coverage in one register",
-        combined,
-        &rows,
-    );
+    list.source("freedreno: sample mask and coverage in one register");
+    list.bug("or-mask: A sample is drawn that either the share or the mask lets through.")
+        .plant(combined(|covered, invert, mask| {
+            (covered != invert) || mask
+        }));
+    list.bug("replaces-the-mask: The sample mask is lost under sample coverage.")
+        .plant(combined(|covered, invert, _| covered != invert));
+    list.bug("replaced-by-the-mask: A mask that leaves samples out replaces the share.")
+        .plant(combined(|_, _, mask| mask));
+    list.bug("inversion-takes-the-mask-along: Inversion applies to share and mask together.")
+        .plant(combined(|covered, invert, mask| {
+            (covered && mask) != invert
+        }));
+    list.bug("exclusive-with-the-mask: A sample is drawn that one of share and mask lets through.")
+        .plant(combined(|covered, invert, mask| {
+            (covered != invert) != mask
+        }));
+    list.source(CONFUSION);
 }
 
 fn single(list: &mut List) {
-    type Bug = fn(&Multisample) -> bool;
-    fn plant(bug: Bug) -> Plant {
+    fn plant(bug: fn(&Multisample) -> bool) -> Plant {
         sample_drawn(move |state, sample, samples| {
             let covered = match state.sample_coverage {
                 Some(share) if samples > 1 => {
@@ -204,25 +141,19 @@ fn single(list: &mut List) {
             covered && in_mask(state, sample)
         })
     }
-    let rows: [Row<Bug>; 3] = [
-        (
-            "of-one-sample",
-            "A share of less than a half draws nothing to one sample.",
-            |state| {
-                let share = state.sample_coverage;
-                share.is_none_or(|share| (share.value >= 0.5) != share.invert)
-            },
-        ),
-        (
-            "of-one-sample-at-zero",
-            "A share of 0 draws nothing to one sample.",
-            |state| state.sample_coverage.is_none_or(|share| share.value > 0.0),
-        ),
-        (
-            "of-one-sample-inverted",
-            "An inverted share draws nothing to one sample.",
-            |state| state.sample_coverage.is_none_or(|share| !share.invert),
-        ),
-    ];
-    list.rows("sample mask applied without several samples", plant, &rows);
+    list.source("sample mask applied without several samples");
+    list.bug("of-one-sample: A share of less than a half draws nothing to one sample.")
+        .plant(plant(|state| {
+            let share = state.sample_coverage;
+            share.is_none_or(|share| (share.value >= 0.5) != share.invert)
+        }));
+    list.bug("of-one-sample-at-zero: A share of 0 draws nothing to one sample.")
+        .plant(plant(|state| {
+            state.sample_coverage.is_none_or(|share| share.value > 0.0)
+        }));
+    list.bug("of-one-sample-inverted: An inverted share draws nothing to one sample.")
+        .plant(plant(|state| {
+            state.sample_coverage.is_none_or(|share| !share.invert)
+        }));
+    list.source(CONFUSION);
 }

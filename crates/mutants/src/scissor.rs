@@ -1,9 +1,11 @@
 //! Bugs of scissor rectangles.
 
-use super::list::{CONFUSION, List, Row, SMALL};
-use super::plant::{Plant, scene, sized};
+use crate::fields::FACES;
+use crate::list::{CONFUSION, List, SMALL};
+use crate::plant::{Plant, all_draws, passes, sized};
+use crate::tables::ONE_TEXEL;
 use etalon_scene::{
-    CompareFunction, Contents, DepthState, Draw, Pass, Scene, StencilFace, StencilOperation,
+    CompareFunction, Contents, DepthState, Draw, Scene, StencilFace, StencilOperation,
 };
 
 pub(super) fn add(list: &mut List) {
@@ -19,112 +21,56 @@ fn scissors(bug: fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>) -> Plant {
 }
 
 fn rects(list: &mut List) {
-    type Bug = fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>;
-    let small: [Row<Bug>; 8] = [
-        (
-            "one-texel-right",
-            "Rectangles lie one texel too far right.",
-            |[x, y, w, h], _| Some([x + 1, y, w, h]),
-        ),
-        (
-            "one-texel-left",
-            "Rectangles lie one texel too far left.",
-            |[x, y, w, h], _| Some([x.saturating_sub(1), y, w, h]),
-        ),
-        (
-            "one-texel-down",
-            "Rectangles lie one texel too far down.",
-            |[x, y, w, h], _| Some([x, y + 1, w, h]),
-        ),
-        (
-            "one-texel-up",
-            "Rectangles lie one texel too far up.",
-            |[x, y, w, h], _| Some([x, y.saturating_sub(1), w, h]),
-        ),
-        (
-            "one-texel-wider",
-            "Rectangles are one texel too wide.",
-            |[x, y, w, h], _| Some([x, y, w + 1, h]),
-        ),
-        (
-            "one-texel-narrower",
-            "Rectangles are one texel too narrow.",
-            |[x, y, w, h], _| Some([x, y, w.saturating_sub(1), h]),
-        ),
-        (
-            "one-texel-higher",
-            "Rectangles are one texel too high.",
-            |[x, y, w, h], _| Some([x, y, w, h + 1]),
-        ),
-        (
-            "one-texel-lower",
-            "Rectangles are one texel too low.",
-            |[x, y, w, h], _| Some([x, y, w, h.saturating_sub(1)]),
-        ),
-    ];
-    list.rows(SMALL, scissors, &small);
-    let confused: [Row<Bug>; 9] = [
-        ("ignored", "There is no scissor test.", |_, _| None),
-        (
-            "empty-as-all",
-            "An empty rectangle counts as no scissor test.",
-            |rect, _| (rect[2] > 0 && rect[3] > 0).then_some(rect),
-        ),
-        (
-            "empty-as-one-texel",
-            "An empty rectangle holds one texel.",
-            |[x, y, w, h], _| Some([x, y, w.max(1), h.max(1)]),
-        ),
-        (
-            "upside-down",
-            "Rectangles are counted from the bottom.",
-            |[x, y, w, h], [_, all]| Some([x, all.saturating_sub(y.saturating_add(h)), w, h]),
-        ),
-        (
-            "mirrored",
-            "Rectangles are counted from the right.",
-            |[x, y, w, h], [all, _]| Some([all.saturating_sub(x.saturating_add(w)), y, w, h]),
-        ),
-        (
-            "transposed",
-            "Columns and rows are exchanged.",
-            |[x, y, w, h], _| Some([y, x, h, w]),
-        ),
-        (
-            "size-as-end",
-            "Width and height are read as the last column and row.",
-            |r, _| {
-                let [x, y, w, h] = r;
-                Some([x, y, w.saturating_sub(x), h.saturating_sub(y)])
-            },
-        ),
-        (
-            "from-the-origin",
-            "Rectangles begin at the origin.",
-            |[_, _, w, h], _| Some([0, 0, w, h]),
-        ),
-        (
-            "lost-when-partly-outside",
-            "Rectangles that reach outside count as no scissor test.",
-            |r, s| {
-                let [x, y, w, h] = r;
-                (x + w <= s[0] && y + h <= s[1]).then_some(r)
-            },
-        ),
-    ];
-    list.rows("ANGLE: y flip; misread rectangles", scissors, &confused);
-    list.add(
-        "kept-where-none-is-set",
-        CONFUSION,
-        "Without a rectangle, the last one stays.",
-        scene(|scene| {
+    list.source(SMALL);
+    for (name, about, by) in ONE_TEXEL {
+        list.bug(format!("one-texel-{name}: Rectangles {about}."))
+            .draws(move |draw| {
+                for (value, by) in draw.scissor.iter_mut().flatten().zip(by) {
+                    *value = value.saturating_add_signed(by);
+                }
+            });
+    }
+    list.source("ANGLE: y flip; misread rectangles");
+    list.bug("ignored: There is no scissor test.")
+        .draws(|draw| draw.scissor = None);
+    list.bug("empty-as-all: An empty rectangle counts as no scissor test.")
+        .draws(|draw| draw.scissor = draw.scissor.filter(|[_, _, w, h]| *w > 0 && *h > 0));
+    list.bug("empty-as-one-texel: An empty rectangle holds one texel.")
+        .plant(scissors(|[x, y, w, h], _| Some([x, y, w.max(1), h.max(1)])));
+    list.bug("upside-down: Rectangles are counted from the bottom.")
+        .plant(scissors(|[x, y, w, h], [_, all]| {
+            Some([x, before(all, y, h), w, h])
+        }));
+    list.bug("mirrored: Rectangles are counted from the right.")
+        .plant(scissors(|[x, y, w, h], [all, _]| {
+            Some([before(all, x, w), y, w, h])
+        }));
+    list.bug("transposed: Columns and rows are exchanged.")
+        .plant(scissors(|[x, y, w, h], _| Some([y, x, h, w])));
+    list.bug("size-as-end: Width and height are read as the last column and row.")
+        .plant(scissors(|[x, y, w, h], _| {
+            Some([x, y, before(w, x, 0), before(h, y, 0)])
+        }));
+    list.bug("from-the-origin: Rectangles begin at the origin.")
+        .plant(scissors(|[_, _, w, h], _| Some([0, 0, w, h])));
+    list.bug("lost-when-partly-outside: Rectangles that reach outside count as no scissor test.")
+        .plant(scissors(|[x, y, w, h], [all_w, all_h]| {
+            (x + w <= all_w && y + h <= all_h).then_some([x, y, w, h])
+        }));
+    list.source(CONFUSION);
+    list.bug("kept-where-none-is-set: Without a rectangle, the last one stays.")
+        .scene(|scene| {
             let mut last = None;
-            for draw in scene.passes.iter_mut().flat_map(|p| &mut p.draws) {
+            for draw in all_draws(scene) {
                 draw.scissor = draw.scissor.or(last);
                 last = draw.scissor;
             }
-        }),
-    );
+        });
+}
+
+/// What an attachment has on the other side of a rectangle.
+fn before(all: u32, start: u32, length: u32) -> u32 {
+    all.saturating_sub(start.saturating_add(length))
 }
 
 /// The up to four rectangles around another.
@@ -142,152 +88,101 @@ fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
     ]
 }
 
-/// Masks all colours.
-fn without_color(draw: &mut Draw) {
-    draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
+/// Masks writes.
+type Mask = fn(&mut Draw);
+
+const COLOR: Mask = |draw| draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
+const DEPTH: Mask = |draw| draw.depth.iter_mut().for_each(|d| d.write = false);
+const STENCIL: Mask = |draw| FACES(draw).into_iter().for_each(|f| f.write_mask = 0);
+
+/// The scissor test is not done for one kind of attachment: the draw is repeated around the rectangle
+/// with the writes of the other two kinds masked.
+fn beyond(others: [Mask; 2]) -> Plant {
+    passes(move |scene, number, pass| {
+        let asked = &scene.passes[number];
+        let size = scene.pass_size(asked);
+        pass.draws.clear();
+        for draw in &asked.draws {
+            pass.draws.push(draw.clone());
+            for rect in draw.scissor.map_or(Vec::new(), |rect| around(rect, size)) {
+                let mut copy = draw.clone();
+                copy.scissor = Some(rect);
+                others.iter().for_each(|mask| mask(&mut copy));
+                pass.draws.push(copy);
+            }
+        }
+    })
 }
 
-fn without_depth(draw: &mut Draw) {
-    if let Some(depth) = &mut draw.depth {
-        depth.write = false;
-    }
-}
-
-fn without_stencil(draw: &mut Draw) {
-    if let Some(stencil) = &mut draw.stencil {
-        stencil.front.write_mask = 0;
-        stencil.back.write_mask = 0;
-    }
-}
-
-/// The scissor test is not done for one kind of attachment: the draw is repeated around the
-/// rectangle with the writes of the other two kinds masked.
 fn kinds(list: &mut List) {
-    type Others = [fn(&mut Draw); 2];
-    fn beyond(others: Others) -> Plant {
-        scene(move |scene| {
-            for at in 0..scene.passes.len() {
-                let size = scene.pass_size(&scene.passes[at]);
-                let draws = std::mem::take(&mut scene.passes[at].draws);
-                for draw in draws {
-                    let rects = draw.scissor.map_or(Vec::new(), |r| around(r, size));
-                    let copies = rects.into_iter().map(|rect| {
-                        let mut copy = draw.clone();
-                        copy.scissor = Some(rect);
-                        others.iter().for_each(|hold| hold(&mut copy));
-                        copy
-                    });
-                    let copies: Vec<Draw> = copies.collect();
-                    scene.passes[at].draws.push(draw);
-                    scene.passes[at].draws.extend(copies);
-                }
-            }
-        })
-    }
-    let rows: [Row<Others>; 3] = [
-        (
-            "ignored-for-color",
-            "Colour is written outside the rectangle.",
-            [without_depth, without_stencil],
-        ),
-        (
-            "ignored-for-depth",
-            "Depth is written outside the rectangle.",
-            [without_color, without_stencil],
-        ),
-        (
-            "ignored-for-stencil",
-            "Stencil is written outside the rectangle.",
-            [without_color, without_depth],
-        ),
-    ];
-    list.rows(CONFUSION, beyond, &rows);
+    list.bug("ignored-for-color: Colour is written outside the rectangle.")
+        .plant(beyond([DEPTH, STENCIL]));
+    list.bug("ignored-for-depth: Depth is written outside the rectangle.")
+        .plant(beyond([COLOR, STENCIL]));
+    list.bug("ignored-for-stencil: Stencil is written outside the rectangle.")
+        .plant(beyond([COLOR, DEPTH]));
 }
 
-/// The first draw's scissor rectangle applies to the clears before it: outside of it, attachments
-/// start from 0.
-fn clears(list: &mut List) {
-    list.add(
-        "clears-color",
-        "clears that obey the scissor test",
-        "The first draw's rectangle also holds back the clear of colour.",
-        scene(|scene| {
-            let Some((rect, size)) = first_rect(scene) else {
-                return;
-            };
-            let first = &scene.passes[0];
-            for index in first.color.clone() {
-                let attachment = &mut scene.attachments[index];
-                let Contents::Color(color) = attachment.contents else {
-                    continue;
-                };
-                if attachment.samples > 1 {
-                    continue;
-                }
-                let channels = attachment.format.color_channels();
-                let codes: Vec<u32> = (channels.iter().zip(color))
-                    .map(|(e, v)| e.nearest_code(f64::from(v)))
-                    .collect();
-                let inside = |at: u32| {
-                    let (x, y) = (at % size[0], at / size[0]);
-                    (rect[0]..rect[0] + rect[2]).contains(&x)
-                        && (rect[1]..rect[1] + rect[3]).contains(&y)
-                };
-                let texels = (0..size[0] * size[1]).flat_map(|at| {
-                    let share = u32::from(inside(at));
-                    codes.iter().map(move |c| c * share)
-                });
-                attachment.contents = Contents::Texels(texels.collect());
-            }
-        }),
-    );
-    list.add(
-        "clears-depth-and-stencil",
-        "clears that obey the scissor test",
-        "The first draw's rectangle also holds back the clear of depth and stencil.",
-        scene(|scene| {
-            let Some((rect, size)) = first_rect(scene) else {
-                return;
-            };
-            let pass = &mut scene.passes[0];
-            let fillers: Vec<Draw> = around(rect, size)
-                .into_iter()
-                .filter_map(|rect| filler(pass, rect))
-                .collect();
-            pass.draws.splice(0..0, fillers);
-        }),
-    );
-}
-
+/// The first draw's rectangle, and the size of its attachments.
 fn first_rect(scene: &Scene) -> Option<([u32; 4], [u32; 2])> {
     let pass = scene.passes.first()?;
     let rect = pass.draws.first()?.scissor?;
     Some((rect, scene.pass_size(pass)))
 }
 
+/// The first draw's rectangle applies to the clears before it: outside of it, attachments start from 0.
+fn clears(list: &mut List) {
+    list.source("clears that obey the scissor test");
+    list.bug("clears-color: The first draw's rectangle also holds back the clear of colour.")
+        .scene(|scene| {
+            let Some(([left, top, w, h], [width, height])) = first_rect(scene) else {
+                return;
+            };
+            for index in scene.passes[0].color.clone() {
+                let attachment = &mut scene.attachments[index];
+                if let (Contents::Color(color), 1) = (&attachment.contents, attachment.samples) {
+                    let channels = attachment.format.color_channels().iter().zip(color);
+                    let codes = channels.map(|(e, v)| e.nearest_code(f64::from(*v)));
+                    let codes: Vec<u32> = codes.collect();
+                    let texels = (0..width * height).flat_map(|at| {
+                        let (x, y) = (at % width, at / width);
+                        let inside = (left..left + w).contains(&x) && (top..top + h).contains(&y);
+                        codes.iter().map(move |c| c * u32::from(inside))
+                    });
+                    attachment.contents = Contents::Texels(texels.collect());
+                }
+            }
+        });
+    list.bug(
+        "clears-depth-and-stencil: The first draw's rectangle holds back clears of depth and \
+         stencil.",
+    )
+    .scene(|scene| {
+        if let Some((rect, size)) = first_rect(scene) {
+            let draws = &mut scene.passes[0].draws;
+            let rects = around(rect, size).into_iter();
+            let fillers: Vec<Draw> = rects.map(|rect| filler(&draws[0], rect)).collect();
+            draws.splice(0..0, fillers);
+        }
+    });
+}
+
 /// A draw that fills a rectangle with depth 0 and stencil 0.
-fn filler(pass: &Pass, rect: [u32; 4]) -> Option<Draw> {
-    let mut draw = pass.draws.first()?.clone();
+fn filler(first: &Draw, rect: [u32; 4]) -> Draw {
+    let mut draw = first.clone();
     draw.scissor = Some(rect);
     draw.viewport.depth = [0.0, 0.0];
     draw.viewport.rect = [-64.0, -64.0, 256.0, 256.0];
-    without_color(&mut draw);
-    let face = StencilFace {
-        compare: CompareFunction::Always,
-        fail_op: StencilOperation::Zero,
-        depth_fail_op: StencilOperation::Zero,
-        pass_op: StencilOperation::Zero,
-        read_mask: 0xff,
-        write_mask: 0xff,
-        reference: 0,
-    };
-    if let Some(stencil) = &mut draw.stencil {
-        stencil.front = face;
-        stencil.back = face;
+    COLOR(&mut draw);
+    for face in FACES(&mut draw) {
+        *face = StencilFace {
+            compare: CompareFunction::Always,
+            pass_op: StencilOperation::Zero,
+            write_mask: 0xff,
+            ..*face
+        };
     }
-    draw.depth = Some(DepthState {
-        compare: CompareFunction::Always,
-        write: true,
-    });
-    Some(draw)
+    let (compare, write) = (CompareFunction::Always, true);
+    draw.depth = Some(DepthState { compare, write });
+    draw
 }

@@ -1,49 +1,29 @@
 //! Neighbours of states: those that a mistake in a table would exchange.
 
-use etalon_scene::{
-    BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
-};
+use etalon_scene::{BlendFactor, CompareFunction, FrontFace, LogicOperation};
 
 /// Returns functions that differ in one of the three outcomes below, equal and above.
 pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
-    use CompareFunction as F;
     // Bit 0: true when below, bit 1: when equal, bit 2: when above. This is the order in which the
     // functions are declared, and every API's.
-    let order = [
-        F::Never,
-        F::Less,
-        F::Equal,
-        F::LessEqual,
-        F::Greater,
-        F::NotEqual,
-        F::GreaterEqual,
-        F::Always,
-    ];
-    let mut pairs = Vec::new();
-    for (bits, function) in order.into_iter().enumerate() {
-        for bit in 0..3 {
-            pairs.push((function, order[bits ^ (1 << bit)]));
-        }
-    }
-    pairs
+    let order = CompareFunction::ALL;
+    let bits = |n: usize| [1, 2, 4].map(|bit| (order[n], order[n ^ bit]));
+    (0..order.len()).flat_map(bits).collect()
+}
+
+/// Returns the pairs of different values.
+pub(super) fn pairs<T: Copy + PartialEq>(all: &[T]) -> impl Iterator<Item = (T, T)> {
+    let each = all.iter().copied();
+    each.flat_map(|a| all.iter().map(move |b| (a, *b)))
+        .filter(|(a, b)| a != b)
 }
 
 /// Returns values and those declared before and after them, cyclically.
-fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
+pub(super) fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
     let n = all.len();
     (0..n)
         .flat_map(|i| [(all[i], all[(i + 1) % n]), (all[i], all[(i + n - 1) % n])])
         .collect()
-}
-
-/// Returns operations and those declared before and after them, cyclically.
-pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> {
-    round(StencilOperation::ALL)
-}
-
-/// Returns operations and those declared before and after them, cyclically.
-pub(super) fn operation_neighbours() -> Vec<(BlendOperation, BlendOperation)> {
-    round(BlendOperation::ALL)
 }
 
 /// Returns operations and those declared before and after them, cyclically; and those that differ in
@@ -122,3 +102,23 @@ pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
     };
     meaning(a) == meaning(b)
 }
+
+/// Returns the other order of vertices.
+pub(super) fn turned(face: FrontFace) -> FrontFace {
+    match face {
+        FrontFace::Ccw => FrontFace::Cw,
+        FrontFace::Cw => FrontFace::Ccw,
+    }
+}
+
+/// Rectangles that are one texel off: the name, the effect, and what is added to them.
+pub(super) const ONE_TEXEL: [(&str, &str, [i32; 4]); 8] = [
+    ("right", "lie one texel too far right", [1, 0, 0, 0]),
+    ("left", "lie one texel too far left", [-1, 0, 0, 0]),
+    ("down", "lie one texel too far down", [0, 1, 0, 0]),
+    ("up", "lie one texel too far up", [0, -1, 0, 0]),
+    ("wider", "are one texel too wide", [0, 0, 1, 0]),
+    ("narrower", "are one texel too narrow", [0, 0, -1, 0]),
+    ("higher", "are one texel too high", [0, 0, 0, 1]),
+    ("lower", "are one texel too low", [0, 0, 0, -1]),
+];

@@ -1,48 +1,40 @@
 //! Bugs of uploads.
 
-use super::list::{List, Row, SMALL};
-use super::plant::{Plant, in_bits, scene};
+use crate::list::{List, SMALL};
+use crate::plant::{Plant, contents, in_bits};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::Contents;
 
-pub(super) fn add(list: &mut List) {
-    list.class("upload", "blend");
-    uploads(list);
-}
-
-/// The codes that are uploaded to an attachment.
-struct Upload {
-    format: TextureFormat,
-    /// Codes per texel.
-    texel: usize,
-    /// Codes per row.
-    row: usize,
-}
-
-/// Changes the codes of uploads.
-fn texels(bug: impl Fn(&Upload, &mut Vec<u32>) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for attachment in &mut scene.attachments {
-            if let Contents::Texels(codes) = &mut attachment.contents {
-                let texel = attachment.format.color_channels().len();
-                let upload = Upload {
-                    format: attachment.format,
-                    texel,
-                    row: texel * attachment.size[0] as usize,
-                };
-                bug(&upload, codes);
-            }
+/// Changes the codes of uploads, given the attachment and the numbers of codes per texel and row.
+fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync + 'static) -> Plant {
+    contents(move |attachment| {
+        let texel = attachment.format.color_channels().len();
+        let row = texel * attachment.size[0] as usize;
+        if let Contents::Texels(codes) = &mut attachment.contents {
+            bug(codes, attachment.format, [texel, row]);
         }
     })
 }
 
 /// Changes every code of uploads of one format.
 fn codes(format: TextureFormat, bug: fn(u32) -> u32) -> Plant {
-    texels(move |upload, codes| {
-        if upload.format == format {
+    texels(move |codes, of, _| {
+        if of == format {
             codes.iter_mut().for_each(|c| *c = bug(*c));
         }
     })
+}
+
+/// Changes every value of uploaded floats.
+fn floats(list: &mut List, text: &str, bug: fn(f32) -> f32) {
+    let values = texels(move |codes, format, _| {
+        if format == TextureFormat::Rgba32Float {
+            codes
+                .iter_mut()
+                .for_each(|c| *c = bug(f32::from_bits(*c)).to_bits());
+        }
+    });
+    list.bug(text).plant(values);
 }
 
 /// A value rounded to a 16-bit float.
@@ -52,81 +44,45 @@ fn half(value: f32) -> f32 {
     encoding.value_of_order(order) as f32
 }
 
-fn uploads(list: &mut List) {
-    type Bug = fn(&Upload, &mut Vec<u32>);
-    let places: [Row<Bug>; 5] = [
-        (
-            "red-blue-swapped",
-            "Red and blue of uploads are exchanged.",
-            |upload, codes| {
-                if upload.texel > 2 {
-                    let texels = codes.chunks_exact_mut(upload.texel);
-                    texels.for_each(|t| t.swap(0, 2));
-                }
-            },
-        ),
-        (
-            "upside-down",
-            "Uploads are upside down.",
-            |upload, codes| {
-                let rows = codes.chunks_exact(upload.row).rev();
-                *codes = rows.flatten().copied().collect();
-            },
-        ),
-        (
-            "rows-one-late",
-            "Uploads start one row late.",
-            |upload, codes| codes.rotate_right(upload.row),
-        ),
-        (
-            "texels-one-late",
-            "Uploads start one texel late.",
-            |upload, codes| codes.rotate_right(upload.texel),
-        ),
-        (
-            "last-row-lost",
-            "The last row of uploads is 0.",
-            |upload, codes| {
-                let n = codes.len();
-                codes[n - upload.row..].fill(0);
-            },
-        ),
-    ];
-    list.rows("a wrong row pitch or origin", texels, &places);
-    type Code = (&'static str, TextureFormat, &'static str, fn(u32) -> u32);
-    let precisions: [Code; 5] = [
-        (
-            "code-plus-1",
-            TextureFormat::Rgba8Unorm,
-            "Uploaded 8-bit codes below 255 are one too large.",
-            |code| (code + 1).min(255),
-        ),
-        (
-            "lowest-bit-lost",
-            TextureFormat::Rgba8Unorm,
-            "Uploaded 8-bit codes lose their lowest bit.",
-            |code| code & 0xfe,
-        ),
-        (
-            "float-source-clamped-to-8-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats are clamped and kept in 8 bits.",
-            |code| in_bits(f32::from_bits(code).clamp(0.0, 1.0), 8).to_bits(),
-        ),
-        (
-            "float-source-in-6-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats keep 6 bits.",
-            |code| in_bits(f32::from_bits(code), 6).to_bits(),
-        ),
-        (
-            "float-source-in-16-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats are rounded to 16-bit ones.",
-            |code| half(f32::from_bits(code)).to_bits(),
-        ),
-    ];
-    for (name, format, about, bug) in precisions {
-        list.add(name, SMALL, about, codes(format, bug));
-    }
+pub(super) fn add(list: &mut List) {
+    list.class("upload", "blend");
+    list.source("a wrong row pitch or origin");
+    list.bug("red-blue-swapped: Red and blue of uploads are exchanged.")
+        .plant(texels(|codes, _, [texel, _]| {
+            if texel > 2 {
+                codes.chunks_exact_mut(texel).for_each(|t| t.swap(0, 2));
+            }
+        }));
+    list.bug("upside-down: Uploads are upside down.")
+        .plant(texels(|codes, _, [_, row]| {
+            *codes = codes.chunks_exact(row).rev().flatten().copied().collect();
+        }));
+    list.bug("rows-one-late: Uploads start one row late.")
+        .plant(texels(|codes, _, [_, row]| codes.rotate_right(row)));
+    list.bug("texels-one-late: Uploads start one texel late.")
+        .plant(texels(|codes, _, [texel, _]| codes.rotate_right(texel)));
+    list.bug("last-row-lost: The last row of uploads is 0.")
+        .plant(texels(|codes, _, [_, row]| {
+            codes.iter_mut().rev().take(row).for_each(|c| *c = 0)
+        }));
+    list.source(SMALL);
+    list.bug("code-plus-1: Uploaded 8-bit codes below 255 are one too large.")
+        .plant(codes(TextureFormat::Rgba8Unorm, |code| (code + 1).min(255)));
+    list.bug("lowest-bit-lost: Uploaded 8-bit codes lose their lowest bit.")
+        .plant(codes(TextureFormat::Rgba8Unorm, |code| code & 0xfe));
+    floats(
+        list,
+        "float-source-clamped-to-8-bits: Uploaded floats are clamped and kept in 8 bits.",
+        |v| in_bits(v.clamp(0.0, 1.0), 8),
+    );
+    floats(
+        list,
+        "float-source-in-6-bits: Uploaded floats keep 6 bits.",
+        |v| in_bits(v, 6),
+    );
+    floats(
+        list,
+        "float-source-in-16-bits: Uploaded floats become 16-bit ones.",
+        half,
+    );
 }

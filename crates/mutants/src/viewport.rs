@@ -1,121 +1,55 @@
 //! Bugs of viewports.
 
-use super::list::{CONFUSION, List, Row, SMALL};
-use super::plant::{Plant, draws, sized};
+use crate::list::{CONFUSION, List, SMALL};
+use crate::plant::{Plant, sized};
+use crate::tables::ONE_TEXEL;
 
 pub(super) fn add(list: &mut List) {
     list.class("viewport", "scissor");
-    viewports(list);
-}
-
-fn viewports(list: &mut List) {
     type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
     fn rects(bug: Bug) -> Plant {
         sized(move |draw, size| {
-            draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32));
+            draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32))
         })
     }
-    let small: [Row<Bug>; 8] = [
-        (
-            "one-texel-right",
-            "Viewports lie one texel too far right.",
-            |[x, y, w, h], _| [x + 1.0, y, w, h],
-        ),
-        (
-            "one-texel-left",
-            "Viewports lie one texel too far left.",
-            |[x, y, w, h], _| [x - 1.0, y, w, h],
-        ),
-        (
-            "one-texel-down",
-            "Viewports lie one texel too far down.",
-            |[x, y, w, h], _| [x, y + 1.0, w, h],
-        ),
-        (
-            "one-texel-up",
-            "Viewports lie one texel too far up.",
-            |[x, y, w, h], _| [x, y - 1.0, w, h],
-        ),
-        (
-            "one-texel-wider",
-            "Viewports are one texel too wide.",
-            |[x, y, w, h], _| [x, y, w + 1.0, h],
-        ),
-        (
-            "one-texel-narrower",
-            "Viewports are one texel too narrow.",
-            |[x, y, w, h], _| [x, y, w - 1.0, h],
-        ),
-        (
-            "one-texel-higher",
-            "Viewports are one texel too high.",
-            |[x, y, w, h], _| [x, y, w, h + 1.0],
-        ),
-        (
-            "one-texel-lower",
-            "Viewports are one texel too low.",
-            |[x, y, w, h], _| [x, y, w, h - 1.0],
-        ),
-    ];
-    list.rows(SMALL, rects, &small);
-    let confused: [Row<Bug>; 7] = [
-        (
-            "ignored",
-            "Viewports are the whole attachment.",
-            |_, [w, h]| [0.0, 0.0, w, h],
-        ),
-        (
-            "counted-from-the-bottom",
-            "Viewports are counted from the bottom.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                [x, size[1] - y - h, w, h]
-            },
-        ),
-        (
-            "counted-from-the-right",
-            "Viewports are counted from the right.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                [size[0] - x - w, y, w, h]
-            },
-        ),
-        (
-            "transposed",
-            "Columns and rows are exchanged.",
-            |[x, y, w, h], _| [y, x, h, w],
-        ),
-        (
-            "from-the-origin",
-            "Viewports begin at the origin.",
-            |[_, _, w, h], _| [0.0, 0.0, w, h],
-        ),
-        (
-            "held-inside",
-            "Viewports are moved to begin inside.",
-            |[x, y, w, h], _| [x.max(0.0), y.max(0.0), w, h],
-        ),
-        (
-            "cut-to-the-attachment",
-            "Viewports are cut to the attachment.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                let (left, top) = (x.max(0.0), y.max(0.0));
-                [
-                    left,
-                    top,
-                    (x + w).min(size[0]) - left,
-                    (y + h).min(size[1]) - top,
-                ]
-            },
-        ),
-    ];
-    list.rows("ANGLE: y flip; misread rectangles", rects, &confused);
-    list.add(
-        "not-clipping",
-        "a guard band without clipping",
-        "Primitives are not clipped to the viewport.",
-        sized(|draw, size| {
+
+    for (name, about, by) in ONE_TEXEL {
+        list.bug(format!("one-texel-{name}: Viewports {about}."))
+            .source(SMALL)
+            .draws(move |draw| {
+                for (value, by) in draw.viewport.rect.iter_mut().zip(by) {
+                    *value += by as f32;
+                }
+            });
+    }
+    list.source("ANGLE: y flip; misread rectangles");
+    list.bug("ignored: Viewports are the whole attachment.")
+        .plant(rects(|_, [w, h]| [0.0, 0.0, w, h]));
+    list.bug("counted-from-the-bottom: Viewports are counted from the bottom.")
+        .plant(rects(|[x, y, w, h], [_, all]| [x, all - y - h, w, h]));
+    list.bug("counted-from-the-right: Viewports are counted from the right.")
+        .plant(rects(|[x, y, w, h], [all, _]| [all - x - w, y, w, h]));
+    list.bug("transposed: Columns and rows are exchanged.")
+        .plant(rects(|[x, y, w, h], _| [y, x, h, w]));
+    list.bug("from-the-origin: Viewports begin at the origin.")
+        .plant(rects(|[_, _, w, h], _| [0.0, 0.0, w, h]));
+    list.bug("held-inside: Viewports are moved to begin inside.")
+        .plant(rects(|[x, y, w, h], _| [x.max(0.0), y.max(0.0), w, h]));
+    list.bug("cut-to-the-attachment: Viewports are cut to the attachment.")
+        .plant(rects(|r, size| {
+            let [x, y, w, h] = r;
+            let (left, top) = (x.max(0.0), y.max(0.0));
+            [
+                left,
+                top,
+                (x + w).min(size[0]) - left,
+                (y + h).min(size[1]) - top,
+            ]
+        }));
+    list.source(CONFUSION);
+    list.bug("not-clipping: Primitives are not clipped to the viewport.")
+        .source("a guard band without clipping")
+        .plant(sized(|draw, size| {
             let [x, y, w, h] = draw.viewport.rect;
             let [all_w, all_h] = size.map(|s| s as f32);
             draw.viewport.rect = [0.0, 0.0, all_w, all_h];
@@ -126,17 +60,11 @@ fn viewports(list: &mut List) {
                 p[0] = (across * 2.0 / all_w - 1.0) * p[3];
                 p[1] = (1.0 - down * 2.0 / all_h) * p[3];
             }
-        }),
-    );
-    list.add(
-        "as-scissor",
-        CONFUSION,
-        "The scissor rectangle is the viewport's.",
-        draws(|draw| {
-            if draw.scissor.is_some() {
-                let [x, y, w, h] = draw.viewport.rect.map(|v| v.max(0.0) as u32);
-                draw.scissor = Some([x, y, w, h]);
-            }
-        }),
-    );
+        }));
+    list.bug("as-scissor: The scissor rectangle is the viewport's.")
+        .when(|draw| draw.scissor.is_some())
+        .draws(|draw| {
+            let [x, y, w, h] = draw.viewport.rect.map(|v| v.max(0.0) as u32);
+            draw.scissor = Some([x, y, w, h]);
+        });
 }

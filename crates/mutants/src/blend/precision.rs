@@ -1,176 +1,100 @@
 //! Bugs of the blend constant, of precision and of the colour store.
 
-use super::component;
+use super::{after, component, is_extreme, joined};
+use crate::fields::Places;
 use crate::hooks::{blending, code, color_code, faithful_blend};
-use crate::list::{CONFUSION, List, SMALL};
-use crate::plant::{Plant, draws, in_bits};
-use etalon_frame::ChannelEncoding;
+use crate::list::{CONFUSION, List, PRECISION, ROUNDED, SMALL};
+use crate::plant::{Plant, in_bits};
+use etalon_frame::ChannelEncoding::{Float32, Unorm};
 use etalon_pipeline::BlendInput;
-use etalon_scene::{BlendFactor, BlendOperation};
+use etalon_scene::BlendFactor;
 
-const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
-                         destination components, read as codes of the destination";
-const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
-                       Fixed-Point: one of the two closest values, the nearest only recommended";
+const CONSTANT: Places<[f32; 4]> = |d| vec![&mut d.blend_constant];
 
 pub(crate) fn add(list: &mut List) {
+    list.class("blend", "blend");
     constants(list);
+    clamps(list);
+    integers(list);
     precision(list);
     stores(list);
 }
 
 fn constants(list: &mut List) {
-    let mut add = |name: &str, source, about: &str, bug: fn([f32; 4]) -> [f32; 4]| {
-        list.add(
-            name,
-            source,
-            about,
-            draws(move |draw| draw.blend_constant = bug(draw.blend_constant)),
-        );
-    };
-    let fuzzy = "a wrong blend constant, which dEQP's groups do not see";
-    add(
-        "constant-in-5-bits",
-        fuzzy,
-        "The constant keeps 5 bits.",
-        |c| c.map(|v| in_bits(v, 5)),
-    );
-    add(
-        "constant-in-6-bits",
-        fuzzy,
-        "The constant keeps 6 bits.",
-        |c| c.map(|v| in_bits(v, 6)),
-    );
-    add(
-        "constant-in-7-bits",
-        fuzzy,
-        "The constant keeps 7 bits.",
-        |c| c.map(|v| in_bits(v, 7)),
-    );
-    add(
-        "constant-plus-1-lsb",
-        fuzzy,
-        "The constant is 1/255 too large.",
-        |c| c.map(|v| v + 1.0 / 255.0),
-    );
-    add(
-        "constant-minus-1-lsb",
-        fuzzy,
-        "The constant is 1/255 too small.",
-        |c| c.map(|v| v - 1.0 / 255.0),
-    );
-    add(
-        "constant-plus-3-lsb",
-        fuzzy,
-        "The constant is 3/255 too large.",
-        |c| c.map(|v| v + 3.0 / 255.0),
-    );
-    add(
-        "constant-minus-3-lsb",
-        fuzzy,
-        "The constant is 3/255 too small.",
-        |c| c.map(|v| v - 3.0 / 255.0),
-    );
-    add(
-        "constant-unset",
-        "radv: constant colour untranslated",
-        "The constant is 0.",
-        |_| [0.0; 4],
-    );
-    add("constant-one", CONFUSION, "The constant is 1.", |_| {
-        [1.0; 4]
-    });
-    add(
-        "constant-red-for-all",
-        CONFUSION,
-        "The constant's red is used for all channels.",
-        |c| [c[0]; 4],
-    );
-    add(
-        "constant-red-blue-swapped",
-        CONFUSION,
-        "The constant's red and blue are exchanged.",
-        |c| [c[2], c[1], c[0], c[3]],
-    );
-    add(
-        "constant-reversed",
-        CONFUSION,
-        "The constant's channels are reversed.",
-        |c| [c[3], c[2], c[1], c[0]],
-    );
-    add(
-        "constant-opaque",
-        CONFUSION,
-        "The constant's alpha is 1.",
-        |c| [c[0], c[1], c[2], 1.0],
-    );
-    list.add(
-        "constant-not-clamped",
-        "freedreno: blend constant not clamped",
-        "A constant outside 0 to 1 is not clamped.",
-        blending(|state, _, input| {
-            let clamp = |v: [[f32; 1]; 4]| v.map(|[v]| [v.clamp(0.0, 1.0)]);
-            let input = BlendInput {
-                src: clamp(input.src),
-                src1: clamp(input.src1),
-                dst: input.dst,
-                constant: input.constant,
-            };
-            faithful_blend(state, [ChannelEncoding::Float32; 4], &input)
-        }),
-    );
-    list.add(
-        "source-not-clamped",
-        "SwiftShader: clamping of blend inputs",
-        "A source outside 0 to 1 is not clamped before it is blended.",
-        blending(|state, _, input| {
-            let input = BlendInput {
-                src: input.src,
-                src1: input.src1,
-                dst: input.dst,
-                constant: input.constant.map(|[v]| [v.clamp(0.0, 1.0)]),
-            };
-            faithful_blend(state, [ChannelEncoding::Float32; 4], &input)
-        }),
-    );
-    list.add(
-        "constant-clamped-below-only",
-        CONFUSION,
-        "A constant above 1 is not clamped.",
-        blending(|state, _, input| {
-            let clamp = |v: [[f32; 1]; 4]| v.map(|[v]| [v.clamp(0.0, 1.0)]);
-            let input = BlendInput {
-                src: clamp(input.src),
-                src1: clamp(input.src1),
-                dst: input.dst,
-                constant: input.constant.map(|[v]| [v.max(0.0)]),
-            };
-            faithful_blend(state, [ChannelEncoding::Float32; 4], &input)
-        }),
-    );
+    list.source("a wrong blend constant, which dEQP's groups do not see");
+    for bits in [5, 6, 7] {
+        list.bug(format!(
+            "constant-in-{bits}-bits: The constant keeps {bits} bits."
+        ))
+        .each(CONSTANT, move |c| *c = c.map(|v| in_bits(v, bits)));
+    }
+    for codes in [1, 3] {
+        let by = codes as f32 / 255.0;
+        list.bug(format!(
+            "constant-plus-{codes}-lsb: The constant is {codes}/255 too large."
+        ))
+        .each(CONSTANT, move |c| *c = c.map(|v| v + by));
+        list.bug(format!(
+            "constant-minus-{codes}-lsb: The constant is {codes}/255 too small."
+        ))
+        .each(CONSTANT, move |c| *c = c.map(|v| v - by));
+    }
+    list.source(CONFUSION);
+    list.bug("constant-unset: The constant is 0.")
+        .source("radv: constant colour untranslated")
+        .set(CONSTANT, [0.0; 4]);
+    list.bug("constant-one: The constant is 1.")
+        .set(CONSTANT, [1.0; 4]);
+    list.bug("constant-red-for-all: The constant's red is used for all channels.")
+        .each(CONSTANT, |c| *c = [c[0]; 4]);
+    list.bug("constant-red-blue-swapped: The constant's red and blue are exchanged.")
+        .each(CONSTANT, |c| c.swap(0, 2));
+    list.bug("constant-reversed: The constant's channels are reversed.")
+        .each(CONSTANT, |c| c.reverse());
+    list.bug("constant-opaque: The constant's alpha is 1.")
+        .each(CONSTANT, |c| c[3] = 1.0);
 }
 
-/// The two sides joined.
-fn joined(operation: BlendOperation, s: f32, d: f32) -> f32 {
-    match operation {
-        BlendOperation::Add => s + d,
-        BlendOperation::Subtract => s - d,
-        BlendOperation::ReverseSubtract => d - s,
-        BlendOperation::Min => s.min(d),
-        BlendOperation::Max => s.max(d),
-    }
+type Values = [[f32; 1]; 4];
+
+/// Blends without any clamp of its own after `held` has clamped source, second source and constant.
+fn held(held: fn(&mut BlendInput<[f32; 1]>)) -> Plant {
+    blending(move |state, _, input| {
+        let mut input = *input;
+        held(&mut input);
+        faithful_blend(state, [Float32; 4], &input)
+    })
+}
+
+fn clamped(values: Values) -> Values {
+    values.map(|[v]| [v.clamp(0.0, 1.0)])
+}
+
+fn clamps(list: &mut List) {
+    list.bug("constant-not-clamped: A constant outside 0 to 1 is not clamped.")
+        .source("freedreno: blend constant not clamped")
+        .plant(held(|i| {
+            (i.src, i.src1) = (clamped(i.src), clamped(i.src1))
+        }));
+    list.bug("source-not-clamped: A source outside 0 to 1 is not clamped before it is blended.")
+        .source("SwiftShader: clamping of blend inputs")
+        .plant(held(|i| i.constant = clamped(i.constant)));
+    list.bug("constant-clamped-below-only: A constant above 1 is not clamped.")
+        .plant(held(|i| {
+            (i.src, i.src1) = (clamped(i.src), clamped(i.src1));
+            i.constant = i.constant.map(|[v]| [v.max(0.0)]);
+        }));
 }
 
 /// Blending in codes of 8 bits: operands are rounded to codes, each side by `product(code, factor)`.
 fn integer(product: fn(u32, u32) -> u32) -> Plant {
     blending(move |state, encodings, input| {
-        if encodings[0] != ChannelEncoding::Unorm(8) {
+        if encodings[0] != Unorm(8) {
             return faithful_blend(state, encodings, input);
         }
-        let codes = |v: [[f32; 1]; 4]| v.map(|[v]| code(ChannelEncoding::Unorm(8), v));
+        let codes = |v: Values| v.map(|[v]| code(Unorm(8), v));
         let (src, dst) = (codes(input.src), codes(input.dst));
-        let constant = codes(input.constant);
-        let src1 = codes(input.src1);
+        let (constant, src1) = (codes(input.constant), codes(input.src1));
         let factor = |f: BlendFactor, c: usize| match f {
             BlendFactor::Zero => 0,
             BlendFactor::One => 255,
@@ -195,179 +119,113 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
         };
         std::array::from_fn(|c| {
             let component = component(state, c);
-            let plain = matches!(
-                component.operation,
-                BlendOperation::Min | BlendOperation::Max
-            );
-            let side = |operand: u32, f: BlendFactor| {
-                let code = if plain {
+            let extreme = is_extreme(component.operation);
+            let side = |operand, f| {
+                if extreme {
                     operand
                 } else {
                     product(operand, factor(f, c))
-                };
-                code as f32
+                }
             };
-            let s = side(src[c], component.src_factor);
-            let d = side(dst[c], component.dst_factor);
+            let s = side(src[c], component.src_factor) as f32;
+            let d = side(dst[c], component.dst_factor) as f32;
             joined(component.operation, s, d) / 255.0
         })
     })
 }
 
+fn integers(list: &mut List) {
+    list.source("integer blending, as mobile GPUs do it");
+    list.bug("in-8-bits-nearest: Operands and products are rounded to the nearest of 8-bit codes.")
+        .legal(PRECISION)
+        .plant(integer(|a, b| (a * b + 127) / 255));
+    list.bug("in-8-bits-truncated: Products are rounded down to 8-bit codes.")
+        .legal(PRECISION)
+        .plant(integer(|a, b| a * b / 255));
+    list.bug("in-8-bits-times-plus-one: Products are a × (b + 1) / 256, rounded down.")
+        .legal(PRECISION)
+        .plant(integer(|a, b| (a * (b + 1)) >> 8));
+    list.bug("in-8-bits-by-256: Products are divided by 256, so that 1 times 1 is less than 1.")
+        .source("SwiftShader: blending on truncated bits")
+        .plant(integer(|a, b| (a * b) >> 8));
+    list.source("SwiftShader: 565/5551 blended on truncated bits");
+    list.bug("in-7-bits: Operands lose their lowest bit.")
+        .plant(integer(|a, b| ((a & 0xfe) * (b & 0xfe) + 127) / 255));
+    list.bug("in-5-bits: Operands lose their lowest three bits.")
+        .plant(integer(|a, b| ((a & 0xf8) * (b & 0xf8) + 127) / 255));
+}
+
 fn precision(list: &mut List) {
-    list.add(
-        "in-8-bits-nearest",
-        "integer blending, as mobile GPUs do it",
-        "Operands and products are rounded to the nearest of 8-bit codes.",
-        integer(|a, b| (a * b + 127) / 255),
-    )
-    .legal(PRECISION);
-    list.add(
-        "in-8-bits-truncated",
-        "integer blending, as mobile GPUs do it",
-        "Products are rounded down to 8-bit codes.",
-        integer(|a, b| a * b / 255),
-    )
-    .legal(PRECISION);
-    list.add(
-        "in-8-bits-times-plus-one",
-        "integer blending, as mobile GPUs do it",
-        "Products are a × (b + 1) / 256, rounded down.",
-        integer(|a, b| (a * (b + 1)) >> 8),
-    )
-    .legal(PRECISION);
-    list.add(
-        "in-8-bits-by-256",
-        "SwiftShader: blending on truncated bits",
-        "Products are divided by 256, so that 1 times 1 is less than 1.",
-        integer(|a, b| (a * b) >> 8),
-    );
-    list.add(
-        "in-7-bits",
-        "SwiftShader: 565/5551 blended on truncated bits",
-        "Operands lose their lowest bit.",
-        integer(|a, b| ((a & 0xfe) * (b & 0xfe) + 127) / 255),
-    );
-    list.add(
-        "in-5-bits",
-        "SwiftShader: 565/5551 blended on truncated bits",
-        "Operands lose their lowest three bits.",
-        integer(|a, b| ((a & 0xf8) * (b & 0xf8) + 127) / 255),
-    );
-    list.add(
-        "complement-by-256",
-        SMALL,
-        "Factors 1 - x are computed as 256/255 - x.",
-        blending(|state, encodings, input| {
-            let mut result = faithful_blend(state, encodings, input);
+    list.source(SMALL);
+    list.bug("complement-by-256: Factors 1 - x are computed as 256/255 - x.")
+        .plant(after(|state, _, input, result| {
             for (c, value) in result.iter_mut().enumerate() {
                 let component = component(state, c);
                 let extra = |f: BlendFactor, operand: f32| {
-                    if f.name().starts_with("one-minus") {
-                        operand.clamp(0.0, 1.0) / 255.0
-                    } else {
-                        0.0
-                    }
+                    let inverse = f32::from(u8::from(f.name().starts_with("one-minus")));
+                    inverse * operand.clamp(0.0, 1.0) / 255.0
                 };
                 let s = extra(component.src_factor, input.src[c][0]);
                 let d = extra(component.dst_factor, input.dst[c][0]);
-                if !matches!(
-                    component.operation,
-                    BlendOperation::Min | BlendOperation::Max
-                ) {
+                if !is_extreme(component.operation) {
                     *value += joined(component.operation, s, d);
                 }
             }
-            result
-        }),
-    );
-    list.add(
-        "result-plus-1-lsb",
-        SMALL,
-        "Blended results are 1/255 too large.",
-        blending(|state, encodings, input| {
-            faithful_blend(state, encodings, input).map(|v| v + 1.0 / 255.0)
-        }),
-    );
-    list.add(
-        "result-minus-1-lsb",
-        SMALL,
-        "Blended results are 1/255 too small.",
-        blending(|state, encodings, input| {
-            faithful_blend(state, encodings, input).map(|v| v - 1.0 / 255.0)
-        }),
-    );
-    list.add(
-        "in-srgb-space",
-        "SwiftShader: sRGB treated as linear",
-        "Colour is blended in linear light of an sRGB reading, though the format is linear.",
-        blending(|state, encodings, input| {
+        }));
+    list.bug("result-plus-1-lsb: Blended results are 1/255 too large.")
+        .plant(after(|_, _, _, result| {
+            *result = result.map(|v| v + 1.0 / 255.0)
+        }));
+    list.bug("result-minus-1-lsb: Blended results are 1/255 too small.")
+        .plant(after(|_, _, _, result| {
+            *result = result.map(|v| v - 1.0 / 255.0)
+        }));
+    list.bug("in-srgb-space: Colour is blended in linear light of an sRGB reading.")
+        .source("SwiftShader: sRGB treated as linear")
+        .plant(blending(|state, encodings, input| {
             let mut light = *input;
             for c in 0..3 {
                 light.src[c] = input.src[c].map(|v| v.clamp(0.0, 1.0).powf(2.2));
                 light.dst[c] = input.dst[c].map(|v| v.powf(2.2));
             }
-            let result = faithful_blend(state, encodings, &light);
-            std::array::from_fn(|c| match c {
-                3 => result[c],
-                _ => result[c].max(0.0).powf(1.0 / 2.2),
-            })
-        }),
-    );
+            let mut result = faithful_blend(state, encodings, &light);
+            for value in &mut result[..3] {
+                *value = value.max(0.0).powf(1.0 / 2.2);
+            }
+            result
+        }));
+}
+
+/// Replaces the store of 8-bit codes.
+fn store(bug: fn(f32) -> u32) -> Plant {
+    color_code(move |e, v| if e == Unorm(8) { bug(v) } else { code(e, v) })
+}
+
+/// A value as an exact code.
+fn exact(v: f32) -> f64 {
+    f64::from(v.clamp(0.0, 1.0)) * 255.0
 }
 
 fn stores(list: &mut List) {
-    let unorm8 = |round: fn(f64) -> f64| {
-        color_code(move |encoding, v| match encoding {
-            ChannelEncoding::Unorm(8) => {
-                round(f64::from(v.clamp(0.0, 1.0)) * 255.0).clamp(0.0, 255.0) as u32
-            }
-            _ => code(encoding, v),
-        })
-    };
-    list.add(
-        "store-rounded-down",
-        "truncation instead of rounding",
-        "Colours are rounded down at the store.",
-        unorm8(|v| (v + 1e-4).floor()),
-    )
-    .legal(ROUNDED);
-    list.add(
-        "store-rounded-up",
-        "rounding up",
-        "Colours are rounded up at the store.",
-        unorm8(|v| (v - 1e-4).ceil()),
-    )
-    .legal(ROUNDED);
-    list.add(
-        "store-by-256",
-        "multiplying by 256 instead of 255",
-        "Colours are stored as v × 256, rounded down and clamped to 255.",
-        unorm8(|v| (v * 256.0 / 255.0).floor()),
-    )
-    .legal(ROUNDED);
-    list.add(
-        "store-wraps",
-        CONFUSION,
-        "Colours outside 0 to 1 wrap around.",
-        color_code(|encoding, v| match encoding {
-            ChannelEncoding::Unorm(8) => ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32,
-            _ => code(encoding, v),
-        }),
-    );
-    list.add(
-        "store-in-7-bits",
-        SMALL,
-        "Stored colours lose their lowest bit.",
-        color_code(|encoding, v| match encoding {
-            ChannelEncoding::Unorm(8) => code(encoding, v) & 0xfe,
-            _ => code(encoding, v),
-        }),
-    );
-    list.add(
-        "store-in-6-bits",
-        SMALL,
-        "Stored colours keep 6 bits.",
-        color_code(|encoding, v| code(encoding, in_bits(v.clamp(0.0, 1.0), 6))),
-    );
+    list.bug("store-rounded-down: Colours are rounded down at the store.")
+        .source("truncation instead of rounding")
+        .legal(ROUNDED)
+        .plant(store(|v| (exact(v) + 1e-4) as u32));
+    list.bug("store-rounded-up: Colours are rounded up at the store.")
+        .source("rounding up")
+        .legal(ROUNDED)
+        .plant(store(|v| (exact(v) - 1e-4).ceil() as u32));
+    list.bug("store-by-256: Colours are stored as v × 256, rounded down and clamped to 255.")
+        .source("multiplying by 256 instead of 255")
+        .legal(ROUNDED)
+        .plant(store(|v| ((exact(v) * 256.0 / 255.0) as u32).min(255)));
+    list.bug("store-wraps: Colours outside 0 to 1 wrap around.")
+        .source(CONFUSION)
+        .plant(store(|v| ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32));
+    list.bug("store-in-7-bits: Stored colours lose their lowest bit.")
+        .plant(store(|v| code(Unorm(8), v) & 0xfe));
+    list.bug("store-in-6-bits: Stored colours keep 6 bits.")
+        .plant(color_code(|encoding, v| {
+            code(encoding, in_bits(v.clamp(0.0, 1.0), 6))
+        }));
 }

@@ -1,9 +1,9 @@
 //! Bugs of the order of channels in uploads, clears and read-back.
 
-use crate::list::{CONFUSION, List};
-use crate::plant::{Plant, images_of, scene};
+use crate::list::List;
+use crate::plant::{Plant, contents, images_of, passes};
 use etalon_frame::TextureFormat::{self, *};
-use etalon_scene::{Contents, Draw, Scene};
+use etalon_scene::{Attachment, Contents, Draw};
 
 /// The formats, and the two channels that a mistake would exchange.
 const ORDERS: [(TextureFormat, [usize; 2]); 11] = [
@@ -26,78 +26,62 @@ pub(super) fn add(list: &mut List) {
         let channels = ["red", "green", "blue", "alpha"];
         let (first, second) = (channels[a], channels[b]);
         let n = format.color_channels().len();
-        let mut add = |what: &str, about: &str, plant| {
-            list.add(
-                &format!("{name}-{what}-{first}-{second}-swapped"),
-                CONFUSION,
-                format!("On {name}, {first} and {second} are exchanged {about}."),
-                plant,
-            );
+        let mut add = |what: &str, plant| {
+            list.bug(format!(
+                "{name}-{what}-{first}-{second}-swapped: Each {what} of {name} exchanges {first} and \
+                 {second}."
+            ))
+            .plant(plant);
         };
-        add(
-            "read",
-            "in read-back",
-            images_of(format, move |image| {
-                image.codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
-            }),
-        );
-        add(
-            "clear",
-            "in clear values",
-            contents(format, move |contents| {
-                if let Contents::Color(color) = contents {
-                    color.swap(a, b);
-                }
-            }),
-        );
+        let texels = move |codes: &mut [u32]| codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
+        let of = move |attachment: &Attachment| attachment.format == format;
+        add("read", images_of(of, move |image| texels(&mut image.codes)));
+        let clear = move |contents: &mut Contents| {
+            if let Contents::Color(color) = contents {
+                color.swap(a, b);
+            }
+        };
+        add("clear", contents_of(format, clear));
+        let upload = move |contents: &mut Contents| {
+            if let Contents::Texels(codes) = contents {
+                texels(codes);
+            }
+        };
         if format != Rgba32Float {
-            add(
-                "upload",
-                "in uploads",
-                contents(format, move |contents| {
-                    if let Contents::Texels(codes) = contents {
-                        codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
-                    }
-                }),
-            );
+            add("upload", contents_of(format, upload));
         }
     }
-    list.add(
-        "bgra8unorm-constant-red-blue-swapped",
-        CONFUSION,
-        "On bgra8unorm, red and blue of the blend constant are exchanged.",
-        bgra(|draw| draw.blend_constant.swap(0, 2)),
-    );
-    list.add(
-        "bgra8unorm-write-mask-red-blue-swapped",
-        CONFUSION,
-        "On bgra8unorm, red and blue of the write mask are exchanged.",
-        bgra(|draw| {
+    list.bug(
+        "bgra8unorm-constant-red-blue-swapped: The blend constant's red and blue are exchanged.",
+    )
+    .plant(bgra(|draw| draw.blend_constant.swap(0, 2)));
+    list.bug("bgra8unorm-write-mask-red-blue-swapped: The mask's red and blue are exchanged.")
+        .plant(bgra(|draw| {
             for target in &mut draw.targets {
                 let mask = target.write_mask;
                 target.write_mask = (mask & 0b1010) | (mask & 1) << 2 | (mask >> 2 & 1);
             }
-        }),
-    );
+        }));
 }
 
 /// Changes the first contents of attachments of a format.
-fn contents(format: TextureFormat, bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        let all = scene.attachments.iter_mut();
-        all.filter(|a| a.format == format)
-            .for_each(|a| bug(&mut a.contents));
+fn contents_of(
+    format: TextureFormat,
+    bug: impl Fn(&mut Contents) + Send + Sync + 'static,
+) -> Plant {
+    contents(move |attachment| {
+        if attachment.format == format {
+            bug(&mut attachment.contents);
+        }
     })
 }
 
 /// Changes draws to `bgra8unorm`.
 fn bgra(bug: fn(&mut Draw)) -> Plant {
-    scene(move |scene: &mut Scene| {
-        for pass in &mut scene.passes {
-            let mut formats = pass.color.iter().map(|i| scene.attachments[*i].format);
-            if formats.any(|f| f == Bgra8Unorm) {
-                pass.draws.iter_mut().for_each(bug);
-            }
+    passes(move |scene, _, pass| {
+        let mut formats = pass.color.iter().map(|i| scene.attachments[*i].format);
+        if formats.any(|f| f == Bgra8Unorm) {
+            pass.draws.iter_mut().for_each(bug);
         }
     })
 }

@@ -1,343 +1,243 @@
-//! Bugs of clears when passes load, of clear commands between draws, and of discards.
+//! Clears when passes load and between draws, and discards: skipped, moved, or wider than asked for.
 
-use super::super::list::{CONFUSION, List};
-use super::super::plant::{Plant, scene};
-use etalon_scene::{
-    Clear, ClearTarget, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
+use crate::aspects::{
+    ASPECTS, BOTH, clear, discard, is_cleared, is_discarded, load, reach_both, reaches, word,
 };
+use crate::list::{CONFUSION, List};
+use crate::plant::{Plant, passes};
+use etalon_frame::Aspect;
+use etalon_scene::{Clear, Contents, LoadOperation, Pass, PassOperations, Scene};
 
 const FAST: &str = "AMD, Intel: fast clears and their metadata";
 
-/// Changes every pass.
-fn passes(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| scene.passes.iter_mut().for_each(&bug))
-}
-
-/// Changes every clear command, given the commands of the pass before it.
-fn commands(bug: impl Fn(&[Clear], &mut Clear) + Send + Sync + 'static) -> Plant {
-    passes(move |pass| {
-        let asked = pass.clears.clone();
-        for (i, clear) in pass.clears.iter_mut().enumerate() {
-            bug(&asked[..i], clear);
-        }
+/// Changes every clear command, given its pass.
+fn commands(bug: impl Fn(&Pass, &mut Clear) + Send + Sync + 'static) -> Plant {
+    passes(move |scene, number, pass| {
+        let asked = &scene.passes[number];
+        pass.clears
+            .iter_mut()
+            .for_each(|command| bug(asked, command));
     })
 }
 
-/// Leaves commands out.
-fn keep(keep: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'static) -> Plant {
-    passes(move |pass| {
-        let asked = pass.clone();
-        let mut at = 0;
-        pass.clears.retain(|clear| {
-            at += 1;
-            keep(&asked, &asked.clears[..at - 1], clear)
-        });
+/// Leaves out the commands that `keeps` does not keep, given their pass and those before them.
+fn without(keeps: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'static) -> Plant {
+    passes(move |scene, number, pass| {
+        let asked = &scene.passes[number];
+        let all = asked.clears.iter().enumerate();
+        let kept = all.filter(|(at, command)| keeps(asked, &asked.clears[..*at], command));
+        pass.clears = kept.map(|(_, command)| *command).collect();
     })
 }
-
-fn load<V: Default>() -> Operations<V> {
-    Operations::default()
-}
-
-fn color_loads(pass: &mut Pass) {
-    for operations in &mut pass.operations.color {
-        operations.load = LoadOperation::Load;
-    }
-}
-
-/// Takes the load operations that clear to the same value as the last clear of the aspect did, which may
-/// be the contents at the start.
-fn skip_equal(scene: &mut Scene) {
-    let mut last = PassOperations::default();
-    for pass in &mut scene.passes {
-        let asked = pass.operations.clone();
-        if asked
-            .color
-            .first()
-            .is_some_and(|c| c.load != LoadOperation::Load)
-            && asked.color.first() == last.color.first()
-        {
-            pass.operations.color.clear();
-        }
-        if asked.depth.load == last.depth.load {
-            pass.operations.depth.load = LoadOperation::Load;
-        }
-        if asked.stencil.load == last.stencil.load {
-            pass.operations.stencil.load = LoadOperation::Load;
-        }
-        if asked != PassOperations::default() {
-            last = asked;
-        }
-    }
-}
-
-/// A bug's name, its description, and what it does to a pass.
-type Row = (&'static str, &'static str, fn(&mut Pass));
 
 pub(super) fn add(list: &mut List) {
+    for aspect in ASPECTS {
+        let (name, word) = (aspect.name(), word(aspect));
+        list.bug(format!(
+            "{name}-load-clears: Passes after the first clear {word} instead of loading it."
+        ))
+        .passes(move |_, number, pass| {
+            if number > 0 {
+                clear(pass, aspect);
+            }
+        });
+        list.bug(format!(
+            "{name}-store-dropped: The {word} that passes store is discarded."
+        ))
+        .passes(move |_, _, pass| discard(pass, aspect));
+        list.bug(format!(
+            "{name}-clear-command-skipped: Clear commands of {word} are skipped."
+        ))
+        .plant(without(move |_, _, command| !reaches(command, aspect)));
+    }
+    list.bug("depth-clear-value-of-the-pass-before: Depth is cleared with the value of the clear before.").scene(|scene| {
+        let mut before = None;
+        for pass in &mut scene.passes {
+            if let LoadOperation::Clear(value) = pass.operations.depth.load {
+                pass.operations.depth.load = LoadOperation::Clear(before.unwrap_or(value));
+                before = Some(value);
+            }
+        }
+    });
     loads(list);
-    between(list);
+    commanded(list);
     discards(list);
 }
 
 fn loads(list: &mut List) {
-    let rows: [Row; 7] = [
-        (
-            "colour-not-cleared-on-load",
-            "Colour is loaded where it is to be cleared.",
-            color_loads,
-        ),
-        (
-            "depth-not-cleared-on-load",
-            "Depth is loaded where it is to be cleared.",
-            |pass| pass.operations.depth = load(),
-        ),
-        (
-            "stencil-not-cleared-on-load",
-            "Stencil is loaded where it is to be cleared.",
-            |pass| pass.operations.stencil = load(),
-        ),
-        (
-            "stencil-cleared-with-depth-on-load",
-            "Where depth is cleared and stencil loaded, stencil becomes 0.",
-            |pass| {
-                let operations = &mut pass.operations;
-                let both = [
-                    operations.depth.load != LoadOperation::Load,
-                    operations.stencil.load == LoadOperation::Load,
-                ];
-                if both == [true; 2] {
-                    operations.stencil.load = LoadOperation::Clear(0);
-                }
-            },
-        ),
-        (
-            "depth-cleared-with-stencil-on-load",
-            "Where stencil is cleared and depth loaded, depth becomes 1.",
-            |pass| {
-                let operations = &mut pass.operations;
-                let both = [
-                    operations.stencil.load != LoadOperation::Load,
-                    operations.depth.load == LoadOperation::Load,
-                ];
-                if both == [true; 2] {
-                    operations.depth.load = LoadOperation::Clear(1.0);
-                }
-            },
-        ),
-        (
-            "empty-pass-does-not-clear",
-            "A pass without draws does not clear what it is to clear on load.",
-            |pass| {
-                if pass.draws.is_empty() {
-                    pass.operations = PassOperations::default();
-                }
-            },
-        ),
-        (
-            "clear-on-load-of-both-aspects-alone",
-            "Depth and stencil are cleared on load together or not at all.",
-            |pass| {
-                let operations = &mut pass.operations;
-                let depth = operations.depth.load != LoadOperation::Load;
-                let stencil = operations.stencil.load != LoadOperation::Load;
-                if depth != stencil {
-                    operations.depth = load();
-                    operations.stencil = load();
-                }
-            },
-        ),
-    ];
-    list.rows(FAST, |bug| passes(bug), &rows);
-    list.add(
-        "clear-on-load-to-the-last-value",
-        FAST,
-        "A clear on load to the value of the clear before it is left out, whatever was drawn between.",
-        scene(skip_equal_to_contents),
-    );
+    list.source(FAST);
+    for aspect in ASPECTS {
+        let word = word(aspect);
+        list.bug(format!(
+            "{word}-not-cleared-on-load: What a pass is to clear, {word}, is loaded."
+        ))
+        .passes(move |_, _, pass| load(pass, aspect));
+    }
+    for (cleared, other, value) in BOTH {
+        let (a, b) = (cleared.name(), other.name());
+        list.bug(format!(
+            "{b}-cleared-with-{a}-on-load: Where {a} is cleared and {b} loaded, {b} becomes {value}."
+        ))
+        .passes(move |_, _, pass| {
+            if is_cleared(pass, cleared) && !is_cleared(pass, other) {
+                clear(pass, other);
+            }
+        });
+    }
+    list.bug("empty-pass-does-not-clear: A pass without draws does not clear on load.")
+        .passes(|_, _, pass| {
+            if pass.draws.is_empty() {
+                pass.operations = PassOperations::default();
+            }
+        });
+    list.bug(
+        "clear-on-load-of-both-aspects-alone: Depth and stencil are cleared on load together \
+         or not at all.",
+    )
+    .passes(|_, _, pass| {
+        if is_cleared(pass, Aspect::Depth) != is_cleared(pass, Aspect::Stencil) {
+            load(pass, Aspect::Depth);
+            load(pass, Aspect::Stencil);
+        }
+    });
+    list.bug(
+        "clear-on-load-to-the-last-value: A clear to the value of the clear before is left out.",
+    )
+    .scene(skip_equal);
 }
 
-/// As [`skip_equal`], with the contents at the start as the first clears.
-fn skip_equal_to_contents(scene: &mut Scene) {
-    use etalon_scene::Contents;
-    let contents: Vec<Contents> = scene
-        .attachments
-        .iter()
-        .map(|a| a.contents.clone())
-        .collect();
-    skip_equal(scene);
+/// Loads where a pass clears to the same value as the clear before, which may be the first contents.
+fn skip_equal(scene: &mut Scene) {
+    let mut last = PassOperations::default();
     for pass in &mut scene.passes {
-        if let Some(first) = pass.color.first()
-            && let Contents::Color(value) = contents[*first]
-            && pass.color_operations(0).load == LoadOperation::Clear(value)
+        let asked = pass.operations.clone();
+        let same = asked.color.first() == last.color.first();
+        if same && is_cleared(pass, Aspect::Color) {
+            pass.operations.color.clear();
+        }
+        if asked.depth.load == last.depth.load {
+            load(pass, Aspect::Depth);
+        }
+        if asked.stencil.load == last.stencil.load {
+            load(pass, Aspect::Stencil);
+        }
+        if asked != PassOperations::default() {
+            last = asked;
+        }
+        let first = pass.color.first().map(|i| &scene.attachments[*i].contents);
+        if let Some(Contents::Color(value)) = first
+            && pass.color_operations(0).load == LoadOperation::Clear(*value)
         {
-            color_loads(pass);
+            load(pass, Aspect::Color);
         }
         if let Some(index) = pass.depth_stencil
-            && let Contents::DepthStencil { depth, stencil } = contents[index]
+            && let Contents::DepthStencil { depth, stencil } = scene.attachments[index].contents
         {
-            let operations = &mut pass.operations;
-            if operations.depth.load == LoadOperation::Clear(depth) {
-                operations.depth = load();
+            if pass.operations.depth.load == LoadOperation::Clear(depth) {
+                load(pass, Aspect::Depth);
             }
-            if operations.stencil.load == LoadOperation::Clear(stencil) {
-                operations.stencil = load();
+            if pass.operations.stencil.load == LoadOperation::Clear(stencil) {
+                load(pass, Aspect::Stencil);
             }
         }
     }
 }
 
-fn between(list: &mut List) {
-    list.add(
-        "command-ignores-its-rectangle",
-        FAST,
-        "A clear command clears everything.",
-        commands(|_, clear| clear.rect = None),
-    );
-    for (name, about, change) in [
-        (
-            "command-without-last-row",
-            "The rectangle of a clear command lacks its last row.",
-            [0, 0, 0, 1],
-        ),
-        (
-            "command-without-last-column",
-            "The rectangle of a clear command lacks its last column.",
-            [0, 0, 1, 0],
-        ),
-    ] {
-        list.add(
-            name,
-            CONFUSION,
-            about,
-            commands(move |_, clear| {
-                if let Some(rect) = &mut clear.rect {
-                    for (side, less) in rect.iter_mut().zip(change) {
-                        *side -= less;
-                    }
-                }
-            }),
-        );
-    }
-    list.add(
-        "command-upside-down",
-        "OpenGL under another API: y from below",
-        "The rectangle of a clear command is counted from the bottom of 16 rows.",
-        commands(|_, clear| {
-            if let Some([_, y, _, h]) = &mut clear.rect {
-                *y = 16_u32.saturating_sub(*y + *h);
-            }
-        }),
-    );
-    list.add(
-        "commands-at-the-start",
-        FAST,
-        "Clear commands are made into clears on load.",
-        commands(|_, clear| clear.before = 0),
-    );
-    list.add(
-        "equal-command-skipped",
-        FAST,
-        "A clear command like an earlier one of the pass is left out.",
-        keep(|_, before, clear| {
-            let alike = |b: &Clear| (b.target, b.rect) == (clear.target, clear.rect);
+fn commanded(list: &mut List) {
+    list.source(FAST);
+    list.bug("command-ignores-its-rectangle: A clear command clears everything.")
+        .plant(commands(|_, command| command.rect = None));
+    list.bug("commands-at-the-start: Clear commands are made into clears on load.")
+        .plant(commands(|_, command| command.before = 0));
+    list.bug("equal-command-skipped: A clear command like an earlier one of the pass is left out.")
+        .plant(without(|_, before, command| {
+            let alike = |b: &Clear| (b.target, b.rect) == (command.target, command.rect);
             !before.iter().any(alike)
-        }),
-    );
-    list.add(
-        "later-commands-skipped",
-        CONFUSION,
-        "Clear commands behind the first draw are left out.",
-        keep(|_, _, clear| clear.before == 0),
-    );
-    list.add(
-        "last-commands-skipped",
-        CONFUSION,
-        "Clear commands behind the last draw are left out.",
-        keep(|pass, _, clear| clear.before < pass.draws.len()),
-    );
-    list.add(
-        "command-obeys-the-scissor",
-        "OpenGL: the scissor test applies to clears",
-        "A clear command stays in the scissor rectangle of the draw before it.",
-        passes(|pass| {
-            for i in 0..pass.clears.len() {
-                let before = pass.clears[i].before.checked_sub(1);
-                let scissor = before.and_then(|draw| pass.draws[draw].scissor);
-                if let Some([x, y, w, h]) = scissor {
-                    let [left, top, width, height] = pass.clears[i].rect.unwrap_or([0, 0, 16, 16]);
-                    let (l, t) = (left.max(x), top.max(y));
-                    let (r, b) = ((left + width).min(x + w), (top + height).min(y + h));
-                    let size = [r.saturating_sub(l), b.saturating_sub(t)];
-                    pass.clears[i].rect = Some([l, t, size[0], size[1]]);
-                }
+        }));
+    list.source(CONFUSION);
+    for (name, at) in [("row", 3), ("column", 2)] {
+        list.bug(format!(
+            "command-without-last-{name}: The rectangle of a clear command lacks its last {name}."
+        ))
+        .plant(commands(move |_, command| {
+            if let Some(rect) = &mut command.rect {
+                rect[at] -= 1;
             }
-        }),
-    );
-    for (name, about, swap) in [
-        (
-            "command-clears-stencil-with-depth",
-            "A clear command of depth sets stencil to 0.",
-            true,
-        ),
-        (
-            "command-clears-depth-with-stencil",
-            "A clear command of stencil sets depth to 1.",
-            false,
-        ),
-    ] {
-        list.add(
-            name,
-            CONFUSION,
-            about,
-            commands(move |_, clear| {
-                if let ClearTarget::DepthStencil { depth, stencil, .. } = &mut clear.target {
-                    match (depth.is_some(), stencil.is_some()) {
-                        (true, false) if swap => *stencil = Some(0),
-                        (false, true) if !swap => *depth = Some(1.0),
-                        _ => {}
-                    }
-                }
-            }),
-        );
+        }));
+    }
+    list.bug("clear-ignores-left-of-rectangle: The rectangle of a clear begins at column 0.")
+        .plant(commands(|_, command| {
+            command.rect = command.rect.map(|[x, y, w, h]| [0, y, x + w, h])
+        }));
+    list.bug("command-upside-down: The rectangle of a clear is counted from the bottom.")
+        .source("OpenGL under another API: y from below")
+        .plant(commands(|_, command| {
+            let below = |[x, y, w, h]: [u32; 4]| [x, 16_u32.saturating_sub(y + h), w, h];
+            command.rect = command.rect.map(below);
+        }));
+    for (at, word) in ["first", "second"].into_iter().enumerate() {
+        list.bug(format!(
+            "{word}-clear-command-skipped: The {word} clear command of a pass is skipped."
+        ))
+        .plant(without(move |_, before, _| before.len() != at));
+    }
+    list.bug("later-commands-skipped: Clear commands behind the first draw are left out.")
+        .plant(without(|_, _, command| command.before == 0));
+    list.bug("last-commands-skipped: Clear commands behind the last draw are left out.")
+        .plant(without(|pass, _, command| {
+            command.before < pass.draws.len()
+        }));
+    list.bug("clears-after-all-draws: Clear commands of a pass are executed after its draws.")
+        .plant(commands(|pass, command| command.before = pass.draws.len()));
+    list.bug("clears-one-draw-late: Clear commands are executed after the draw that follows them.")
+        .plant(commands(|pass, command| {
+            command.before = (command.before + 1).min(pass.draws.len())
+        }));
+    list.bug("command-obeys-the-scissor: A clear stays in the scissor of the draw before it.")
+        .source("OpenGL: the scissor test applies to clears")
+        .plant(commands(|pass, command| {
+            let before = command.before.checked_sub(1);
+            if let Some([x, y, w, h]) = before.and_then(|draw| pass.draws[draw].scissor) {
+                let [left, top, width, height] = command.rect.unwrap_or([0, 0, 16, 16]);
+                let (l, t) = (left.max(x), top.max(y));
+                let (r, b) = ((left + width).min(x + w), (top + height).min(y + h));
+                command.rect = Some([l, t, r.saturating_sub(l), b.saturating_sub(t)]);
+            }
+        }));
+    for (cleared, other, value) in BOTH {
+        let (a, b) = (cleared.name(), other.name());
+        list.bug(format!(
+            "command-clears-{b}-with-{a}: A clear command of {a} sets {b} to {value}."
+        ))
+        .plant(commands(move |_, command| {
+            if reaches(command, cleared) {
+                reach_both(command);
+            }
+        }));
     }
 }
 
 fn discards(list: &mut List) {
-    let rows: [Row; 3] = [
-        (
-            "stencil-discarded-with-depth",
-            "Where depth is discarded, stencil is too.",
-            |pass| {
-                if pass.operations.depth.store == StoreOperation::Discard {
-                    pass.operations.stencil.store = StoreOperation::Discard;
-                }
-            },
-        ),
-        (
-            "depth-discarded-with-stencil",
-            "Where stencil is discarded, depth is too.",
-            |pass| {
-                if pass.operations.stencil.store == StoreOperation::Discard {
-                    pass.operations.depth.store = StoreOperation::Discard;
-                }
-            },
-        ),
-        (
-            "depth-and-stencil-discarded-with-colour",
-            "Where colour is discarded, depth and stencil are too.",
-            |pass| {
-                let discarded = |o: &Operations<[f32; 4]>| o.store == StoreOperation::Discard;
-                if pass.operations.color.iter().any(discarded) {
-                    pass.operations.depth.store = StoreOperation::Discard;
-                    pass.operations.stencil.store = StoreOperation::Discard;
-                }
-            },
-        ),
-    ];
-    list.rows(
-        "Mali, PowerVR: one operation for both aspects",
-        |bug| passes(bug),
-        &rows,
-    );
+    list.source("Mali, PowerVR: one operation for both aspects");
+    for (discarded, other, _) in BOTH {
+        let (a, b) = (discarded.name(), other.name());
+        list.bug(format!(
+            "{b}-discarded-with-{a}: Where {a} is discarded, {b} is too."
+        ))
+        .passes(move |_, _, pass| {
+            if is_discarded(pass, discarded) {
+                discard(pass, other);
+            }
+        });
+    }
+    list.bug(
+        "depth-and-stencil-discarded-with-colour: Where colour is discarded, depth and \
+         stencil are too.",
+    )
+    .passes(|_, _, pass| {
+        if is_discarded(pass, Aspect::Color) {
+            discard(pass, Aspect::Depth);
+            discard(pass, Aspect::Stencil);
+        }
+    });
 }

@@ -1,9 +1,11 @@
-//! Bugs between passes: contents, read-only passes, resolves, textures, queries, and submissions after the
-//! first.
+//! Passes that lose what earlier ones drew, their draws, attachments or resolves, or their promises; and
+//! submissions after the first.
 
-use super::super::list::{CONFUSION, List};
-use super::super::plant::{Plant, again, scene};
-use etalon_scene::{Pass, Scene};
+use crate::fields::{DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
+use crate::list::{CONFUSION, List};
+use crate::plant::{Plant, again, all_draws, passes};
+use etalon_frame::TextureFormat;
+use etalon_scene::{Draw, Pass, Scene, StencilOperation};
 
 const TILER: &str = "Mali, PowerVR, Turnip: contents that a tiler does not keep";
 
@@ -13,348 +15,297 @@ fn share(a: &Pass, b: &Pass) -> bool {
     color || a.depth_stencil.is_some() && a.depth_stencil == b.depth_stencil
 }
 
-/// Changes the passes of a scene one after the other, given the unchanged ones before each.
-fn passes(bug: impl Fn(&[Pass], &mut Pass) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        let asked = scene.passes.clone();
-        for (i, pass) in scene.passes.iter_mut().enumerate() {
-            bug(&asked[..i], pass);
+/// Empties the passes of which a later one would lose what they drew, given both and their distance.
+fn lose(lost: impl Fn(&Pass, &Pass, usize) -> bool + Send + Sync + 'static) -> Plant {
+    passes(move |asked, number, pass| {
+        let mut later = (1..).zip(&asked.passes[number + 1..]);
+        if later.any(|(distance, later)| lost(&asked.passes[number], later, distance)) {
+            pass.draws.clear();
         }
     })
 }
 
-/// Empties the passes of which a later pass would lose what they drew.
-fn lose(lost: impl Fn(&Scene, usize, usize) -> bool + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        let asked = scene.clone();
-        let all = 0..asked.passes.len();
-        for (i, pass) in scene.passes.iter_mut().enumerate() {
-            if all.clone().any(|later| later > i && lost(&asked, i, later)) {
-                pass.draws.clear();
-            }
+/// Empties some passes, given those before each.
+fn emptied(strikes: fn(&[Pass], &Pass) -> bool) -> Plant {
+    passes(move |asked, number, pass| {
+        if strikes(&asked.passes[..number], pass) {
+            pass.draws.clear();
         }
     })
+}
+
+/// Changes each pass but the first, given the pass before it.
+fn after(bug: impl Fn(&Pass, &mut Pass) + Send + Sync + 'static) -> Plant {
+    passes(move |asked, number, pass| {
+        if number > 0 {
+            bug(&asked.passes[number - 1], pass);
+        }
+    })
+}
+
+/// Changes each pass but the last.
+fn earlier(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
+    passes(move |asked, number, pass| {
+        if number + 1 < asked.passes.len() {
+            bug(pass);
+        }
+    })
+}
+
+/// Changes the draws of read-only passes, or of the passes behind them.
+fn read_only(behind: bool, bug: fn(&mut Draw)) -> Plant {
+    passes(move |asked, number, pass| {
+        let of = if behind {
+            number.checked_sub(1)
+        } else {
+            Some(number)
+        };
+        if of.is_some_and(|of| asked.passes[of].depth_stencil_read_only) {
+            pass.draws.iter_mut().for_each(bug);
+        }
+    })
+}
+
+fn without_depth_writes(draw: &mut Draw) {
+    DEPTH_WRITE(draw)
+        .into_iter()
+        .for_each(|write| *write = false);
+}
+
+fn without_stencil_writes(draw: &mut Draw) {
+    STENCIL_WRITE_MASK(draw)
+        .into_iter()
+        .for_each(|mask| *mask = 0);
 }
 
 pub(super) fn add(list: &mut List) {
-    contents(list);
-    depth_stencil(list);
-    textures(list);
-    queries(list);
+    lost(list);
+    draws(list);
+    attachments(list);
+    promises(list);
+    resolves(list);
     submissions(list);
 }
 
-fn contents(list: &mut List) {
-    list.add(
-        "pass-not-stored",
-        TILER,
-        "What a pass drew is lost for the next one on the same attachments.",
-        lose(|scene, i, later| later == i + 1 && share(&scene.passes[i], &scene.passes[later])),
-    );
-    list.add(
-        "attachment-lost-while-away",
-        TILER,
-        "What a pass drew is lost where its attachments come back behind another pass.",
-        lose(|scene, i, later| later >= i + 2 && share(&scene.passes[i], &scene.passes[later])),
-    );
-    list.add(
-        "attachment-lost-behind-two-passes",
-        TILER,
-        "What a pass drew is lost where its attachments come back behind two other passes.",
-        lose(|scene, i, later| later >= i + 3 && share(&scene.passes[i], &scene.passes[later])),
-    );
-    list.add(
-        "third-pass-dropped",
-        CONFUSION,
-        "The third pass on an attachment draws nothing.",
-        passes(|before, pass| {
-            if before.iter().filter(|b| share(b, pass)).count() == 2 {
-                pass.draws.clear();
-            }
-        }),
-    );
-    list.add(
-        "sixteenth-pass-dropped",
-        CONFUSION,
-        "Passes behind the fifteenth draw nothing.",
-        passes(|before, pass| {
-            if before.len() >= 15 {
-                pass.draws.clear();
-            }
-        }),
-    );
-    list.add(
-        "framebuffer-not-switched-back",
-        "wgpu's GL: a cached framebuffer",
-        "The third framebuffer binding in a row of A, B, A stays B where formats allow.",
-        scene(|scene| {
-            let asked = scene.passes.clone();
-            for i in 2..asked.len() {
-                let (pass, before) = (&asked[i], &asked[i - 1]);
-                let back = pass.color == asked[i - 2].color && pass.color != before.color;
-                let shape = |scene: &Scene, pass: &Pass| -> Vec<_> {
-                    let all = pass.color.iter().map(|c| &scene.attachments[*c]);
-                    all.map(|a| (a.format, a.size, a.samples)).collect()
-                };
-                if back && shape(scene, pass) == shape(scene, before) {
-                    scene.passes[i].color.clone_from(&before.color);
-                }
-            }
-        }),
-    );
-    for (name, about, which) in [
-        ("first", "Only the first target of a pass is resolved.", 0),
-        (
-            "second",
-            "Of several targets, the second is not resolved.",
-            1,
-        ),
+fn lost(list: &mut List) {
+    list.source(TILER);
+    list.bug("pass-not-stored: What a pass drew is lost for the next one on the same attachments.")
+        .plant(lose(|pass, later, distance| {
+            distance == 1 && share(pass, later)
+        }));
+    for (words, name, least) in [
+        ("another pass", "while-away", 2),
+        ("two other passes", "behind-two-passes", 3),
     ] {
-        list.add(
-            &format!("resolve-{name}-target"),
-            CONFUSION,
-            about,
-            passes(move |_, pass| {
-                for (i, target) in pass.resolve.iter_mut().enumerate() {
-                    if (which == 0 && i > 0) || (which == 1 && i == 1) {
-                        *target = None;
-                    }
-                }
-            }),
-        );
+        list.bug(format!(
+            "attachment-lost-{name}: What a pass drew is lost where its attachments come back behind \
+             {words}."
+        ))
+        .plant(lose(move |pass, later, distance| distance >= least && share(pass, later)));
     }
-    list.add(
-        "resolve-once",
-        CONFUSION,
-        "A target that was resolved to is not resolved to again.",
-        passes(|before, pass| {
-            for target in &mut pass.resolve {
-                let known = |t: usize| before.iter().any(|b| b.resolve.contains(&Some(t)));
-                *target = target.filter(|t| !known(*t));
-            }
-        }),
-    );
+    list.bug("depth-lost-for-the-next-pass: Depth is lost where another pass follows.")
+        .plant(earlier(|pass| {
+            pass.draws.iter_mut().for_each(without_depth_writes)
+        }));
+    list.bug("stencil-lost-for-the-next-pass: Stencil is lost where another pass follows.")
+        .plant(earlier(|pass| {
+            pass.draws.iter_mut().for_each(without_stencil_writes)
+        }));
+    list.bug(
+        "depth-and-stencil-lost-without-colour: Depth and stencil of a pass without colour \
+         are lost.",
+    )
+    .plant(emptied(|_, pass| pass.color.is_empty()));
+    list.bug("texture-as-first-sampled: A texture that was sampled keeps what it held then.")
+        .source("wgpu's GL, Zink: a cache that is not flushed")
+        .plant(emptied(|before, pass| {
+            let draws = before.iter().flat_map(|p| &p.draws);
+            let mut read = draws.flat_map(|d| &d.textures);
+            read.any(|texture| pass.color.contains(texture))
+        }));
+    list.bug("texture-as-uploaded: What was drawn to a texture does not reach the next pass.")
+        .source(CONFUSION)
+        .plant(lose(|pass, later, distance| {
+            let mut read = later.draws.iter().flat_map(|d| &d.textures);
+            distance == 1 && read.any(|t| pass.color.contains(t))
+        }));
 }
 
-fn depth_stencil(list: &mut List) {
-    list.add(
-        "read-only-stays",
-        "ANGLE: read-only depth feedback loops",
-        "The pass behind a read-only one does not write depth and stencil either.",
-        passes(|before, pass| {
-            if before.last().is_some_and(|b| b.depth_stencil_read_only) {
-                for draw in &mut pass.draws {
-                    if let Some(depth) = &mut draw.depth {
-                        depth.write = false;
-                    }
-                    if let Some(stencil) = &mut draw.stencil {
-                        stencil.front.write_mask = 0;
-                        stencil.back.write_mask = 0;
-                    }
-                }
+fn draws(list: &mut List) {
+    list.source(CONFUSION);
+    list.bug("third-pass-dropped: The third pass on an attachment draws nothing.")
+        .plant(emptied(|before, pass| {
+            before.iter().filter(|b| share(b, pass)).count() == 2
+        }));
+    list.bug("sixteenth-pass-dropped: Passes behind the fifteenth draw nothing.")
+        .plant(emptied(|before, _| before.len() >= 15));
+    list.bug("second-pass-lost: The second pass draws nothing.")
+        .plant(emptied(|before, _| before.len() == 1));
+    list.bug("first-draw-of-later-passes-lost: Every pass but the first loses its first draw.")
+        .plant(after(|_, pass| {
+            drop(pass.draws.drain(..1.min(pass.draws.len())))
+        }));
+    list.bug("last-draw-of-earlier-passes-lost: Every pass but the last loses its last draw.")
+        .plant(earlier(|pass| drop(pass.draws.pop())));
+    list.bug("second-draw-lost: The second draw of a pass is lost.")
+        .passes(|_, _, pass| {
+            if pass.draws.len() > 1 {
+                pass.draws.remove(1);
             }
-        }),
-    );
-    list.add(
-        "read-only-first-draw",
-        "ANGLE: read-only depth feedback loops",
-        "The first draw behind a read-only pass does not write depth.",
-        passes(|before, pass| {
-            if before.last().is_some_and(|b| b.depth_stencil_read_only)
-                && let Some(depth) = pass.draws.first_mut().and_then(|d| d.depth.as_mut())
+        });
+    list.bug("passes-swapped: The first two passes on the same attachments change places.")
+        .scene(|scene| {
+            if let [first, second, ..] = &mut scene.passes[..]
+                && first.color == second.color
+                && first.depth_stencil == second.depth_stencil
             {
-                depth.write = false;
+                std::mem::swap(&mut first.draws, &mut second.draws);
             }
-        }),
-    );
-    list.add(
-        "read-only-untested",
-        CONFUSION,
-        "A read-only pass does not test.",
-        passes(|_, pass| {
-            if pass.depth_stencil_read_only {
-                for draw in &mut pass.draws {
-                    draw.depth = None;
-                    draw.stencil = None;
-                }
-            }
-        }),
-    );
-    list.add(
-        "depth-lost-for-the-next-pass",
-        TILER,
-        "Depth that a pass wrote is not stored where another pass follows.",
-        lose_aspect(true, false),
-    );
-    list.add(
-        "stencil-lost-for-the-next-pass",
-        TILER,
-        "Stencil that a pass wrote is not stored where another pass follows.",
-        lose_aspect(false, true),
-    );
-    list.add(
-        "depth-and-stencil-lost-without-colour",
-        TILER,
-        "Depth and stencil of a pass without colour are not stored.",
-        passes(|_, pass| {
-            if pass.color.is_empty() {
-                pass.draws.clear();
-            }
-        }),
-    );
-}
-
-/// Lets no pass but the last write an aspect.
-fn lose_aspect(depth: bool, stencil: bool) -> Plant {
-    scene(move |scene| {
-        let count = scene.passes.len();
-        for pass in scene.passes.iter_mut().take(count.saturating_sub(1)) {
-            for draw in &mut pass.draws {
-                if let Some(state) = draw.depth.as_mut().filter(|_| depth) {
-                    state.write = false;
-                }
-                if let Some(state) = draw.stencil.as_mut().filter(|_| stencil) {
-                    state.front.write_mask = 0;
-                    state.back.write_mask = 0;
-                }
-            }
+        });
+    list.bug(
+        "equal-state-draw-skipped-in-the-next-pass: A draw like the last one before is skipped.",
+    )
+    .plant(after(|before, pass| {
+        if !pass.draws.is_empty() && before.draws.last() == pass.draws.first() {
+            pass.draws.remove(0);
         }
-    })
+    }));
 }
 
-fn textures(list: &mut List) {
-    list.add(
-        "texture-as-first-sampled",
-        "wgpu's GL, Zink: a cache that is not flushed",
-        "A texture that was sampled keeps what it held then.",
-        scene(|scene| {
-            let asked = scene.passes.clone();
-            for (i, pass) in scene.passes.iter_mut().enumerate() {
-                let read = |p: &Pass, c: &usize| p.draws.iter().any(|d| d.textures.contains(c));
-                let drawn = |c: &usize| asked[..i].iter().any(|p| read(p, c));
-                if pass.color.iter().any(drawn) {
-                    pass.draws.clear();
-                }
-            }
-        }),
-    );
-    list.add(
-        "texture-as-uploaded",
-        CONFUSION,
-        "What was drawn to a texture does not reach a shader that samples it in the next pass.",
-        lose(|scene, i, later| {
-            let pass = &scene.passes[later];
-            let drawn = &scene.passes[i].color;
-            let read = pass.draws.iter().flat_map(|d| &d.textures);
-            later == i + 1 && read.into_iter().any(|t| drawn.contains(t))
-        }),
-    );
+/// Formats, sizes and samples of attachments.
+fn shape(
+    scene: &Scene,
+    all: impl IntoIterator<Item = usize>,
+) -> Vec<(TextureFormat, [u32; 2], u32)> {
+    let attachments = all.into_iter().map(|i| &scene.attachments[i]);
+    attachments.map(|a| (a.format, a.size, a.samples)).collect()
 }
 
-fn queries(list: &mut List) {
-    let counters =
-        |bug: fn(&mut Vec<u64>)| Plant::Frame(Box::new(move |_, frame| bug(&mut frame.counters)));
-    list.add(
-        "second-query-gets-the-first",
-        "SwiftShader: one query for all",
-        "Every query gets the value of the first one.",
-        counters(|all| {
-            if let Some(first) = all.first().copied() {
-                all.fill(first);
+fn attachments(list: &mut List) {
+    list.bug(
+        "color-attachment-kept: A pass draws to the like colour attachments of the pass before.",
+    )
+    .passes(|asked, number, pass| {
+        let Some(before) = number.checked_sub(1).map(|n| &asked.passes[n].color) else {
+            return;
+        };
+        let mut fetched = pass.draws.iter().flat_map(|d| &d.textures);
+        let free = !fetched.any(|t| before.contains(t));
+        if free && shape(asked, before.clone()) == shape(asked, pass.color.clone()) {
+            pass.color.clone_from(before);
+        }
+    });
+    list.bug("depth-attachment-kept: A pass tests the like depth attachment of the pass before.")
+        .passes(|asked, number, pass| {
+            let before = number
+                .checked_sub(1)
+                .and_then(|n| asked.passes[n].depth_stencil);
+            if before.is_some() && shape(asked, before) == shape(asked, pass.depth_stencil) {
+                pass.depth_stencil = before;
             }
-        }),
-    );
-    list.add(
-        "queries-in-reverse",
-        CONFUSION,
-        "Queries come back in reverse.",
-        counters(|all| all.reverse()),
-    );
-    list.add(
-        "last-query-lost",
-        CONFUSION,
-        "Of several queries the last one stays 0.",
-        counters(|all| {
-            if let [_, .., last] = &mut all[..] {
-                *last = 0;
+        });
+    list.bug("framebuffer-not-switched-back: Of bindings A, B, A the third stays B.")
+        .source("wgpu's GL: a cached framebuffer")
+        .passes(|asked, number, pass| {
+            let Some([first, before]) = asked.passes[..number].last_chunk() else {
+                return;
+            };
+            let back = pass.color == first.color && pass.color != before.color;
+            if back && shape(asked, before.color.clone()) == shape(asked, pass.color.clone()) {
+                pass.color.clone_from(&before.color);
             }
-        }),
-    );
-    list.add(
-        "query-of-the-first-pass-alone",
-        CONFUSION,
-        "A query over several passes keeps the value of the first.",
-        passes(|before, pass| {
-            let open: Vec<usize> = before
-                .iter()
-                .flat_map(|b| &b.draws)
-                .flat_map(|d| d.counters.clone())
-                .collect();
-            for draw in &mut pass.draws {
-                if !draw.shader.counts_runs() {
-                    draw.counters.retain(|c| !open.contains(c));
+        });
+}
+
+fn promises(list: &mut List) {
+    list.source("ANGLE: read-only depth feedback loops");
+    list.bug("read-only-stays: The pass behind a read-only one is read-only too.")
+        .plant(read_only(true, |draw| {
+            without_depth_writes(draw);
+            without_stencil_writes(draw);
+        }));
+    list.bug("read-only-first-draw: The first draw behind a read-only pass does not write depth.")
+        .plant(after(|before, pass| {
+            let draw = pass.draws.first_mut();
+            if let Some(draw) = draw.filter(|_| before.depth_stencil_read_only) {
+                without_depth_writes(draw);
+            }
+        }));
+    list.source(CONFUSION);
+    list.bug("read-only-untested: A read-only pass does not test.")
+        .plant(read_only(false, |draw| {
+            (draw.depth, draw.stencil) = (None, None)
+        }));
+    list.bug("read-only-stencil-kept: A pass after a read-only one does not write stencil.")
+        .plant(read_only(true, |draw| {
+            let operations = STENCIL_OPERATIONS(draw).into_iter();
+            operations.for_each(|operation| *operation = StencilOperation::Keep);
+        }));
+    list.bug("depth-test-off-after-read-only: A pass after a read-only one does not test depth.")
+        .plant(read_only(true, |draw| draw.depth = None));
+    list.bug("depth-test-off-in-read-only: A read-only pass after another does not test depth.")
+        .plant(after(|_, pass| {
+            if pass.depth_stencil_read_only {
+                pass.draws.iter_mut().for_each(|draw| draw.depth = None);
+            }
+        }));
+}
+
+fn resolves(list: &mut List) {
+    list.bug("resolve-first-target: Only the first target of a pass is resolved.")
+        .passes(|_, _, pass| pass.resolve.iter_mut().skip(1).for_each(|r| *r = None));
+    list.bug("resolve-second-target: Of several targets, the second is not resolved.")
+        .passes(|_, _, pass| {
+            if let Some(second) = pass.resolve.get_mut(1) {
+                *second = None;
+            }
+        });
+    list.bug("resolve-once: A target that was resolved to is not resolved to again.")
+        .passes(|asked, number, pass| {
+            for target in &mut pass.resolve {
+                let mut before = asked.passes[..number].iter();
+                if before.any(|b| target.is_some() && b.resolve.contains(target)) {
+                    *target = None;
                 }
             }
-        }),
-    );
-    list.add(
-        "query-of-the-last-pass-alone",
-        CONFUSION,
-        "A query over several passes keeps the value of the last.",
-        scene(|scene| {
-            let asked = scene.passes.clone();
-            for (i, pass) in scene.passes.iter_mut().enumerate() {
-                let later = asked[i + 1..].iter().flat_map(|b| &b.draws);
-                let again: Vec<usize> = later.flat_map(|d| d.counters.clone()).collect();
-                for draw in &mut pass.draws {
-                    if !draw.shader.counts_runs() {
-                        draw.counters.retain(|c| !again.contains(c));
-                    }
-                }
-            }
-        }),
-    );
+        });
+    list.bug("later-resolves-lost: Only the first pass resolves.")
+        .plant(after(|_, pass| pass.resolve.fill(None)));
+    list.bug("earlier-resolves-lost: Only the last pass resolves.")
+        .plant(earlier(|pass| pass.resolve.fill(None)));
 }
 
 fn submissions(list: &mut List) {
-    let last_draw = |scene: &mut Scene| {
-        if let Some(pass) = scene.passes.last_mut() {
-            pass.draws.pop();
-        }
-    };
-    for (from, words) in [(2, "second"), (4, "fourth"), (64, "sixty-fourth")] {
-        list.add(
-            &format!("draw-lost-from-the-{words}-submission"),
-            "a ring of buffers that is used up",
-            format!("From the {words} submission on the last draw is lost."),
-            again(from, last_draw),
-        );
+    for (from, word) in [(2, "second"), (4, "fourth"), (64, "sixty-fourth")] {
+        list.bug(format!(
+            "draw-lost-from-the-{word}-submission: From the {word} submission on the last draw is lost."
+        ))
+        .source("a ring of buffers that is used up")
+        .plant(again(from, |scene| {
+            scene.passes.last_mut().and_then(|pass| pass.draws.pop());
+        }));
     }
-    list.add(
-        "draw-twice-from-the-second-submission",
-        CONFUSION,
-        "From the second submission on the last pass is drawn twice.",
-        again(2, |scene| scene.passes.extend(scene.passes.last().cloned())),
-    );
-    list.add(
-        "contents-stay-from-the-second-submission",
-        "a clear that is skipped as redundant",
-        "From the second submission on attachments keep what the one before drew.",
-        again(2, |scene| {
-            let passes = scene.passes.clone();
-            scene.passes.extend(passes);
-        }),
-    );
-    list.add(
-        "params-shared-from-the-second-submission",
-        "a ring of uniform buffers that wraps",
-        "From the second submission on all draws have the parameters of the last.",
-        again(2, |scene| {
-            let draws = scene.passes.iter().flat_map(|p| &p.draws);
-            if let Some(params) = draws.last().map(|d| d.params) {
-                let draws = scene.passes.iter_mut().flat_map(|p| &mut p.draws);
-                draws.for_each(|d| d.params = params);
-            }
-        }),
-    );
+    list.bug(
+        "draw-twice-from-the-second-submission: From the second one on the last pass is \
+         drawn twice.",
+    )
+    .plant(again(2, |scene| {
+        scene.passes.extend(scene.passes.last().cloned())
+    }));
+    list.bug(
+        "contents-stay-from-the-second-submission: From the second one on attachments keep \
+         their contents.",
+    )
+    .source("a clear that is skipped as redundant")
+    .plant(again(2, |scene| scene.passes.extend(scene.passes.clone())));
+    list.bug(
+        "params-shared-from-the-second-submission: From the second one on all draws have the \
+         last's parameters.",
+    )
+    .source("a ring of uniform buffers that wraps")
+    .plant(again(2, |scene| {
+        if let Some(params) = all_draws(scene).last().map(|d| d.params) {
+            all_draws(scene).for_each(|d| d.params = params);
+        }
+    }));
 }

@@ -1,9 +1,9 @@
 //! Bugs of indices, offsets and instances: the mesh that a driver fetches which takes one number of a
 //! draw call wrongly.
 
-use crate::list::{CONFUSION, List};
+use crate::list::List;
 use crate::plant::{Plant, draws, from_draw};
-use etalon_scene::{Call, Draw, Fetch, IndexFormat, Mesh, PrimitiveTopology, RESTART, Vertex};
+use etalon_scene::{Call, Draw, Fetch, IndexFormat, Mesh, PrimitiveTopology, RESTART};
 
 /// Draws what is fetched for another call than was asked for. Fetches beyond a buffer give its first
 /// vertex, as robust access does.
@@ -24,28 +24,24 @@ fn called(bug: impl Fn(&mut Call<'_>, &Draw) + Send + Sync + 'static) -> Plant {
 /// The mesh that a call fetches.
 fn fetched(call: &Call<'_>) -> Mesh {
     let range = call.first as usize..(call.first + call.count) as usize;
-    let first = call.vertices[0];
+    let vertex = |i| call.vertices.get(i).copied().unwrap_or(call.vertices[0]);
+    let moved = |index: u32| {
+        let sum = i64::from(index) + i64::from(call.base_vertex);
+        let known = u32::try_from(sum).ok();
+        known
+            .filter(|i| (*i as usize) < call.vertices.len())
+            .unwrap_or(0)
+    };
+    let index = |i| if i == RESTART { i } else { moved(i) };
     let part = match &call.indices {
         None => Mesh {
-            vertices: range
-                .map(|i| call.vertices.get(i).copied().unwrap_or(first))
-                .collect(),
+            vertices: range.map(vertex).collect(),
             indices: None,
         },
         Some(indices) => {
             let drawn = range.map(|i| indices.get(i).copied().unwrap_or(0));
-            let moved = |index: u32| match index {
-                RESTART => RESTART,
-                index => {
-                    let sum = i64::from(index) + i64::from(call.base_vertex);
-                    let known = usize::try_from(sum)
-                        .ok()
-                        .filter(|i| *i < call.vertices.len());
-                    known.unwrap_or(0) as u32
-                }
-            };
             Mesh {
-                indices: Some(drawn.map(moved).collect()),
+                indices: Some(drawn.map(index).collect()),
                 vertices: call.vertices.to_vec(),
             }
         }
@@ -61,240 +57,41 @@ fn fetched(call: &Call<'_>) -> Mesh {
     part.instanced(&colors)
 }
 
-pub(super) fn add(list: &mut List) {
-    type Bug = fn(&mut Call<'_>, &Draw);
-    let rows: [(&str, &str, Bug); 24] = [
-        (
-            "base-vertex-lost",
-            "The base vertex is not added.",
-            |call, _| {
-                call.base_vertex = 0;
-            },
-        ),
-        (
-            "base-vertex-doubled",
-            "The base vertex is added twice.",
-            |call, _| {
-                call.base_vertex *= 2;
-            },
-        ),
-        (
-            "base-vertex-unsigned",
-            "A negative base vertex counts as 0.",
-            |call, _| call.base_vertex = call.base_vertex.max(0),
-        ),
-        (
-            "base-vertex-16-bits",
-            "The base vertex is kept in 16 bits.",
-            |call, _| call.base_vertex = i32::from(call.base_vertex as i16),
-        ),
-        (
-            "base-vertex-with-first-index-lost",
-            "A base vertex is lost where there is a first index.",
-            |call, _| {
-                if call.first > 0 && call.indices.is_some() {
-                    call.base_vertex = 0;
-                }
-            },
-        ),
-        ("first-index-lost", "Draws start at index 0.", |call, _| {
-            if call.indices.is_some() {
-                call.first = 0;
-            }
-        }),
-        (
-            "first-index-16-bits",
-            "The first index is kept in 16 bits.",
-            |call, _| {
-                if call.indices.is_some() {
-                    call.first %= 65_536;
-                }
-            },
-        ),
-        (
-            "first-index-as-bytes",
-            "The first index counts as bytes.",
-            |call, _| {
-                if call.indices.is_some() {
-                    call.first /= 4;
-                }
-            },
-        ),
-        (
-            "first-index-of-long-indices",
-            "The first of short indices is found as if they were long.",
-            |call, _| {
-                if call.indices.is_some() && call.index == IndexFormat::Uint16 {
-                    call.first *= 2;
-                }
-            },
-        ),
-        (
-            "first-vertex-lost",
-            "Draws start at vertex 0.",
-            |call, _| {
-                if call.indices.is_none() {
-                    call.first = 0;
-                }
-            },
-        ),
-        (
-            "first-vertex-16-bits",
-            "The first vertex is kept in 16 bits.",
-            |call, _| {
-                if call.indices.is_none() {
-                    call.first %= 65_536;
-                }
-            },
-        ),
-        (
-            "long-indices-shortened",
-            "Long indices are kept in 16 bits.",
-            |call, _| each_index(call, IndexFormat::Uint32, |i| i % 65_536),
-        ),
-        (
-            "short-indices-signed",
-            "Short indices from 32,768 on count as negative.",
-            |call, _| {
-                each_index(
-                    call,
-                    IndexFormat::Uint16,
-                    |i| if i < 32_768 { i } else { 0 },
-                )
-            },
-        ),
-        (
-            "last-short-index-as-restart",
-            "The index 65,535 ends a list of short indices.",
-            |call, draw| {
-                if lists(draw) {
-                    each_index(call, IndexFormat::Uint16, |i| {
-                        if i == 65_535 { RESTART } else { i }
-                    });
-                }
-            },
-        ),
-        (
-            "index-65535-of-long-as-restart",
-            "The index 65,535 ends a list of long indices.",
-            |call, draw| {
-                if lists(draw) {
-                    each_index(call, IndexFormat::Uint32, |i| {
-                        if i == 65_535 { RESTART } else { i }
-                    });
-                }
-            },
-        ),
-        (
-            "index-limit-65535",
-            "Indices from 65,535 on are held to 65,534.",
-            |call, _| {
-                for format in [IndexFormat::Uint16, IndexFormat::Uint32] {
-                    each_index(
-                        call,
-                        format,
-                        |i| if i == RESTART { i } else { i.min(65_534) },
-                    );
-                }
-            },
-        ),
-        (
-            "restart-after-base-vertex",
-            "The end of a strip is looked for after the base vertex is added.",
-            |call, _| {
-                if call.base_vertex != 0 {
-                    let format = call.index;
-                    each_index(call, format, |i| if i == RESTART { 0 } else { i });
-                }
-            },
-        ),
-        (
-            "short-restart-lost",
-            "Strips of short indices do not end.",
-            |call, _| {
-                each_index(
-                    call,
-                    IndexFormat::Uint16,
-                    |i| if i == RESTART { 0 } else { i },
-                )
-            },
-        ),
-        ("first-instance-lost", "Instances start at 0.", |call, _| {
-            call.first_instance = 0;
-        }),
-        (
-            "first-instance-doubled",
-            "The first instance is added twice.",
-            |call, _| call.first_instance *= 2,
-        ),
-        (
-            "first-instance-of-indexed-lost",
-            "Instances of indexed draws start at 0.",
-            |call, _| {
-                if call.indices.is_some() {
-                    call.first_instance = 0;
-                }
-            },
-        ),
-        (
-            "last-instance-lost",
-            "The last instance is lost.",
-            |call, _| {
-                call.instances = (call.instances - 1).max(1);
-            },
-        ),
-        (
-            "instances-of-256",
-            "Instances from 256 on are lost.",
-            |call, _| call.instances = call.instances.min(256),
-        ),
-        (
-            "one-color-of-instances",
-            "All instances have the colour of the first.",
-            |call, _| {
-                let first = call.colors.get(call.first_instance as usize).copied();
-                if let Some(first) = first {
-                    call.colors.fill(first);
-                }
-            },
-        ),
-    ];
-    for (name, about, bug) in rows {
-        list.add(name, CONFUSION, about, called(bug));
-    }
-    list.add(
-        "instance-rate-kept",
-        CONFUSION,
-        "The draw after one of instances has the colour of its first instance.",
-        from_draw(|before, draw| {
-            if before.fetch.instances > 0 {
-                let color = before.mesh.vertices[0].color;
-                recolor(&mut draw.mesh.vertices, color);
-            }
-        }),
-    );
-    list.add(
-        "offsets-kept",
-        CONFUSION,
-        "The draw after one with a base vertex adds it too.",
-        from_draw(|before, draw| {
-            let moved = before.fetch.base_vertex;
-            let count = draw.mesh.vertices.len() as i64;
-            if moved != 0 && draw.fetch.base_vertex == 0 {
-                for index in draw.mesh.indices.iter_mut().flatten() {
-                    if *index != RESTART {
-                        *index = (i64::from(*index) + i64::from(moved)).clamp(0, count - 1) as u32;
-                    }
-                }
-            }
-        }),
-    );
+/// Changes the calls with indices.
+fn indexed(bug: fn(&mut Call<'_>)) -> Plant {
+    called(move |call, _| {
+        if call.indices.is_some() {
+            bug(call);
+        }
+    })
 }
 
-fn recolor(vertices: &mut [Vertex], color: [f32; 4]) {
-    for vertex in vertices {
-        vertex.color = color;
+/// Changes the calls without indices.
+fn straight(bug: fn(&mut Call<'_>)) -> Plant {
+    called(move |call, _| {
+        if call.indices.is_none() {
+            bug(call);
+        }
+    })
+}
+
+/// Changes the indices of a size, of draws that it strikes.
+fn indices(format: IndexFormat, strikes: fn(&Draw) -> bool, bug: fn(u32) -> u32) -> Plant {
+    called(move |call, draw| {
+        if call.index == format && strikes(draw) {
+            each_index(call, bug);
+        }
+    })
+}
+
+fn each_index(call: &mut Call<'_>, bug: impl Fn(u32) -> u32) {
+    for index in call.indices.iter_mut().flat_map(|list| list.to_mut()) {
+        *index = bug(*index);
     }
+}
+
+fn any(_: &Draw) -> bool {
+    true
 }
 
 fn lists(draw: &Draw) -> bool {
@@ -302,12 +99,107 @@ fn lists(draw: &Draw) -> bool {
     [PointList, LineList, TriangleList].contains(&draw.topology)
 }
 
-/// Changes the indices of a size.
-fn each_index(call: &mut Call<'_>, format: IndexFormat, bug: impl Fn(u32) -> u32) {
-    if call.index != format {
-        return;
-    }
-    for index in call.indices.iter_mut().flat_map(|list| list.to_mut()) {
-        *index = bug(*index);
-    }
+pub(super) fn add(list: &mut List) {
+    offsets(list);
+    values(list);
+    instances(list);
+}
+
+fn offsets(list: &mut List) {
+    list.bug("base-vertex-lost: The base vertex is not added.")
+        .plant(called(|call, _| call.base_vertex = 0));
+    list.bug("base-vertex-doubled: The base vertex is added twice.")
+        .plant(called(|call, _| call.base_vertex *= 2));
+    list.bug("base-vertex-unsigned: A negative base vertex counts as 0.")
+        .plant(called(|call, _| call.base_vertex = call.base_vertex.max(0)));
+    list.bug("base-vertex-16-bits: The base vertex is kept in 16 bits.")
+        .plant(called(|call, _| {
+            call.base_vertex = i32::from(call.base_vertex as i16)
+        }));
+    list.bug(
+        "base-vertex-with-first-index-lost: The base vertex is lost where there is a first index.",
+    )
+    .plant(indexed(|call| {
+        call.base_vertex *= i32::from(call.first == 0)
+    }));
+    list.bug("first-index-lost: Draws start at index 0.")
+        .plant(indexed(|call| call.first = 0));
+    list.bug("first-index-16-bits: The first index is kept in 16 bits.")
+        .plant(indexed(|call| call.first %= 65_536));
+    list.bug("first-index-as-bytes: The first index counts as bytes.")
+        .plant(indexed(|call| call.first /= 4));
+    list.bug("first-index-of-long-indices: The first of short indices is found as if long.")
+        .plant(indexed(|call| {
+            if call.index == IndexFormat::Uint16 {
+                call.first *= 2;
+            }
+        }));
+    list.bug("first-vertex-lost: Draws start at vertex 0.")
+        .plant(straight(|call| call.first = 0));
+    list.bug("first-vertex-16-bits: The first vertex is kept in 16 bits.")
+        .plant(straight(|call| call.first %= 65_536));
+}
+
+fn values(list: &mut List) {
+    use IndexFormat::{Uint16, Uint32};
+    let as_restart = |i| if i == 65_535 { RESTART } else { i };
+    list.bug("long-indices-shortened: Long indices are kept in 16 bits.")
+        .plant(indices(Uint32, any, |i| i % 65_536));
+    list.bug("short-indices-signed: Short indices from 32,768 on count as negative.")
+        .plant(indices(Uint16, any, |i| if i < 32_768 { i } else { 0 }));
+    list.bug("last-short-index-as-restart: The index 65,535 ends a list of short indices.")
+        .plant(indices(Uint16, lists, as_restart));
+    list.bug("index-65535-of-long-as-restart: The index 65,535 ends a list of long indices.")
+        .plant(indices(Uint32, lists, as_restart));
+    list.bug("index-limit-65535: Indices from 65,535 on are held to 65,534.")
+        .plant(called(|call, _| {
+            each_index(call, |i| if i == RESTART { i } else { i.min(65_534) });
+        }));
+    list.bug("restart-after-base-vertex: The base vertex is added to the end of a strip too.")
+        .plant(called(|call, _| {
+            if call.base_vertex != 0 {
+                each_index(call, |i| if i == RESTART { 0 } else { i });
+            }
+        }));
+    list.bug("short-restart-lost: Strips of short indices do not end.")
+        .plant(indices(Uint16, any, |i| if i == RESTART { 0 } else { i }));
+}
+
+fn instances(list: &mut List) {
+    list.bug("first-instance-lost: Instances start at 0.")
+        .plant(called(|call, _| call.first_instance = 0));
+    list.bug("first-instance-doubled: The first instance is added twice.")
+        .plant(called(|call, _| call.first_instance *= 2));
+    list.bug("first-instance-of-indexed-lost: Instances of indexed draws start at 0.")
+        .plant(indexed(|call| call.first_instance = 0));
+    list.bug("last-instance-lost: The last instance is lost.")
+        .plant(called(|call, _| {
+            call.instances = (call.instances - 1).max(1)
+        }));
+    list.bug("instances-of-256: Instances from 256 on are lost.")
+        .plant(called(|call, _| call.instances = call.instances.min(256)));
+    list.bug("one-color-of-instances: All instances have the colour of the first.")
+        .plant(called(|call, _| {
+            if let Some(first) = call.colors.get(call.first_instance as usize).copied() {
+                call.colors.fill(first);
+            }
+        }));
+    list.bug("instance-rate-kept: The draw after one of instances has its first one's colour.")
+        .plant(from_draw(|before, draw| {
+            if before.fetch.instances > 0 {
+                let color = before.mesh.vertices[0].color;
+                draw.mesh.vertices.iter_mut().for_each(|v| v.color = color);
+            }
+        }));
+    list.bug("offsets-kept: The draw after one with a base vertex adds it too.")
+        .plant(from_draw(|before, draw| {
+            let moved = i64::from(before.fetch.base_vertex);
+            let last = draw.mesh.vertices.len() as i64 - 1;
+            if moved != 0 && draw.fetch.base_vertex == 0 {
+                let indices = draw.mesh.indices.iter_mut().flatten();
+                for index in indices.filter(|i| **i != RESTART) {
+                    *index = (i64::from(*index) + moved).clamp(0, last) as u32;
+                }
+            }
+        }));
 }

@@ -1,0 +1,112 @@
+//! What passes and clear commands do to one aspect.
+
+use etalon_frame::Aspect;
+use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, Pass, StoreOperation};
+
+pub(super) const ASPECTS: [Aspect; 3] = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
+
+/// Each of depth and stencil with the other, and the value to which that is cleared by mistake.
+pub(super) const BOTH: [(Aspect, Aspect, u32); 2] = [
+    (Aspect::Depth, Aspect::Stencil, 0),
+    (Aspect::Stencil, Aspect::Depth, 1),
+];
+
+/// The name in a sentence.
+pub(super) fn word(aspect: Aspect) -> &'static str {
+    match aspect {
+        Aspect::Color => "colour",
+        Aspect::Depth => "depth",
+        Aspect::Stencil => "stencil",
+    }
+}
+
+/// Returns the operations of all colour attachments.
+fn color_operations(pass: &mut Pass) -> &mut [Operations<[f32; 4]>] {
+    let all = &mut pass.operations.color;
+    all.resize_with(pass.color.len(), Default::default);
+    all
+}
+
+/// True if a pass begins with a clear.
+pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
+    let operations = &pass.operations;
+    match aspect {
+        Aspect::Color => operations
+            .color
+            .iter()
+            .any(|o| o.load != LoadOperation::Load),
+        Aspect::Depth => operations.depth.load != LoadOperation::Load,
+        Aspect::Stencil => operations.stencil.load != LoadOperation::Load,
+    }
+}
+
+/// Lets a pass begin with a clear: to 0, or to a depth of 1.
+pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
+    match aspect {
+        Aspect::Color => {
+            let all = color_operations(pass).iter_mut();
+            all.for_each(|o| o.load = LoadOperation::Clear([0.0; 4]));
+        }
+        _ if pass.depth_stencil_read_only => {}
+        Aspect::Depth => pass.operations.depth.load = LoadOperation::Clear(1.0),
+        Aspect::Stencil => pass.operations.stencil.load = LoadOperation::Clear(0),
+    }
+}
+
+/// Lets a pass begin with what an aspect holds.
+pub(super) fn load(pass: &mut Pass, aspect: Aspect) {
+    match aspect {
+        Aspect::Color => {
+            let all = color_operations(pass).iter_mut();
+            all.for_each(|o| o.load = LoadOperation::Load);
+        }
+        Aspect::Depth => pass.operations.depth.load = LoadOperation::Load,
+        Aspect::Stencil => pass.operations.stencil.load = LoadOperation::Load,
+    }
+}
+
+/// True if a pass ends with a discard.
+pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
+    let operations = &pass.operations;
+    match aspect {
+        Aspect::Color => operations
+            .color
+            .iter()
+            .any(|o| o.store == StoreOperation::Discard),
+        Aspect::Depth => operations.depth.store == StoreOperation::Discard,
+        Aspect::Stencil => operations.stencil.store == StoreOperation::Discard,
+    }
+}
+
+/// Lets a pass end with a discard.
+pub(super) fn discard(pass: &mut Pass, aspect: Aspect) {
+    match aspect {
+        Aspect::Color => {
+            let all = color_operations(pass).iter_mut();
+            all.for_each(|o| o.store = StoreOperation::Discard);
+        }
+        _ if pass.depth_stencil.is_none() || pass.depth_stencil_read_only => {}
+        Aspect::Depth => pass.operations.depth.store = StoreOperation::Discard,
+        Aspect::Stencil => pass.operations.stencil.store = StoreOperation::Discard,
+    }
+}
+
+/// True if a command clears an aspect.
+pub(super) fn reaches(command: &Clear, aspect: Aspect) -> bool {
+    match command.target {
+        ClearTarget::Color { .. } => aspect == Aspect::Color,
+        ClearTarget::DepthStencil { depth, stencil, .. } => match aspect {
+            Aspect::Color => false,
+            Aspect::Depth => depth.is_some(),
+            Aspect::Stencil => stencil.is_some(),
+        },
+    }
+}
+
+/// Lets a command that clears depth or stencil clear the other too.
+pub(super) fn reach_both(command: &mut Clear) {
+    if let ClearTarget::DepthStencil { depth, stencil, .. } = &mut command.target {
+        depth.get_or_insert(1.0);
+        stencil.get_or_insert(0);
+    }
+}
