@@ -28,6 +28,7 @@ mod mutants;
 mod news;
 mod parts;
 mod pipes;
+mod prose;
 mod read_faults;
 mod reduce;
 mod round_trips;

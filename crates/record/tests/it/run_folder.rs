@@ -77,7 +77,7 @@ prop_compose! {
         cut in any::<bool>(),
     ) -> Story {
         let line = |(at, operation, detail, citation)| ToldLine { at, operation, detail, citation };
-        let event = |([pass, draw], compare, [low, high], citation): (_, String, [f64; 2], _)| Event {
+        let event = |([pass, draw], compare, [low, high], citation): ([usize; 2], String, [f64; 2], Option<String>)| Event {
             scene: Some(SceneName::Variant(compare.clone())),
             origin: Origin::Draw { pass, draw, primitives: vec![0] },
             step: Step::DepthTest(DepthTest::Compared {
