@@ -58,9 +58,12 @@ impl Traits {
     pub fn likeness(&self, known: &Self) -> Option<Likeness> {
         // A failure that needs no vertices of its own is not about those of the known one.
         let own_vertices = self.words != self.words.without_vertices();
-        let as_here = |signature: &Signature| match own_vertices {
-            true => signature.clone(),
-            false => signature.without_vertices(),
+        let as_here = |signature: &Signature| {
+            if own_vertices {
+                signature.clone()
+            } else {
+                signature.without_vertices()
+            }
         };
         if self.way == known.way && self.words == as_here(&known.words) {
             return Some(Likeness::Same);
@@ -76,16 +79,16 @@ impl Traits {
         }
         let has = known.operations.iter().all(|o| self.operations.contains(o));
         let picture = matches!(self.subject, Subject::Picture(_));
-        let same = match picture {
-            true => self.subject == known.subject && has,
-            false => self.way == known.way,
+        let same = if picture {
+            self.subject == known.subject && has
+        } else {
+            self.way == known.way
         };
         let pictures = picture && matches!(known.subject, Subject::Picture(_));
-        match same {
-            true => Some(Likeness::Alike),
-            false => {
-                (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
-            }
+        if same {
+            Some(Likeness::Alike)
+        } else {
+            (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
         }
     }
 
