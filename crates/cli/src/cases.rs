@@ -42,12 +42,13 @@ fn warn(library: &Library, cases: &[Case]) {
         .map(|file| file.cases(Profile::Quick).count())
         .sum::<usize>()
         <= JUDGED;
-    let warnings: Vec<CaseError> = match few {
-        true => check(&files, Profile::Quick)
+    let warnings: Vec<CaseError> = if few {
+        check(&files, Profile::Quick)
             .into_iter()
             .flat_map(|f| f.warnings)
-            .collect(),
-        false => files.iter().flat_map(CaseFile::warnings).collect(),
+            .collect()
+    } else {
+        files.iter().flat_map(CaseFile::warnings).collect()
     };
     for warning in &warnings {
         say!("warning: {warning}");
@@ -121,9 +122,10 @@ fn proposed(globs: &[String]) -> String {
     }
     let each = globs.iter().map(|glob| {
         let word = glob.trim_end_matches(['*', '/']);
-        match word.contains('=') {
-            true => nearest_cases(&library, word),
-            false => did_you_mean(word, known.iter().map(String::as_str)),
+        if word.contains('=') {
+            nearest_cases(&library, word)
+        } else {
+            did_you_mean(word, known.iter().map(String::as_str))
         }
     });
     each.collect()

@@ -20,9 +20,10 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a s
         .take(PROPOSED)
         .map(|(_, other)| format!("`{other}`"))
         .collect();
-    match words.is_empty() {
-        true => String::new(),
-        false => format!("; did you mean {}?", words.join(" or ")),
+    if words.is_empty() {
+        String::new()
+    } else {
+        format!("; did you mean {}?", words.join(" or "))
     }
 }
 

@@ -25,9 +25,10 @@ impl NewsArguments {
     pub(crate) fn check(&self) -> Result<(), Failure> {
         let labels = self.labels.labels()?;
         let Some(path) = &self.history else {
-            return match labels.is_empty() {
-                true => Ok(()),
-                false => Err(Failure::usage("--label is for --history: name its file")),
+            return if labels.is_empty() {
+                Ok(())
+            } else {
+                Err(Failure::usage("--label is for --history: name its file"))
             };
         };
         match History::open_read(path) {

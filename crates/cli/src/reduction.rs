@@ -51,12 +51,13 @@ pub(crate) fn confirm(
 ) -> Result<(), String> {
     let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
     let (record, _) = worker.record(case, timeout);
-    match symptom.covers(&Symptom::of(&record)) {
-        true => Ok(()),
-        false => Err(format!(
+    if symptom.covers(&Symptom::of(&record)) {
+        Ok(())
+    } else {
+        Err(format!(
             "fails only after others in the same process: drawn alone it is {}",
             record.verdict
-        )),
+        ))
     }
 }
 
@@ -340,9 +341,10 @@ impl Shown<'_> {
 
     /// Returns the document with what it shows, behind a sentence on its origin.
     pub(crate) fn described(&self, origin: &str) -> Value {
-        let word = match self.record.verdict.is_violation() {
-            true => "Violated".to_owned(),
-            false => format!("Ends by {}", self.record.verdict),
+        let word = if self.record.verdict.is_violation() {
+            "Violated".to_owned()
+        } else {
+            format!("Ends by {}", self.record.verdict)
         };
         let mut about = format!(
             "{origin} States: {}. {word}: {}: {}",

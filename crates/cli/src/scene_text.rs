@@ -169,12 +169,11 @@ static PLAIN: LazyLock<Value> = LazyLock::new(|| {
 
 /// The fields of a state that differ from the default's.
 fn changes<T: Serialize + PartialEq>(own: &T, plain: &T) -> impl Iterator<Item = String> + use<T> {
-    let differing = match own == plain {
-        true => Vec::new(),
-        false => {
-            let [own, plain] = [own, plain].map(|t| serde_json::to_value(t).unwrap_or_default());
-            differences(&own, &plain)
-        }
+    let differing = if own == plain {
+        Vec::new()
+    } else {
+        let [own, plain] = [own, plain].map(|t| serde_json::to_value(t).unwrap_or_default());
+        differences(&own, &plain)
     };
     differing.into_iter()
 }
@@ -190,9 +189,10 @@ fn differences(own: &Value, plain: &Value) -> Vec<String> {
     changed
         .map(|(key, value)| {
             let text: String = format!("{key} {}", short(value));
-            match text.chars().count() > LONGEST {
-                true => text.chars().take(LONGEST).chain(['…']).collect(),
-                false => text,
+            if text.chars().count() > LONGEST {
+                text.chars().take(LONGEST).chain(['…']).collect()
+            } else {
+                text
             }
         })
         .collect()

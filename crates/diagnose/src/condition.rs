@@ -95,15 +95,13 @@ impl Condition {
             .collect();
         let (failing, matching) = (self.failing, self.matching);
         if axes.is_empty() {
-            return match self.is_exact() {
-                true => format!("all that were drawn: {failing}"),
-                false => format!("{failing} of the {matching} that were drawn"),
+            return if self.is_exact() {
+                format!("all that were drawn: {failing}")
+            } else {
+                format!("{failing} of the {matching} that were drawn")
             };
         }
-        let which = match self.is_exact() {
-            true => "all",
-            false => "some",
-        };
+        let which = if self.is_exact() { "all" } else { "some" };
         let axes = axes.join(", ");
         format!("{which} of {axes}: {failing} of {matching}, none else")
     }

@@ -98,9 +98,12 @@ impl Traits {
     pub fn likeness(&self, known: &Self) -> Option<Likeness> {
         // A failure that needs no vertices of its own is not about those of the known one.
         let own_vertices = self.words != self.words.without_vertices();
-        let as_here = |signature: &Signature| match own_vertices {
-            true => signature.clone(),
-            false => signature.without_vertices(),
+        let as_here = |signature: &Signature| {
+            if own_vertices {
+                signature.clone()
+            } else {
+                signature.without_vertices()
+            }
         };
         if self.way == known.way && self.words == as_here(&known.words) {
             return Some(Likeness::Same);

@@ -23,9 +23,10 @@ pub fn judge_texel(
     frame: Option<&Frame>,
 ) -> Result<(Judgement, Option<Comparison>), String> {
     let scene = judged_scene(case, index);
-    let texels = match is_tied(scene) {
-        true => Texels::All,
-        false => Texels::One(texel),
+    let texels = if is_tied(scene) {
+        Texels::All
+    } else {
+        Texels::One(texel)
     };
     let sets = shared_sets(scene, texels);
     let mut judgements = judgements_by(scene, limits, texels, &sets);

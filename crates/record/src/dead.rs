@@ -330,9 +330,12 @@ mod tests {
 
     /// A run of these cases on `gl:a`, in which those that begin with `a` fail.
     fn run(ids: &[&str]) -> Run {
-        let verdict = |id: &str| match id.starts_with('a') {
-            true => Verdict::Fail,
-            false => Verdict::Pass,
+        let verdict = |id: &str| {
+            if id.starts_with('a') {
+                Verdict::Fail
+            } else {
+                Verdict::Pass
+            }
         };
         let records = ids.iter().map(|id| Record::new(*id, "gl:a", verdict(id)));
         Run {

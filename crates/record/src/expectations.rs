@@ -300,9 +300,10 @@ impl Expectations {
             all.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
             return Ok(all);
         }
-        let parsed = match value.is_array() {
-            true => serde_json::from_str(text),
-            false => serde_json::from_str(text).map(|written: Written| written.entries),
+        let parsed = if value.is_array() {
+            serde_json::from_str(text)
+        } else {
+            serde_json::from_str(text).map(|written: Written| written.entries)
         };
         let entries: Vec<Entry> = parsed.map_err(|e| RecordError::Parse {
             path: path.to_owned(),

@@ -291,9 +291,10 @@ fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) 
             // Of an area that the other lacks as a whole, the area says it.
             let area = format!("{}/", record.area());
             let whole = !others.iter().any(|other| other.starts_with(&area));
-            let glob = match whole {
-                true => record.area().to_owned(),
-                false => record.case_file().to_owned(),
+            let glob = if whole {
+                record.area().to_owned()
+            } else {
+                record.case_file().to_owned()
             };
             *globs.entry(format!("{glob}/*")).or_default() += 1;
         }

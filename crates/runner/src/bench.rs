@@ -123,16 +123,13 @@ pub fn bench(
     plan: BenchPlan<'_>,
     events: &mut dyn FnMut(BenchEvent),
 ) -> Result<BenchSummary, BenchError> {
-    let (writer, before) = match plan.resume {
-        true => {
-            let resumed = BenchWriter::resume(plan.folder, &plan.header);
-            let (writer, before) = resumed.map_err(BenchError::Folder)?;
-            (writer, before.records)
-        }
-        false => {
-            let begun = BenchWriter::replace(plan.folder, &plan.header, plan.reports);
-            (begun.map_err(BenchError::Folder)?, Vec::new())
-        }
+    let (writer, before) = if plan.resume {
+        let resumed = BenchWriter::resume(plan.folder, &plan.header);
+        let (writer, before) = resumed.map_err(BenchError::Folder)?;
+        (writer, before.records)
+    } else {
+        let begun = BenchWriter::replace(plan.folder, &plan.header, plan.reports);
+        (begun.map_err(BenchError::Folder)?, Vec::new())
     };
     let last = before.iter().flat_map(|r| &r.rounds).map(|round| round.at);
     let offset = last.fold(0.0, f64::max);

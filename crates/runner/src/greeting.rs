@@ -45,9 +45,10 @@ pub(crate) fn check(from: &mut impl BufRead, launched: bool) -> Result<bool, Los
         )));
     }
     let shown: String = text.chars().take(80).collect();
-    let whose = match launched {
-        true => "; a launcher must not print anything itself: its standard output is the worker's",
-        false => "",
+    let whose = if launched {
+        "; a launcher must not print anything itself: its standard output is the worker's"
+    } else {
+        ""
     };
     Err(Loss::Garbage(format!(
         "`{}` in place of a greeting{whose}",

@@ -47,11 +47,12 @@ impl Worker {
                 // The driver is opened behind the greeting.
                 let of_launcher = launch.launcher.is_some() && !process.has_greeted();
                 let message = process.exit_report(loss).message;
-                Err(match of_launcher {
-                    true => StartError::Launcher(format!(
+                Err(if of_launcher {
+                    StartError::Launcher(format!(
                         "no worker answers behind the launcher: {message}"
-                    )),
-                    false => StartError::Broken(format!("the driver did not start: {message}")),
+                    ))
+                } else {
+                    StartError::Broken(format!("the driver did not start: {message}"))
                 })
             }
         }

@@ -287,12 +287,13 @@ impl Description {
                     return Err("a line is named as an adapter is".to_owned());
                 }
                 let numbers = version.split('.').all(|part| part.parse::<u64>().is_ok());
-                match numbers {
-                    true => Ok(()),
-                    false => Err(format!(
+                if numbers {
+                    Ok(())
+                } else {
+                    Err(format!(
                         "the version `{}` is not made of numbers with dots",
                         version.escape_default()
-                    )),
+                    ))
                 }
             }
             _ => Err("`line` and `version` belong together; give both or none".to_owned()),
@@ -361,9 +362,10 @@ impl Description {
             resolved.program = Some(path(program)?);
         }
         if let Some(first) = manifests.first() {
-            let found = match here {
-                true => manifest(&manifests, variable),
-                false => Some(first.clone()),
+            let found = if here {
+                manifest(&manifests, variable)
+            } else {
+                Some(first.clone())
             };
             let found = found.ok_or_else(|| {
                 missing(format!(

@@ -358,15 +358,16 @@ impl Reduced<'_> {
     fn judged(&self, frame: &Frame) -> Result<Judged, Failure> {
         let frames = std::slice::from_ref(frame);
         let judged = Judge::default().judge(0, self.case, "", self.limits, frames);
-        match self.symptom.covers(&Symptom::of(&judged.record)) {
-            true => Ok(judged),
-            false => Err(Failure {
+        if self.symptom.covers(&Symptom::of(&judged.record)) {
+            Ok(judged)
+        } else {
+            Err(Failure {
                 code: UNEXPECTED,
                 message: format!(
                     "the reduced case does not fail while its calls are recorded: it is {}",
                     judged.record.verdict
                 ),
-            }),
+            })
         }
     }
 
@@ -487,9 +488,10 @@ fn pictures(judged: &Judged) -> Vec<File> {
         return Vec::new();
     };
     let [due, actual, difference] = ringed.pictures;
-    let shown = match ringed.alpha {
-        true => ": alpha as grey, since nothing else differs",
-        false => "",
+    let shown = if ringed.alpha {
+        ": alpha as grey, since nothing else differs"
+    } else {
+        ""
     };
     let allowed =
         format!("the picture that is allowed; its least values, where several are{shown}");
@@ -532,9 +534,10 @@ fn expected(record: &Record) -> Vec<Expected> {
         for m in &wrong.channels {
             let value = |code: u32| {
                 let value = m.encoding.value_of_order(m.encoding.order_of_code(code));
-                match m.encoding.is_float() {
-                    true => format!("{value}"),
-                    false => format!("{code} ({value:.4})"),
+                if m.encoding.is_float() {
+                    format!("{value}")
+                } else {
+                    format!("{code} ({value:.4})")
                 }
             };
             let channel = m.aspect.channel(m.channel.into());
@@ -547,9 +550,10 @@ fn expected(record: &Record) -> Vec<Expected> {
                     "{channel} of {}, texel {},{}{sample}",
                     m.attachment, wrong.x, wrong.y
                 ),
-                due: match m.low == m.high {
-                    true => value(m.low),
-                    false => format!("{} to {}", value(m.low), value(m.high)),
+                due: if m.low == m.high {
+                    value(m.low)
+                } else {
+                    format!("{} to {}", value(m.low), value(m.high))
                 },
                 actual: value(m.actual),
             });

@@ -29,9 +29,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut files = Vec::new();
     let mut broken = Vec::new();
     for path in &arguments.paths {
-        let found = match path.is_dir() {
-            true => Library::read_each(path),
-            false => vec![read(path)?],
+        let found = if path.is_dir() {
+            Library::read_each(path)
+        } else {
+            vec![read(path)?]
         };
         for file in found {
             match file {

@@ -132,9 +132,10 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
             "the lists contain no bad verdict of a known case",
         ));
     }
-    let mut entries = match arguments.out.exists() {
-        true => list(&arguments.out)?,
-        false => Vec::new(),
+    let mut entries = if arguments.out.exists() {
+        list(&arguments.out)?
+    } else {
+        Vec::new()
     };
     let before = entries.len();
     for entry in imported.entries {

@@ -98,9 +98,10 @@ fn parse_time(text: &str) -> Result<Duration, String> {
         _ => 1.0,
     };
     let number: f64 = number.parse().unwrap_or(f64::NAN);
-    match (number * seconds).is_finite() && (1.0..=1e7).contains(&(number * seconds)) {
-        true => Ok(Duration::from_secs_f64(number * seconds)),
-        false => Err("expected a time from a second on, such as `90`, `10m` or `2h`".to_owned()),
+    if (number * seconds).is_finite() && (1.0..=1e7).contains(&(number * seconds)) {
+        Ok(Duration::from_secs_f64(number * seconds))
+    } else {
+        Err("expected a time from a second on, such as `90`, `10m` or `2h`".to_owned())
     }
 }
 

@@ -125,9 +125,10 @@ impl Told<'_> {
                 ", a limit: more may be left to reduce"
             },
             self.shown().states(),
-            match self.record.verdict.is_violation() {
-                true => "violated".to_owned(),
-                false => self.record.verdict.to_string(),
+            if self.record.verdict.is_violation() {
+                "violated".to_owned()
+            } else {
+                self.record.verdict.to_string()
             },
             self.symptom,
             self.shown().sentence(),

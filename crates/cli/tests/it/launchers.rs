@@ -52,9 +52,10 @@ fn refused(entry: &Value) -> String {
 
 /// The words that make a process root of its own user namespace, where it is not root.
 fn as_root() -> Vec<&'static str> {
-    match rustix::process::geteuid().is_root() {
-        true => vec!["unshare", "--mount"],
-        false => vec!["unshare", "--map-root-user", "--mount"],
+    if rustix::process::geteuid().is_root() {
+        vec!["unshare", "--mount"]
+    } else {
+        vec!["unshare", "--map-root-user", "--mount"]
     }
 }
 

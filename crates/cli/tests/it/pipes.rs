@@ -152,13 +152,12 @@ fn output_that_is_the_product_must_be_written() {
         "explain cull --texel 0,0",
         &diff,
     ] {
-        let command = match command.starts_with("explain") {
-            true => {
-                let output = shell("\"$0\" list cull/*");
-                let text = String::from_utf8(output.stdout).unwrap();
-                format!("explain {} --texel 0,0", text.lines().next().unwrap())
-            }
-            false => command.to_owned(),
+        let command = if command.starts_with("explain") {
+            let output = shell("\"$0\" list cull/*");
+            let text = String::from_utf8(output.stdout).unwrap();
+            format!("explain {} --texel 0,0", text.lines().next().unwrap())
+        } else {
+            command.to_owned()
         };
         let fine = shell(&format!("\"$0\" {command}"));
         assert_eq!(fine.status.code(), Some(0), "{command}: {fine:?}");

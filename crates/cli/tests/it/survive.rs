@@ -260,9 +260,10 @@ fn a_case_that_fails_only_after_another_names_it() {
     let culprit_first = drawn[0].0 == culprit;
     assert_eq!(
         drawn,
-        match culprit_first {
-            true => vec![(culprit, false), (&spoilt[0], true)],
-            false => vec![(&spoilt[0], false), (culprit, false)],
+        if culprit_first {
+            vec![(culprit, false), (&spoilt[0], true)]
+        } else {
+            vec![(&spoilt[0], false), (culprit, false)]
         }
     );
 }

@@ -53,9 +53,10 @@ impl Measure {
             (Self::Resolved, of(|w| w.resolved)?),
         ];
         let (texels, triangles) = (of(|w| w.texels)?, of(|w| w.triangles)?);
-        let draws = match texels <= LARGEST.saturating_mul(triangles) {
-            true => (Self::Triangles, triangles),
-            false => (Self::Texels, texels),
+        let draws = if texels <= LARGEST.saturating_mul(triangles) {
+            (Self::Triangles, triangles)
+        } else {
+            (Self::Texels, texels)
         };
         // What passes do to whole attachments outweighs the few texels that they draw.
         let found = passes.into_iter().find(|(_, amount)| *amount > 0);

@@ -181,9 +181,10 @@ fn account(record: &Record) -> String {
                 actual,
                 ..
             } = channel;
-            let due = match low == high {
-                true => low.to_string(),
-                false => format!("{low} to {high}"),
+            let due = if low == high {
+                low.to_string()
+            } else {
+                format!("{low} to {high}")
             };
             let (x, y) = (wrong.x, wrong.y);
             format!(

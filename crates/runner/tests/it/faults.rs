@@ -347,9 +347,10 @@ fn only_marked(launch: Launch, verdict: Verdict) -> Record {
     let fault = format!("{:?}", launch.environment);
     let (records, summary) = run(launch);
     for (i, record) in records.iter().enumerate() {
-        let due = match i + 1 == MARKED as usize {
-            true => verdict,
-            false => Verdict::Pass,
+        let due = if i + 1 == MARKED as usize {
+            verdict
+        } else {
+            Verdict::Pass
         };
         assert_eq!(record.verdict, due, "{fault}: {record:?}");
     }

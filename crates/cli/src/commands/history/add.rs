@@ -145,9 +145,10 @@ fn lacks(path: &Path, run: &NewRun) -> String {
         Kind::Bench => ("round", "bench"),
         _ => ("record", "run"),
     };
-    let folder = match path.is_dir() {
-        true => path,
-        false => path.parent().unwrap_or(path),
+    let folder = if path.is_dir() {
+        path
+    } else {
+        path.parent().unwrap_or(path)
     };
     format!(
         "{} lacks {}; draw what is missing with `etalon {command} … --resume --out {}`, or add it as it is with --incomplete",

@@ -209,9 +209,10 @@ impl Series {
     ) -> String {
         let [after, at] = change.between.map(|at| self.runs[at]);
         let state = self.state(states, change);
-        let returns = match change.returns {
-            true => ", which goes back and forth",
-            false => "",
+        let returns = if change.returns {
+            ", which goes back and forth"
+        } else {
+            ""
         };
         let ruler = change.ruler.map_or(String::new(), |ruler| {
             format!(", ruler {}", percent(ruler.estimate))

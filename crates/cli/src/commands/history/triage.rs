@@ -172,9 +172,10 @@ fn step(
             changes.map(|change| series.first_run(change).to_string())
         });
         let known: Vec<String> = known.collect();
-        let known = match known.is_empty() {
-            true => "there is no change".to_owned(),
-            false => format!("changes are at {}", known.join(", ")),
+        let known = if known.is_empty() {
+            "there is no change".to_owned()
+        } else {
+            format!("changes are at {}", known.join(", "))
         };
         return Err(Failure::usage(format!(
             "the {} time of `{}` on {} does not change at run {run}: {known}",
