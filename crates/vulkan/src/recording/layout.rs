@@ -272,7 +272,8 @@ impl Kind {
                     }
                 }
                 Self::Made(kind, length) => {
-                    let handles = (0..count(length)).map(|i| get(start().add(i * size_of::<u64>())));
+                    let handles =
+                        (0..count(length)).map(|i| get(start().add(i * size_of::<u64>())));
                     Argument::Created((*kind).to_owned(), handles.collect())
                 }
                 Self::Output(length) => new_output(count(length) as u64),
