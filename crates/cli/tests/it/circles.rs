@@ -107,7 +107,9 @@ impl<'a> Crate<'a> {
             UseTree::Name(leaf) => (Some(&leaf.ident), leaf.ident.to_string()),
             UseTree::Rename(leaf) => (Some(&leaf.ident), leaf.rename.to_string()),
         };
-        segment.map(|segment| extend(&mut path, segment));
+        if let Some(segment) = segment {
+            extend(&mut path, segment);
+        }
         if !public {
             self.module().paths.insert(path.clone());
         }

@@ -77,6 +77,7 @@ fn only_asks(name: &str) -> bool {
 }
 
 #[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 mod tests {
     use std::process::Command;
 
