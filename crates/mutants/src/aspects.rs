@@ -53,15 +53,15 @@ pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
     }
 }
 
-/// Lets a pass begin with what an aspect holds.
+/// Lets a pass begin with what an aspect holds, and keep depth or stencil at its end.
 pub(super) fn load(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => {
             let all = color_operations(pass).iter_mut();
             all.for_each(|o| o.load = LoadOperation::Load);
         }
-        Aspect::Depth => pass.operations.depth.load = LoadOperation::Load,
-        Aspect::Stencil => pass.operations.stencil.load = LoadOperation::Load,
+        Aspect::Depth => pass.operations.depth = Operations::default(),
+        Aspect::Stencil => pass.operations.stencil = Operations::default(),
     }
 }
 

@@ -20,7 +20,8 @@ pub(super) fn add(list: &mut List) {
     early(
         list,
         "tested-before-discard: Shaders that discard are tested early.",
-        "panfrost: early tests despite alpha test; Adreno, Mali: discard still touching depth",
+        "panfrost: early tests despite alpha test; Adreno, Mali: discard still touching depth and \
+         stencil",
         |draw| draw.shader.discards(),
     );
     early(

@@ -63,7 +63,10 @@ fn masks(list: &mut List) {
         .when(|draw| draw.shader.writes_mask())
         .draws(|draw| draw.early_tests = EarlyTests::Implicit);
     list.bug("ignored-for-one-sample: The mask does nothing where a texel has one sample.")
-        .source("Gallium: the mask is lowered away without several samples, as in OpenGL")
+        .source(
+            "Gallium: the mask is lowered away without several samples, as OpenGL wants and Vulkan \
+             does not",
+        )
         .plant(mask_keeps(|mask, sample, samples| {
             samples == 1 || bit(mask, sample)
         }));

@@ -1,21 +1,13 @@
 //! Stale fields: of the case before, of the draw before, and the default where a pass begins.
 
-use crate::fields::{Field, fields};
+use crate::fields::fields;
 use crate::list::List;
-use crate::plant::{Plant, from_case, from_draw};
+use crate::plant::{from_case, from_draw};
 use etalon_scene::{ColorTarget, Draw, Viewport};
 
 /// Adds the class `sticky`: each field as the case or the draw before had it.
 pub(super) fn sticky(list: &mut List) {
-    for (kind, plant) in [
-        (
-            "case",
-            (|field| from_case(move |from, to| (field.take)(from, to))) as fn(Field) -> Plant,
-        ),
-        ("draw", |field| {
-            from_draw(move |from, to| (field.take)(from, to))
-        }),
-    ] {
+    for kind in ["case", "draw"] {
         for field in fields() {
             let Some(area) = field.area else { continue };
             let (name, words) = (&field.name, field.words());
@@ -29,9 +21,13 @@ pub(super) fn sticky(list: &mut List) {
                     "{name}-from-the-{kind}-before: A draw takes the {words} of the {kind} before."
                 )
             };
+            let take = move |before: &Draw, draw: &mut Draw| (field.take)(before, draw);
             list.class("sticky", area);
             list.source("lavapipe, ANGLE: stale state");
-            list.bug(text).plant(plant(field));
+            list.bug(text).plant(match kind {
+                "case" => from_case(take),
+                _ => from_draw(take),
+            });
         }
     }
 }

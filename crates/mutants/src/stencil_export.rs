@@ -76,7 +76,9 @@ pub(super) fn add(list: &mut List) {
             *s = s.filter(|s| s.front.reference | s.back.reference != 0)
         });
     list.bug("update-lost: `replace` keeps the stored value.")
-        .source("drivers that take stencil for unchanged where the draw's own reference is")
+        .source(
+            "drivers that take stencil for unchanged where the draw's own reference leaves it so",
+        )
         .when(exports)
         .each(STENCIL_OPERATIONS, |operation| {
             if *operation == StencilOperation::Replace {

@@ -1,7 +1,7 @@
 //! Bugs of textures that shaders sample.
 
 use crate::fields::{Places, SAMPLER};
-use crate::list::{List, SMALL};
+use crate::list::{CONFUSION, List, SMALL};
 use crate::plant::{Plant, scene};
 use crate::tables::pairs;
 use etalon_scene::{AddressMode, Contents, Draw, FilterMode};
@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 pub(super) fn add(list: &mut List) {
     list.class("texture", "texture");
     drawn(list);
+    list.source(CONFUSION);
     for (right, wrong) in pairs(AddressMode::ALL) {
         for (axis, word) in ["across", "down"].into_iter().enumerate() {
             list.bug(format!(

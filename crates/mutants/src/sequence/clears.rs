@@ -69,7 +69,7 @@ fn loads(list: &mut List) {
     for aspect in ASPECTS {
         let word = word(aspect);
         list.bug(format!(
-            "{word}-not-cleared-on-load: What a pass is to clear, {word}, is loaded."
+            "{word}-not-cleared-on-load: Where a pass is to clear {word}, it loads it."
         ))
         .passes(move |_, _, pass| load(pass, aspect));
     }
@@ -116,10 +116,10 @@ fn skip_equal(scene: &mut Scene) {
             pass.operations.color.clear();
         }
         if asked.depth.load == last.depth.load {
-            load(pass, Aspect::Depth);
+            pass.operations.depth.load = LoadOperation::Load;
         }
         if asked.stencil.load == last.stencil.load {
-            load(pass, Aspect::Stencil);
+            pass.operations.stencil.load = LoadOperation::Load;
         }
         if asked != PassOperations::default() {
             last = asked;
