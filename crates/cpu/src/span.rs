@@ -301,9 +301,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             _ => [[0.0; LANES]; 4],
         };
-        let list = match self.draw.shader.reads_pool() {
-            true => self.lists.of([span.x, span.y]),
-            false => Vec::new(),
+        let list = if self.draw.shader.reads_pool() {
+            self.lists.of([span.x, span.y])
+        } else {
+            Vec::new()
         };
         let input = FragmentInput {
             color: span.color.map(|v| [v; LANES]),
@@ -312,9 +313,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             sample: sample as u32,
             position: window_position(span, point),
             texels: [self.texel(span, 0), self.texel(span, 1)],
-            taps: match self.draw.shader.taps_texture() {
-                true => Taps::of(&tap),
-                false => Taps::NONE,
+            taps: if self.draw.shader.taps_texture() {
+                Taps::of(&tap)
+            } else {
+                Taps::NONE
             },
             list: List::Known(&list),
             uv: self.uv(span, point),

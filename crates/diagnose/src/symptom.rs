@@ -127,9 +127,10 @@ impl Symptom {
         if let Some(counter) = counters.max_by_key(|c| c.band) {
             return Self {
                 subject: Subject::Counter(counter.kind),
-                direction: Some(match counter.actual < counter.low {
-                    true => Direction::Low,
-                    false => Direction::High,
+                direction: Some(if counter.actual < counter.low {
+                    Direction::Low
+                } else {
+                    Direction::High
                 }),
                 ..bare
             };
@@ -139,9 +140,10 @@ impl Symptom {
             Verdict::DeviceLost | Verdict::ResourceError | Verdict::InternalError
         );
         let words = record.message.chars().filter(|c| !c.is_ascii_digit());
-        let subject = match failed {
-            true => Subject::Error(words.collect()),
-            false => Subject::Unknown,
+        let subject = if failed {
+            Subject::Error(words.collect())
+        } else {
+            Subject::Unknown
         };
         Self { subject, ..bare }
     }

@@ -70,13 +70,15 @@ impl What {
             .map_err(HistoryError::io("read", path))?;
         let header: Map<String, Value> = serde_json::from_slice(&line).map_err(|_| none())?;
         let has = |keys: &[&str]| keys.iter().all(|key| header.contains_key(*key));
-        match () {
-            () if !has(&["format"]) => Err(none()),
-            () if has(&["releases"]) => Ok(Self::Versions),
-            () if has(&["ruler"]) => Ok(Self::Bench),
-            () if has(&["adapters"]) => Ok(Self::Run),
+        if !has(&["format"]) {
+            Err(none())
+        } else if has(&["releases"]) {
+            Ok(Self::Versions)
+        } else if has(&["ruler"]) {
+            Ok(Self::Bench)
+        } else {
             // A newer format may have other keys; the reader of runs names it.
-            () => Ok(Self::Run),
+            Ok(Self::Run)
         }
     }
 }

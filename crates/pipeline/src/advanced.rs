@@ -160,9 +160,12 @@ mod tests {
 
     /// The text's function in 64-bit floats, written down a second time.
     fn due(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
-        let hard = |by: f64, other: f64| match by <= 0.5 {
-            true => 2.0 * by * other,
-            false => 1.0 - 2.0 * (1.0 - by) * (1.0 - other),
+        let hard = |by: f64, other: f64| {
+            if by <= 0.5 {
+                2.0 * by * other
+            } else {
+                1.0 - 2.0 * (1.0 - by) * (1.0 - other)
+            }
         };
         match mode {
             AdvancedBlend::Multiply => s * d,

@@ -43,9 +43,10 @@ impl DepthPlane {
     pub fn along([a, b]: [Point; 2], z: [f64; 2]) -> Self {
         let (x, y) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
         let square = x * x + y * y;
-        let growth = match square == 0.0 {
-            true => 0.0,
-            false => (z[1] - z[0]) / square,
+        let growth = if square == 0.0 {
+            0.0
+        } else {
+            (z[1] - z[0]) / square
         };
         Self {
             origin: a,

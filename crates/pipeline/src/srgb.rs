@@ -103,9 +103,10 @@ fn least(code: u32) -> f32 {
     let (mut below, mut at) = (0, 1.0_f32.to_bits());
     while at - below > 1 {
         let middle = below + (at - below) / 2;
-        match defined(f32::from_bits(middle)) < code {
-            true => below = middle,
-            false => at = middle,
+        if defined(f32::from_bits(middle)) < code {
+            below = middle
+        } else {
+            at = middle
         }
     }
     f32::from_bits(at)

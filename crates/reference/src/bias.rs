@@ -91,9 +91,10 @@ pub(crate) fn clamped_at_vertices(bias: Interval, z: [Interval; 3]) -> Interval 
 /// Returns a unit that may be 0 where it is too small for a normal number: texts promise a relative accuracy, and no
 /// denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan, Floating-Point Computation).
 fn flushed(unit: Interval) -> Interval {
-    match unit.low < f64::from(f32::MIN_POSITIVE) {
-        true => unit.hull(Interval::exact(0.0)),
-        false => unit,
+    if unit.low < f64::from(f32::MIN_POSITIVE) {
+        unit.hull(Interval::exact(0.0))
+    } else {
+        unit
     }
 }
 

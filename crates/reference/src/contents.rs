@@ -73,9 +73,10 @@ impl Walk<'_> {
             let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
             let error = values[0].max(values[1]) * count * self.rules.float_error.value();
             // The ends of what may be NaN are no numbers to compute with.
-            let exact = match sum[c].may_be_nan() {
-                true => Interval::EVERYTHING,
-                false => sum[c].map_increasing(|v| v / count).widen(error),
+            let exact = if sum[c].may_be_nan() {
+                Interval::EVERYTHING
+            } else {
+                sum[c].map_increasing(|v| v / count).widen(error)
             };
             let average = judging.encode(*encoding, Range::same(exact));
             let rounded = |codes: Interval| CodeInterval {

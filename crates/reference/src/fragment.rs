@@ -66,20 +66,22 @@ impl Walk<'_> {
     ) {
         let draw = place.draw;
         let output = self.shader(place, &world, front, notes);
-        let own_depth = match self.goes_on(place) {
-            true => place.primitive.depth_at(place.point),
-            false => Range::same(Interval {
+        let own_depth = if self.goes_on(place) {
+            place.primitive.depth_at(place.point)
+        } else {
+            Range::same(Interval {
                 low: 0.0,
                 high: 1.0,
-            }),
+            })
         };
-        let covered = match drawn {
-            true => self.covered_after_shading(place, &output, notes),
-            false => Covered {
+        let covered = if drawn {
+            self.covered_after_shading(place, &output, notes)
+        } else {
+            Covered {
                 kept: Possible::Always,
                 masked: Possible::Always,
                 coverage: Possible::Never,
-            },
+            }
         };
         let mut world = world;
         // A masked sample asks for no run of the shader.
@@ -92,9 +94,10 @@ impl Walk<'_> {
                 // The order of the sample mask against counting is open; against the tests, the rules
                 // tell.
                 let mut silent = Notes(None);
-                let told = match self.rules.mask_acts_first.value() {
-                    true => &mut silent,
-                    false => &mut *notes,
+                let told = if self.rules.mask_acts_first.value() {
+                    &mut silent
+                } else {
+                    &mut *notes
                 };
                 let outcomes = self.tests(place, &world, face, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
@@ -185,14 +188,16 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
-            position: match draw.shader.reads_coordinates() {
-                true => self.frag_coord(place),
-                false => [Range::exact(0.0); 2],
+            position: if draw.shader.reads_coordinates() {
+                self.frag_coord(place)
+            } else {
+                [Range::exact(0.0); 2]
             },
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
-            taps: match draw.shader.taps_texture() {
-                true => Taps::of(&tap),
-                false => Taps::NONE,
+            taps: if draw.shader.taps_texture() {
+                Taps::of(&tap)
+            } else {
+                Taps::NONE
             },
             list: List::Unknown,
             uv: self.uv(place),

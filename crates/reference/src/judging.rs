@@ -174,9 +174,10 @@ impl<'r> Judging<'r> {
 
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
-        let precision = match self.advanced {
-            true => &self.rules.advanced_blend,
-            false => &self.rules.blend,
+        let precision = if self.advanced {
+            &self.rules.advanced_blend
+        } else {
+            &self.rules.blend
         };
         if precision.value() != BlendPrecision::DestinationCodes {
             return value;
@@ -241,9 +242,12 @@ impl<'r> Judging<'r> {
             // the text, and what was rounded to codes before is no result of floating-point.
             let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
             let error = if is_computed { self.error() } else { 0.0 };
-            let off = |at: f64| match at == ends.1 || at == -ends.1 {
-                true => 0.0,
-                false => at.abs() * error,
+            let off = |at: f64| {
+                if at == ends.1 || at == -ends.1 {
+                    0.0
+                } else {
+                    at.abs() * error
+                }
             };
             let (low, high) = (low - off(low), high + off(high));
             let (low, high) = match self.rules.store.value() {
@@ -287,9 +291,12 @@ impl<'r> Judging<'r> {
         };
         let (low, high) = (low.min(high), high.max(low));
         let flushes = self.rules.flushes_small_floats.value();
-        let flush = |order: i64, towards: i64| match flushes && order.abs() < normal {
-            true => towards,
-            false => order,
+        let flush = |order: i64, towards: i64| {
+            if flushes && order.abs() < normal {
+                towards
+            } else {
+                order
+            }
         };
         CodeInterval::new(flush(low, low.min(0)), flush(high, high.max(0)))
     }
@@ -507,9 +514,10 @@ impl Arithmetic for Judging<'_> {
         };
         Range {
             float,
-            coarse: match self.advanced {
-                true => self.round_outward(encoding, exact.coarse),
-                false => exact.coarse,
+            coarse: if self.advanced {
+                self.round_outward(encoding, exact.coarse)
+            } else {
+                exact.coarse
             },
         }
     }
@@ -531,9 +539,10 @@ impl Arithmetic for Judging<'_> {
     /// No text says whether a factor of zero is multiplied or leaves its side out.
     fn blend_zero(&mut self, operand: Range) -> Range {
         operand.zip(operand, |v, _| {
-            match v.low.is_finite() && v.high.is_finite() {
-                true => Interval::exact(0.0),
-                false => Interval::EVERYTHING,
+            if v.low.is_finite() && v.high.is_finite() {
+                Interval::exact(0.0)
+            } else {
+                Interval::EVERYTHING
             }
         })
     }
@@ -593,9 +602,10 @@ impl Arithmetic for Judging<'_> {
             (false, true) => Interval::EVERYTHING,
             (false, false) => c.corners(a, |c, a| c / a),
         });
-        let float = match alpha.float.is(1.0) {
-            true => exact.float,
-            false => exact.float.widen_relative(self.error()),
+        let float = if alpha.float.is(1.0) {
+            exact.float
+        } else {
+            exact.float.widen_relative(self.error())
         };
         let mut coarse = self.round_outward(encoding, exact.coarse);
         if let Some((low, high)) = encoding.normalized_range() {
@@ -622,13 +632,17 @@ impl Arithmetic for Judging<'_> {
             };
             Interval { low, high }
         });
-        let float = match b.float.is(1.0) {
-            true => exact.float,
-            false => exact.float.widen_relative(self.error()),
+        let float = if b.float.is(1.0) {
+            exact.float
+        } else {
+            exact.float.widen_relative(self.error())
         };
-        let held = |v: Interval| match v.may_be_nan() {
-            true => v,
-            false => v.map_increasing(|v| v.min(1.0)),
+        let held = |v: Interval| {
+            if v.may_be_nan() {
+                v
+            } else {
+                v.map_increasing(|v| v.min(1.0))
+            }
         };
         Range {
             float: held(float),
@@ -637,9 +651,12 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn blend_root(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let exact = value.zip(value, |v, _| match v.may_be_nan() {
-            true => v,
-            false => v.map_increasing(|v| v.max(0.0).sqrt()),
+        let exact = value.zip(value, |v, _| {
+            if v.may_be_nan() {
+                v
+            } else {
+                v.map_increasing(|v| v.max(0.0).sqrt())
+            }
         });
         Range {
             float: exact.float.widen_relative(self.error()),

@@ -81,9 +81,12 @@ impl Walk<'_> {
             sample: 0,
         };
         let alone = |at: Sample| -> Option<Worlds> {
-            let cells = attachments().map(|(index, _)| match held[index] {
-                true => self.first_contents(index, [at.x as usize, at.y as usize]),
-                false => Cell::default(),
+            let cells = attachments().map(|(index, _)| {
+                if held[index] {
+                    self.first_contents(index, [at.x as usize, at.y as usize])
+                } else {
+                    Cell::default()
+                }
             });
             let mut worlds: Worlds = SmallVec::new();
             worlds.push(World {

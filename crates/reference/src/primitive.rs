@@ -156,9 +156,12 @@ impl Triangle {
             keep_below(&mut outer, lowest, growth, self.moved);
             keep_below(&mut inner, highest, growth, -self.moved - 1);
         }
-        let range = |r: Range<i64>| match r.is_empty() {
-            true => 0..0,
-            false => r.start as u32..r.end as u32,
+        let range = |r: Range<i64>| {
+            if r.is_empty() {
+                0..0
+            } else {
+                r.start as u32..r.end as u32
+            }
         };
         [range(outer), range(inner)]
     }

@@ -148,9 +148,10 @@ impl Walk<'_> {
                     let constant = place.draw.blend_constant.map(|v| {
                         let plain = judging.constant(v);
                         let clamped = v.clamp(0.0, 1.0);
-                        match clamped != v && self.rules.clamps_constant.value() {
-                            true => plain.joined(judging.constant(clamped)),
-                            false => plain,
+                        if clamped != v && self.rules.clamps_constant.value() {
+                            plain.joined(judging.constant(clamped))
+                        } else {
+                            plain
                         }
                     });
                     let input = BlendInput {

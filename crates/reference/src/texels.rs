@@ -36,9 +36,10 @@ impl Texels {
     /// Returns the choice for a scene: [`Texels::All`] if it leaves out nothing there.
     pub(crate) fn of(self, scene: &Scene) -> Self {
         let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
-        match scene.attachments.iter().all(whole) {
-            true => Self::All,
-            false => self,
+        if scene.attachments.iter().all(whole) {
+            Self::All
+        } else {
+            self
         }
     }
 

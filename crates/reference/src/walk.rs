@@ -326,17 +326,19 @@ impl<'a> Walk<'a> {
                 Shape::Triangle(_) => !missed,
                 _ => primitive.times(point, self.units).1 > 0,
             };
-            return Err(match reached {
-                true => Rejection::Viewport,
-                false => Rejection::Coverage,
+            return Err(if reached {
+                Rejection::Viewport
+            } else {
+                Rejection::Coverage
             });
         }
         if missed {
             return Err(Rejection::Coverage);
         }
-        let in_depth = match draw.depth_clamp {
-            true => Possible::Always,
-            false => primitive.inside_depth(point),
+        let in_depth = if draw.depth_clamp {
+            Possible::Always
+        } else {
+            primitive.inside_depth(point)
         };
         if !in_depth.can() {
             return Err(Rejection::NearFar);

@@ -108,9 +108,10 @@ fn resolve_features(resolve: &DepthStencilResolve, both: bool) -> Vec<Feature> {
     });
     if both && resolve.depth != resolve.stencil {
         let modes = [resolve.depth, resolve.stencil];
-        needed.push(match modes.contains(&ResolveMode::None) {
-            true => Feature::IndependentResolveNone,
-            false => Feature::IndependentResolve,
+        needed.push(if modes.contains(&ResolveMode::None) {
+            Feature::IndependentResolveNone
+        } else {
+            Feature::IndependentResolve
         });
     }
     needed

@@ -76,9 +76,10 @@ mod tests {
                 let (order, origin) = (*order, *origin);
                 let keeps = Tessellation { order, origin }.keeps_order();
                 let (first, second, third) = ([1, 0], [0, 1], [0, 0]);
-                let corners = match keeps {
-                    true => [first, second, third],
-                    false => [first, third, second],
+                let corners = if keeps {
+                    [first, second, third]
+                } else {
+                    [first, third, second]
                 };
                 let counter_clockwise = match origin {
                     DomainOrigin::LowerLeft => area(corners) > 0,

@@ -180,9 +180,10 @@ impl Asked<'_> {
         let encodings = |i: &ImageInfo| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]);
         let heading = several.then(|| {
             let all: Vec<String> = judgement.legal.images.iter().map(encodings).collect();
-            let why = match self.frames.is_empty() {
-                true => "one of several encodings that the API leaves open",
-                false => "the API leaves the encoding open, and this one fits the texel best",
+            let why = if self.frames.is_empty() {
+                "one of several encodings that the API leaves open"
+            } else {
+                "the API leaves the encoding open, and this one fits the texel best"
             };
             format!("{} ({why})", all.join(", "))
         });

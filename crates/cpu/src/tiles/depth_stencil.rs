@@ -66,10 +66,12 @@ pub(crate) fn answers([less, equal, greater]: [bool; 3]) -> [bool; 3] {
 pub(crate) fn stencil_decided(face: &StencilFace, [low, high]: [u8; 2]) -> Option<Decided> {
     let mask = face.read_mask;
     // Masked values of a range are in no order, unless they are one.
-    let range = match () {
-        () if mask == u8::MAX => [low, high],
-        () if low == high => [low & mask; 2],
-        () => [0, mask],
+    let range = if mask == u8::MAX {
+        [low, high]
+    } else if low == high {
+        [low & mask; 2]
+    } else {
+        [0, mask]
     };
     decided(
         face.compare,

@@ -89,10 +89,7 @@ impl Edges {
             }
             whole &= least >= 0;
         }
-        match whole {
-            true => Touch::Whole,
-            false => Touch::Part,
-        }
+        if whole { Touch::Whole } else { Touch::Part }
     }
 
     /// Returns the [rows](Self::rows) of a triangle that is not larger than a tile, beginning from a texel that is not
@@ -148,9 +145,10 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn new(triangle: &Triangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
         let edges = Edges::new(triangle);
-        match triangle.is_near() {
-            true => edges.near(x, y, sample),
-            false => edges.rows(x, y, sample),
+        if triangle.is_near() {
+            edges.near(x, y, sample)
+        } else {
+            edges.rows(x, y, sample)
         }
     }
 

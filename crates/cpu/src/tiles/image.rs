@@ -136,9 +136,10 @@ impl Image {
     pub(crate) fn codes(&self, aspect: Aspect, channels: usize, threads: usize) -> Vec<u32> {
         let row = (self.width * self.samples * channels).max(1);
         let mut codes = vec![0; self.height * row];
-        let rows = match codes.len() < SHARED {
-            true => self.height,
-            false => self.height.div_ceil(threads),
+        let rows = if codes.len() < SHARED {
+            self.height
+        } else {
+            self.height.div_ceil(threads)
         };
         let jobs: Vec<_> = codes.chunks_mut((rows * row).max(1)).enumerate().collect();
         on_threads(jobs, &|(number, part)| {

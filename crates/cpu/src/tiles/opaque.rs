@@ -293,9 +293,10 @@ impl Opaque<'_> {
         }
         let lanes = LANES as i32;
         let near = start.min(left + TILE as i32 - lanes);
-        let first = match last - near < lanes {
-            true => near,
-            false => start / lanes * lanes,
+        let first = if last - near < lanes {
+            near
+        } else {
+            start / lanes * lanes
         };
         let area = Area {
             first,

@@ -200,16 +200,17 @@ impl Blending {
         let all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
         // Codes of 8 unsigned normalized bits are those of their values.
         let same = fetched == UNORM.0 && *self.channels == UNORM.0;
-        match replaces && all && same && !self.alpha_to_one {
-            true => Kernel::Copy,
-            false => Kernel::Varying(Box::new(Varying {
+        if replaces && all && same && !self.alpha_to_one {
+            Kernel::Copy
+        } else {
+            Kernel::Varying(Box::new(Varying {
                 target: self.target,
                 constant: self.constant,
                 logic: self.logic,
                 opaque: [self.alpha_to_one, self.second_alpha],
                 channels: self.channels,
                 layout: self.layout,
-            })),
+            }))
         }
     }
 
@@ -326,9 +327,10 @@ impl Blending {
         }
         let reads = stored_factor != Zero;
         let source = alone(BlendOperation::Subtract, source_factor, Zero, 0.0);
-        let factor = match reads {
-            true => alone(BlendOperation::ReverseSubtract, Zero, stored_factor, 1.0),
-            false => 1.0,
+        let factor = if reads {
+            alone(BlendOperation::ReverseSubtract, Zero, stored_factor, 1.0)
+        } else {
+            1.0
         };
         let (source, factor) = match operation {
             BlendOperation::Subtract => (source, -factor),

@@ -316,10 +316,12 @@ impl Behind {
     /// Returns the plane behind which a vertex lies, if it is the near or the far one.
     pub(crate) fn of(vertex: &Vertex) -> Option<Self> {
         let [.., z, w] = vertex.position;
-        match () {
-            () if z < 0.0 => Some(Self::Near),
-            () if z > w => Some(Self::Far),
-            () => None,
+        if z < 0.0 {
+            Some(Self::Near)
+        } else if z > w {
+            Some(Self::Far)
+        } else {
+            None
         }
     }
 }

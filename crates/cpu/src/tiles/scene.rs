@@ -224,9 +224,10 @@ fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
         let vertices = &input.draw.mesh.vertices;
         let (own, others) = rest.split_at_mut(vertices.len());
         rest = others;
-        let each = match vertices.len() < SHARED {
-            true => vertices.len().max(1),
-            false => vertices.len().div_ceil(machine.threads),
+        let each = if vertices.len() < SHARED {
+            vertices.len().max(1)
+        } else {
+            vertices.len().div_ceil(machine.threads)
         };
         let jobs: Vec<_> = vertices.chunks(each).zip(own.chunks_mut(each)).collect();
         on_threads(jobs, &|(vertices, placed)| {

@@ -341,13 +341,12 @@ impl<'a, S: Simd> SetUp<'a, S> {
             || right >= bounds[2] - 2
             || bottom >= bounds[3] - 2;
         let textured = matches!(self.plan.shading, Shading::Texture { .. });
-        let rare = match textured || bias != 0.0 {
-            true => {
-                let vertices = vertices.map(|i| i as u32);
-                self.part.rare.push(Rare { bias, vertices });
-                self.part.rare.len() as u32 - 1
-            }
-            false => u32::MAX,
+        let rare = if textured || bias != 0.0 {
+            let vertices = vertices.map(|i| i as u32);
+            self.part.rare.push(Rare { bias, vertices });
+            self.part.rare.len() as u32 - 1
+        } else {
+            u32::MAX
         };
         // What covers a tile is wider and higher.
         let side = TILE as i32 * units;

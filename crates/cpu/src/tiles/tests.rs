@@ -244,9 +244,10 @@ fn scene_of(case: &CaseRef<'_>, turn: usize) -> Scenes {
     // Smaller pictures stand for large ones, and most of the matrix is one scene in other formats.
     let large = ["1280x720", "1920x1080", "1024x1024"];
     let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !all();
-    match large.iter().any(|size| id.contains(size)) || one_of_many {
-        true => Vec::new(),
-        false => vec![(id, case.build().expect("builds").scene)],
+    if large.iter().any(|size| id.contains(size)) || one_of_many {
+        Vec::new()
+    } else {
+        vec![(id, case.build().expect("builds").scene)]
     }
 }
 

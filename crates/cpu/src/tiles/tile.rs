@@ -429,13 +429,15 @@ impl Drawing<'_, '_> {
         Planes {
             position: self.pass.positions[sample],
             rect: plan.rects[sample],
-            colors: match store.colors() {
-                true => self.tile.color.sample(sample),
-                false => &mut [],
+            colors: if store.colors() {
+                self.tile.color.sample(sample)
+            } else {
+                &mut []
             },
-            depths: match store.tests() {
-                true => self.tile.depth.sample(sample),
-                false => &mut [],
+            depths: if store.tests() {
+                self.tile.depth.sample(sample)
+            } else {
+                &mut []
             },
         }
     }
@@ -491,9 +493,10 @@ impl Drawing<'_, '_> {
         let mut fragments = Fragments::new();
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
-        let around = match whole {
-            true => [left, top, right - 1, bottom - 1],
-            false => triangle.around.map(i32::from),
+        let around = if whole {
+            [left, top, right - 1, bottom - 1]
+        } else {
+            triangle.around.map(i32::from)
         };
         let wide = LANES as i32;
         let first = around[0].max(left) / wide * wide;
@@ -511,9 +514,10 @@ impl Drawing<'_, '_> {
             }
             for chunk in 0..=(last - first) / wide {
                 let x = first + chunk * wide;
-                let mut mask = match whole {
-                    true => ALL,
-                    false => here.covered().to_bitmask() as Mask,
+                let mut mask = if whole {
+                    ALL
+                } else {
+                    here.covered().to_bitmask() as Mask
                 };
                 here.grow(rows.across, wide);
                 if cut {

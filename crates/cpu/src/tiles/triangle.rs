@@ -86,8 +86,9 @@ pub(crate) fn point([x, y]: [i32; 2]) -> Point {
 #[inline(always)]
 pub(crate) fn clockwise(triangle: &Triangle) -> [[i32; 2]; 3] {
     let [a, b, c] = [0, 1, 2].map(|i: usize| triangle.corners[i].at);
-    match triangle.counter {
-        true => [a, c, b],
-        false => [a, b, c],
+    if triangle.counter {
+        [a, c, b]
+    } else {
+        [a, b, c]
     }
 }

@@ -146,9 +146,10 @@ impl Varying {
                 Some(state) => {
                     let values = &mut values[..count];
                     let part = if c == 3 { state.alpha } else { state.color };
-                    match self.in_unit(sources, part) {
-                        true => self.blended_in_unit(part, c, inputs, factors, values),
-                        false => self.blended(part, c, inputs, factors, values),
+                    if self.in_unit(sources, part) {
+                        self.blended_in_unit(part, c, inputs, factors, values)
+                    } else {
+                        self.blended(part, c, inputs, factors, values)
                     }
                     values
                 }

@@ -8,9 +8,10 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     let [red, _, _, alpha] = input.texels[0];
-    let (number, color) = match input.front {
-        true => (red, input.params.color),
-        false => (alpha, input.params.back_color),
+    let (number, color) = if input.front {
+        (red, input.params.color)
+    } else {
+        (alpha, input.params.back_color)
     };
     FragmentOutput {
         reference: Some(StencilReference::of(number)),

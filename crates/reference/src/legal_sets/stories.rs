@@ -110,10 +110,7 @@ proptest! {
             return Err(TestCaseError::reject("an impossible draw"));
         };
         let limits = limits(api);
-        let rules = match yardstick {
-            true => Rules::yardstick(&limits),
-            false => Rules::of(&limits),
-        };
+        let rules = if yardstick { Rules::yardstick(&limits) } else { Rules::of(&limits) };
         let at = Sample { size: [4, 4], samples, x, y, sample: sample % samples };
         let (set, ruling, notes) = explained(&scene, &limits, &rules, at, None);
         if set.is_open() {

@@ -94,18 +94,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
-        covers_at_positions: match old {
-            true => permit(
+        covers_at_positions: if old { permit(
                 true,
                 "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's",
-            ),
-            false => narrowed(
+            ) } else { narrowed(
                 true,
                 false,
                 Grade::Disputed,
                 "OpenGL 4.5, 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
-            ),
-        },
+            ) },
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -126,59 +123,47 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
             ]),
         ),
-        signed_clamp: match old {
-            true => narrowed(
+        signed_clamp: if old { narrowed(
                 SignedClamp::Unit,
                 SignedClamp::Either,
                 Grade::Disputed,
                 "OpenGL 3.3: 4.1.7 Blending: clamped to [0,1] for every fixed-point buffer; later versions clamp to [-1,1] for signed ones",
-            ),
-            false => permit(
+            ) } else { permit(
                 SignedClamp::Signed,
                 text.cite([
                     "OpenGL 3.3: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                     "OpenGL 4.5: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                     "OpenGL 4.6: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                 ]),
-            ),
-        },
-        signed_result: match old {
-            true => permit(
+            ) },
+        signed_result: if old { permit(
                 SignedClamp::Either,
                 "OpenGL 3.3: 4.1.8 sRGB Conversion: clamped to [0,1] for every fixed-point buffer; 2.1.5 has signed ones",
-            ),
-            false => narrowed(
+            ) } else { narrowed(
                 SignedClamp::Signed,
                 SignedClamp::Either,
                 Grade::Disputed,
                 "OpenGL 4.5, 4.6: 17.3.6 Blending, 2.3.5.2: signed buffers hold [-1,1]; 17.3.7 sRGB Conversion clamps every fixed-point result to [0,1]",
-            ),
-        },
-        clamps_constant: match old {
-            true => permit(true, "OpenGL 3.3: 4.1.7 Blend Color: the constant is a clampf"),
-            false => permit(false, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is"),
-        },
+            ) },
+        clamps_constant: if old { permit(true, "OpenGL 3.3: 4.1.7 Blend Color: the constant is a clampf") } else { permit(false, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is") },
         masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
             "OpenGL: 18.2.8 Final Conversion (3.3: 4.3.1 Reading Pixels): a stored code is read back as its value, which has one code",
         ),
-        srgb_logic: match old {
-            true => narrowed(
+        srgb_logic: if old { narrowed(
                 SrgbLogic::Applies,
                 SrgbLogic::Either,
                 Grade::Disputed,
                 "OpenGL 3.3: 4.1.10 Logical Operation: no effect on floating-point buffers alone; later versions exempt sRGB too",
-            ),
-            false => permit(
+            ) } else { permit(
                 SrgbLogic::PassesThrough,
                 text.cite([
                     "OpenGL 3.3: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                     "OpenGL 4.5: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                     "OpenGL 4.6: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                 ]),
-            ),
-        },
+            ) },
         depth_order: permit(
             DepthOrder::Either,
             text.cite([
@@ -374,12 +359,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample",
             "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
         ),
-        alpha_to_coverage: match old {
-            true => permit(
+        alpha_to_coverage: if old { permit(
                 AlphaToCoverage::Any,
                 "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: no particular algorithm; that the ends give none and all is intended",
-            ),
-            false => narrowed(
+            ) } else { narrowed(
                 AlphaToCoverage::Ends,
                 AlphaToCoverage::Any,
                 Grade::RequiredByCts,
@@ -388,14 +371,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                     "OpenGL 4.5: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                     "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 ]),
-            ),
-        },
-        sample_coverage: match old {
-            true => permit(
+            ) },
+        sample_coverage: if old { permit(
                 AlphaToCoverage::Any,
                 "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",
-            ),
-            false => narrowed(
+            ) } else { narrowed(
                 AlphaToCoverage::Ends,
                 AlphaToCoverage::Any,
                 Grade::RequiredByCts,
@@ -404,8 +384,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                     "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
                     "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
                 ]),
-            ),
-        },
+            ) },
         frag_coord: permit(
             FragCoord::Inputs,
             text.cite([

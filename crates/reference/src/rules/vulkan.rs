@@ -139,26 +139,28 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: FrontFacing, Stencil Test: a fragment that a polygon generates faces as the polygon, whatever the polygon mode",
         ),
-        early_updates: match coverage_last {
-            true => happens(""),
-            false => narrowed(
+        early_updates: if coverage_last {
+            happens("")
+        } else {
+            narrowed(
                 EarlyUpdates::Happen,
                 EarlyUpdates::Either,
                 Grade::RequiredByCts,
                 "Vulkan: Fragment Operations: with EarlyFragmentTests shading should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.discard_early_fragment_tests_depth demands the updates",
-            ),
+            )
         },
         early_coverage: happens(
             "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it",
         ),
-        early_mask: match coverage_last {
-            true => happens(""),
-            false => narrowed(
+        early_mask: if coverage_last {
+            happens("")
+        } else {
+            narrowed(
                 EarlyUpdates::Happen,
                 EarlyUpdates::Either,
                 Grade::RequiredByCts,
                 "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.samplemask_early_fragment_tests_depth_samples_* demands the updates",
-            ),
+            )
         },
         mask_of_one: permit(
             MaskOfOne::Acts,
@@ -168,15 +170,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: Fragment Shading: without a fragment shader none is executed, and the values of colour attachments alone are undefined",
         ),
-        mask_acts_first: match mask_first {
-            true => permit(
+        mask_acts_first: if mask_first {
+            permit(
                 true,
                 "Vulkan: Fragment Operations, earlyFragmentSampleMaskTestBeforeSampleCounting is true: the sample mask test keeps its place before all tests",
-            ),
-            false => permit(
+            )
+        } else {
+            permit(
                 false,
                 "Vulkan: Fragment Operations: with EarlyFragmentTests the sample mask test may follow sample counting",
-            ),
+            )
         },
         early_counts: happens(
             "Vulkan: Fragment Operations: with EarlyFragmentTests shading and multisample coverage should follow sample counting, but may precede it",
@@ -213,17 +216,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: Fragment Shading: a fragment may go without a run if a later one overwrites all its results, storage too; an atomic addition is not overwritten",
         ),
-        skips_rejected: match coverage_last {
-            true => permit(
+        skips_rejected: if coverage_last {
+            permit(
                 true,
                 "Vulkan: Fragment Shading: no run for a fragment that an operation before shading discards; earlyFragmentMultisampleCoverageAfterSampleCounting puts the tests first",
-            ),
-            false => narrowed(
+            )
+        } else {
+            narrowed(
                 true,
                 false,
                 Grade::RequiredByCts,
                 "Vulkan: Fragment Operations: with EarlyFragmentTests shading should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.early_fragment_tests_depth demands that no run precedes it",
-            ),
+            )
         },
         runs_once: permit(
             false,

@@ -62,10 +62,7 @@ fn stepwise((mode, src, dst): &Blend, scale: f64, up: u32) -> [f64; 4] {
     let src = src.map(|v| step(f64::from(v)));
     let dst = dst.map(|c| f64::from(c) / 255.0);
     let (sa, da) = (src[3], dst[3]);
-    let mut divided = |v: f64, alpha: f64| match alpha == 0.0 {
-        true => 0.0,
-        false => step(v / alpha),
-    };
+    let mut divided = |v: f64, alpha: f64| if alpha == 0.0 { 0.0 } else { step(v / alpha) };
     let s: [f64; 3] = std::array::from_fn(|c| divided(src[c], sa));
     let d: [f64; 3] = std::array::from_fn(|c| divided(dst[c], da));
     let both = step(sa * da);

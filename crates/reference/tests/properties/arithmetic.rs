@@ -295,10 +295,7 @@ proptest! {
                 ("log2", Plain::<1>.log2([value])[0], a.log2(judged)),
             ] {
                 let range = range.hull();
-                let held = match plain.is_nan() {
-                    true => range.may_be_nan(),
-                    false => range.contains(f64::from(plain)),
-                };
+                let held = if plain.is_nan() { range.may_be_nan() } else { range.contains(f64::from(plain)) };
                 prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range}", rules.name);
             }
             // An exact argument leaves no more than the error that a text grants.

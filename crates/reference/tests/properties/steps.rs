@@ -81,9 +81,12 @@ fn another_step_is_legal_in_all_columns_alike_and_in_no_single_one() {
         assert_eq!(wrong(&scene, api, &whole), (0, 0), "{api}");
     }
     for odd in 3..8 {
-        let one = with_depths(&scene, |column, code| match column == odd {
-            true => larger(column, code),
-            false => code,
+        let one = with_depths(&scene, |column, code| {
+            if column == odd {
+                larger(column, code)
+            } else {
+                code
+            }
         });
         for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
             let (before, after) = wrong(&scene, api, &one);
