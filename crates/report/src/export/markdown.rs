@@ -43,6 +43,15 @@ impl Text {
         fits
     }
 
+    /// Adds a section with a line per item; nothing if there are no items.
+    fn list<T>(&mut self, title: &str, all: &[T], line: impl Fn(&T) -> String) {
+        if !all.is_empty() {
+            self.line(&format!("## {title}\n"));
+            self.lines(all, LISTED, line);
+            self.line("");
+        }
+    }
+
     /// Adds as many lines as there is room for, at most so many, and says how many more there are.
     fn lines<T>(&mut self, all: &[T], most: usize, line: impl Fn(&T) -> String) {
         let shown = all
@@ -213,12 +222,7 @@ fn adapters(text: &mut Text, run: &Run) {
 }
 
 fn unexpected(text: &mut Text, run: &Run) {
-    let bad = unexpected_records(run);
-    if bad.is_empty() {
-        return;
-    }
-    text.line("## Unexpected\n");
-    text.lines(&bad, LISTED, |record| {
+    text.list("Unexpected", &unexpected_records(run), |record| {
         let sign = match Tone::of(record) {
             Tone::Missed => symbol(Verdict::Fail),
             _ => symbol(record.verdict),
@@ -236,26 +240,19 @@ fn unexpected(text: &mut Text, run: &Run) {
         entry.push_str(&format!("\\\n  {}", code(&command::explain(record), 800)));
         entry
     });
-    text.line("");
 }
 
 fn improvements(text: &mut Text, run: &Run) {
     let better: Vec<&Record> = run.records.iter().filter(|r| r.improvement()).collect();
-    if better.is_empty() {
-        return;
-    }
-    text.line("## Better than expected\n");
-    text.lines(&better, LISTED, |record| {
-        let due = record.improves.map_or("", name);
+    text.list("Better than expected", &better, |record| {
         format!(
             "- {} on {}: {} expected, {} recorded",
             code(&record.case, 400),
             code(&record.adapter, 100),
-            due,
+            record.improves.map_or("", name),
             name(record.verdict)
         )
     });
-    text.line("");
 }
 
 /// The asserted channels over all adapters, by area and aspect.

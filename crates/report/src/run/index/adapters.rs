@@ -1,7 +1,8 @@
 //! The adapters of a run, and the remedies for absent ones.
 
 use crate::page::adapter::details;
-use etalon_record::Header;
+use crate::table::Table;
+use etalon_record::{AbsentAdapter, Header};
 use maud::{Markup, html};
 
 pub(crate) fn section(header: &Header) -> Markup {
@@ -12,16 +13,16 @@ pub(crate) fn section(header: &Header) -> Markup {
             @for adapter in &header.adapters { (details(adapter)) }
             @if !header.absent.is_empty() {
                 h3 { "Absent" }
-                div.wide { table.text {
-                    caption.vh { "Adapters that are absent" }
-                    thead { tr { th scope="col" { "Adapter" } th scope="col" { "Reason" } th scope="col" { "Remedy" } } }
-                    tbody {
-                        @for absent in &header.absent {
-                            tr { th scope="row" { (absent.name) } td { (absent.reason) } td { (absent.remedy) } }
-                        }
-                    }
-                } }
+                (absent().page(&header.absent))
             }
         }
     }
+}
+
+fn absent<'a>() -> Table<'a, &'a AbsentAdapter> {
+    Table::new("text")
+        .spoken("Adapters that are absent")
+        .head("Adapter", |absent: &&AbsentAdapter| &*absent.name)
+        .text("Reason", |absent| &*absent.reason)
+        .text("Remedy", |absent| &*absent.remedy)
 }

@@ -2,12 +2,32 @@
 
 use crate::mark::{class, mark};
 use crate::page::adapter::breakable;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Area, Grid, Tally};
+use crate::table::{Cell, Table};
 use crate::words::Tone;
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+    // An area, or all of them.
+    type Row<'a> = Option<(usize, &'a Area<'a>)>;
+    let mut table = Table::<Row<'_>>::new("matrix")
+        .spoken("Verdicts by area and adapter")
+        .row_class(|row| row.map_or("sum", |_| ""))
+        .head("Area", |row| match row {
+            Some((a, area)) => html! { a href={ "#a" (a) } { (area.name) } },
+            None => html! { "all" },
+        });
+    for (column, adapter) in grid.adapters.iter().enumerate() {
+        table = table.text(breakable(adapter), move |row| match row {
+            Some((a, area)) => cell(grid, &format!("#l{a}-{column}"), area.on(column)),
+            None => cell(
+                grid,
+                "#findings",
+                grid.areas.iter().flat_map(|area| area.on(column)),
+            ),
+        });
+    }
     html! {
         section id="matrix" {
             h2 { "Areas and adapters" }
@@ -15,48 +35,25 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                 "A cell has the colour of its worst unexpected verdict. A dashed edge means that "
                 "bad verdicts in it were expected. Each cell leads to its list."
             }
-            div.wide { table.matrix {
-                caption.vh { "Verdicts by area and adapter" }
-                thead { tr {
-                    th scope="col" { "Area" }
-                    @for adapter in &grid.adapters { th scope="col" { (breakable(adapter)) } }
-                } }
-                tbody {
-                    @for (a, area) in grid.areas.iter().enumerate() {
-                        tr {
-                            th scope="row" { a href={ "#a" (a) } { (area.name) } }
-                            @for column in 0..grid.adapters.len() {
-                                (cell(grid, &format!("#l{a}-{column}"), area.on(column)))
-                            }
-                        }
-                    }
-                    tr.sum {
-                        th scope="row" { "all" }
-                        @for column in 0..grid.adapters.len() {
-                            (cell(grid, "#findings", grid.areas.iter().flat_map(|a| a.on(column))))
-                        }
-                    }
-                }
-            } }
+            (table.page(grid.areas.iter().enumerate().map(Some).chain([None])))
         }
     }
 }
 
-fn cell(grid: &Grid<'_>, link: &str, records: impl Iterator<Item = usize>) -> Markup {
+fn cell(grid: &Grid<'_>, link: &str, records: impl Iterator<Item = usize>) -> Cell {
     let tally = Tally::of(records.map(|i| grid.record(i)));
-    html! {
-        td class=(cell_class(&tally)) {
-            @if tally.total > 0 {
-                a href=(link) {
-                    @for (verdict, tone, n) in tally.entries() {
-                        span.c { b { (n) } " " (mark(verdict, tone)) }
-                    }
+    let shown = html! {
+        @if tally.total > 0 {
+            a href=(link) {
+                @for (verdict, tone, n) in tally.entries() {
+                    span.c { b { (n) } " " (mark(verdict, tone)) }
                 }
-            } @else {
-                span.c { "no record" }
             }
+        } @else {
+            span.c { "no record" }
         }
-    }
+    };
+    Cell::from(shown).class(cell_class(&tally))
 }
 
 fn cell_class(tally: &Tally) -> &'static str {

@@ -5,6 +5,7 @@ use crate::numbers::count;
 use crate::page::adapter::breakable;
 use crate::run::dead::meaning;
 use crate::run::undrawn::{Undrawn, undrawn};
+use crate::table::{Table, some};
 use crate::words::{Tone, plain};
 use etalon_record::{Dead, Run};
 use maud::{Markup, html};
@@ -16,16 +17,19 @@ const ROWS: usize = 500;
 pub(crate) fn section(run: &Run) -> Markup {
     let reasons = undrawn(run);
     let all: u64 = reasons.iter().map(Undrawn::records).sum();
-    let names: Vec<&str> = run
-        .header
-        .adapters
-        .iter()
-        .map(|a| a.name.as_str())
-        .collect();
-    let used: Vec<&str> = names
-        .into_iter()
-        .filter(|name| reasons.iter().any(|r| of(r, name) > 0))
-        .collect();
+    let mut table = Table::<&Undrawn>::new("")
+        .spoken("Reasons why cases were not drawn")
+        .head("Reason", |reason| {
+            html! { (mark(reason.verdict, Tone::Plain)) ": " (plain(&reason.reason, 300)) }
+        })
+        .number("Records", |reason| reason.records());
+    for adapter in &run.header.adapters {
+        if reasons.iter().any(|reason| reason.on(&adapter.name) > 0) {
+            table = table.number(breakable(&adapter.name), |reason| {
+                some(reason.on(&adapter.name))
+            });
+        }
+    }
     html! {
         @if !reasons.is_empty() {
             section id="undrawn" {
@@ -34,37 +38,13 @@ pub(crate) fn section(run: &Run) -> Markup {
                     b { (all) } " of " (count(run.records.len() as u64, "record"))
                     " are of cases that were not drawn. Nothing is known about them."
                 }
-                div.wide { table {
-                    caption.vh { "Reasons why cases were not drawn" }
-                    thead { tr {
-                        th scope="col" { "Reason" } th scope="col" { "Records" }
-                        @for name in &used { th scope="col" { (breakable(name)) } }
-                    } }
-                    tbody { @for reason in reasons.iter().take(ROWS) {
-                        tr {
-                            th scope="row" {
-                                (mark(reason.verdict, Tone::Plain)) ": " (plain(&reason.reason, 300))
-                            }
-                            td.num { (reason.records()) }
-                            @for name in &used {
-                                td.num { @match of(reason, name) { 0 => { "·" } n => { (n) } } }
-                            }
-                        }
-                    } }
-                } }
+                (table.page(reasons.iter().take(ROWS)))
                 @if reasons.len() > ROWS {
                     p.note { "and " (count((reasons.len() - ROWS) as u64, "other reason")) }
                 }
             }
         }
     }
-}
-
-fn of(reason: &Undrawn, adapter: &str) -> u64 {
-    let mut adapters = reason.adapters.iter();
-    adapters
-        .find(|(name, _)| name == adapter)
-        .map_or(0, |(_, n)| *n)
 }
 
 /// The dead expectations.
