@@ -1,4 +1,4 @@
-//! Tables: a column is its name and the cell that it makes of a row. A page and a terminal show the same table.
+//! Tables: a column is its name and the cell that it makes of a row. A page, a terminal and Markdown show the same table.
 
 use crate::numbers::capital;
 use crate::terminal::TableOptions;
@@ -220,6 +220,25 @@ impl<'a, R> Table<'a, R> {
             Kind::Text => cell.with("data-head", name).element("td"),
             Kind::Number => cell.with("data-head", name).class("num").element("td"),
         }
+    }
+
+    /// The table in Markdown, of which its texts are a part already: the lines of its head, and a line per row.
+    pub(crate) fn markdown(&self, rows: impl IntoIterator<Item = R>) -> (String, Vec<String>) {
+        let line = |cell: &dyn Fn(&Column<'a, R>) -> Cell| {
+            let cells = self
+                .columns
+                .iter()
+                .map(|c| cell(c).text.unwrap_or_default());
+            format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+        };
+        let mark = |c: &Column<'a, R>| match c.kind {
+            Kind::Head | Kind::Text => "---|",
+            Kind::Number => "---:|",
+        };
+        let marks: String = self.columns.iter().map(mark).collect();
+        let head = format!("{}\n|{marks}", line(&|c| c.name.clone()));
+        let rows = rows.into_iter().map(|row| line(&|c| (c.cell)(&row)));
+        (head, rows.collect())
     }
 
     /// The table on a terminal. Leaves out columns in the order of `optional` until the others fit; returns the names of

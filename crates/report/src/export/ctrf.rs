@@ -253,7 +253,7 @@ fn extra(record: &Record) -> Map<String, Value> {
                 .map(|expected| json!(expected.reason)),
         ),
         ("improves", record.improves.map(|verdict| json!(verdict))),
-        ("dueFail", record.due_fail.then(|| json!(true))),
+        ("dueFail", record.due_fail.then_some(json!(true))),
         (
             "repeats",
             Some(json!(record.repeats)).filter(|_| !record.repeats.is_empty()),

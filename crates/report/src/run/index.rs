@@ -4,7 +4,6 @@
 //! search and filters, and the view of one case. Every view has an address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
-mod adapters;
 mod assertions;
 mod cases;
 mod causes;
@@ -13,8 +12,7 @@ mod data;
 mod detail;
 mod facts;
 mod findings;
-mod matrix;
-mod undrawn;
+mod overview;
 
 use crate::catalogue::scripts;
 use crate::chart;
@@ -65,9 +63,9 @@ pub(crate) fn page(
             } @else {
                 (causes::section(&grid))
                 (totals(run))
-                (matrix::section(&grid))
-                (undrawn::section(run))
-                (undrawn::dead(dead))
+                (overview::matrix(&grid))
+                (overview::not_drawn(run))
+                (overview::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
                 (cases::section(&grid, &scripts))
@@ -79,7 +77,7 @@ pub(crate) fn page(
                 (findings::section(folder, &grid, &plan))
                 (assertions::section(&grid))
             }
-            (adapters::section(&run.header))
+            (overview::adapters(&run.header))
         }
     };
     Page::new(&title(run), "run.jsonl and frames/ in this folder", &main)
