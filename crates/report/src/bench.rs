@@ -1,12 +1,9 @@
 //! Benches: the page, the files for dashboards and the summary for a terminal, computed from the recorded
 //! samples each time, so that a bench can be reported anew by a later version.
 
-mod benchmarks;
+mod charts;
 pub(crate) mod figures;
-pub(crate) mod kind;
 mod page;
-mod ruler;
-mod spread;
 mod table;
 mod write;
 

@@ -5,11 +5,12 @@
 
 use crate::error::ReportError;
 use crate::files::replace;
+use crate::lists::Interner;
 use crate::picture::{enlarged, thumbnail};
 use etalon_frame::Frame;
 use serde::Serialize;
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -101,60 +102,52 @@ pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), Repor
 
 fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
     let mut area = Area::default();
-    let mut lines: HashMap<&str, usize> = HashMap::new();
-    let mut scenes: HashMap<Vec<usize>, usize> = HashMap::new();
-    let mut pictures: HashMap<&str, i64> = HashMap::new();
+    let mut lines: Interner<&str> = Interner::default();
+    let mut scenes: Interner<Vec<usize>> = Interner::default();
+    let mut pictures: Interner<&str> = Interner::default();
+    let mut used: Interner<&[&'static str]> = Interner::default();
     let mut bytes = 0;
     for case in cases {
-        let list: Vec<usize> = case
-            .lines
-            .iter()
-            .map(|line| {
-                *lines.entry(line).or_insert_with(|| {
-                    area.lines.push(line);
-                    area.lines.len() - 1
-                })
-            })
-            .collect();
-        let scene = *scenes.entry(list.clone()).or_insert_with(|| {
-            area.scenes.push(list);
-            area.scenes.len() - 1
-        });
-        let known = pictures.get(&*case.picture).copied();
-        let picture = match known {
-            Some(place) => place,
-            None if case.picture.is_empty() || bytes + case.picture.len() > PICTURE_BYTES => -1,
-            None => {
-                bytes += case.picture.len();
-                area.pictures.push(&case.picture);
-                let place = area.pictures.len() as i64 - 1;
-                pictures.insert(&case.picture, place);
-                place
-            }
+        let scene = case.lines.iter().map(|line| lines.place(line)).collect();
+        let picture = &*case.picture;
+        let new = if pictures.has(&picture) {
+            0
+        } else {
+            picture.len()
         };
-        for shader in &case.shaders {
-            area.shaders.insert(
-                shader,
-                catalogue.shaders.get(shader).copied().unwrap_or_default(),
-            );
-        }
-        if let Some((name, template)) = catalogue.files.get_key_value(&case.file) {
-            area.files.insert(name, template);
-        }
-        let shaders = &case.shaders[..];
-        let used = area
-            .used
-            .iter()
-            .position(|list| *list == shaders)
-            .unwrap_or_else(|| {
-                area.used.push(shaders);
-                area.used.len() - 1
-            });
+        let picture = if picture.is_empty() || bytes + new > PICTURE_BYTES {
+            -1
+        } else {
+            bytes += new;
+            pictures.place(picture) as i64
+        };
+        let shaders = case.shaders.iter();
+        area.shaders.extend(shaders.map(|name| {
+            (
+                *name,
+                catalogue.shaders.get(name).copied().unwrap_or_default(),
+            )
+        }));
+        area.files.extend(
+            catalogue
+                .files
+                .get_key_value(&case.file)
+                .map(|(name, text)| (&**name, text)),
+        );
         let rest = case.id.strip_prefix(&case.file).unwrap_or(&case.id);
-        let of_file = area.cases.entry(&case.file).or_default();
-        of_file.insert(rest, (scene, picture, used));
+        let place = (scenes.place(scene), picture, used.place(&case.shaders));
+        area.cases
+            .entry(&case.file)
+            .or_default()
+            .insert(rest, place);
     }
-    area
+    Area {
+        lines: lines.values,
+        scenes: scenes.values,
+        pictures: pictures.values,
+        used: used.values,
+        ..area
+    }
 }
 
 /// The scripts of a run folder: area and path below the folder; none where the folder has none.
@@ -162,12 +155,12 @@ pub(crate) fn scripts(folder: &Path) -> Vec<(String, String)> {
     let Ok(entries) = fs::read_dir(folder.join(CATALOGUE)) else {
         return Vec::new();
     };
-    let one = |entry: fs::DirEntry| {
+    let script = |entry: fs::DirEntry| {
         let name = entry.file_name().into_string().ok()?;
         let area = name.strip_suffix(".js")?.to_owned();
         Some((area, format!("{CATALOGUE}/{name}")))
     };
-    let mut all: Vec<_> = entries.flatten().filter_map(one).collect();
-    all.sort();
-    all
+    let mut scripts: Vec<_> = entries.flatten().filter_map(script).collect();
+    scripts.sort();
+    scripts
 }

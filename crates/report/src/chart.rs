@@ -2,14 +2,12 @@
 
 mod label;
 mod marker;
-mod number;
 mod plot;
 mod scale;
 
 pub(crate) use label::Labels;
 pub(crate) use marker::{color, dash, key, line_key, marker};
-pub(crate) use number::n;
-pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, zero_band};
+pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, n, polyline, zero_band};
 pub(crate) use scale::Scale;
 
 /// The style sheet of charts.

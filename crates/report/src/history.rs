@@ -7,7 +7,6 @@
 mod courses;
 mod data;
 mod families;
-mod folder;
 mod looks;
 mod matrix;
 mod news;
@@ -18,5 +17,4 @@ mod sparkline;
 mod times;
 mod write;
 
-pub use folder::HISTORY_PAGE_FILE;
-pub use write::{WrittenHistory, write_history};
+pub use write::{HISTORY_PAGE_FILE, WrittenHistory, write_history};

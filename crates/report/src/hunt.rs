@@ -1,9 +1,310 @@
 //! Hunts for planted bugs: `mutants.html` and the summary for a terminal.
 
-mod page;
-mod summary;
-mod table;
-mod write;
+use crate::error::ReportError;
+use crate::files::replace;
+use crate::numbers::{count, duration};
+use crate::page::Page;
+use crate::page::origin::origin;
+use crate::table::{Cell, Table};
+use crate::terminal::TableOptions;
+use crate::words::plain;
+use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
+use maud::{Markup, html};
+use std::path::{Path, PathBuf};
 
-pub use table::hunt_table;
-pub use write::{WrittenHunt, write_hunt};
+/// The files that [`write_hunt`] made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenHunt {
+    /// The page.
+    pub html: PathBuf,
+    /// The hunt itself.
+    pub json: PathBuf,
+}
+
+/// Writes `mutants.json` and `mutants.html` into a folder, which is made when it does not exist.
+///
+/// # Errors
+/// Returns an error if the folder cannot be written to.
+pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError> {
+    let json = hunt.write(folder)?;
+    let html = replace(folder, "mutants.html", page(hunt).as_bytes())?;
+    Ok(WrittenHunt { html, json })
+}
+
+/// Totals, a table with a row per area, and the bugs that were only noticed, survived, or were
+/// seen by another area alone. Always ends in a newline.
+pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
+    let (table, _) = area_table().terminal(areas(hunt), options, &[]);
+    let mut text = format!("{table}\n\n{}\n", totals(hunt));
+    for (title, mutants, reason) in noted(hunt) {
+        if !mutants.is_empty() {
+            text.push_str(&format!("\n{title}\n"));
+        }
+        for m in mutants {
+            text.push_str(&format!("  {}\n", plain(&m.mutant.name, 100)));
+            if let Some(reason) = reason(m).filter(|reason| !reason.is_empty()) {
+                text.push_str(&format!("      {}\n", plain(reason, options.room(5))));
+            }
+        }
+    }
+    let complaints: Vec<_> = hunt.complaints().collect();
+    if !complaints.is_empty() {
+        text.push_str(&format!("\n{}\n", options.paint("Wrong", "31")));
+        for (mutant, why) in complaints {
+            let name = plain(&mutant.mutant.name, 100);
+            text.push_str(&format!("  {name}: {why}\n"));
+        }
+    }
+    text
+}
+
+/// The page.
+fn page(hunt: &Hunt) -> String {
+    let main = html! {
+        (head(hunt))
+        (by_area(hunt))
+        (lists(hunt))
+        (all(hunt))
+    };
+    Page::new(
+        &format!("etalon mutants {}", hunt.started),
+        "mutants.json in this folder",
+        &main,
+    )
+    .html()
+}
+
+fn head(hunt: &Hunt) -> Markup {
+    let complaints: Vec<_> = hunt.complaints().collect();
+    html! {
+        header {
+            h1 { "etalon mutants" }
+            p.lead { "Bugs planted in a rasterizer that passes the suite, and the cases that catch them." }
+            @if complaints.is_empty() {
+                p.state.good { b { "✓ Every planted bug is caught, or proven to be legal." } }
+            } @else {
+                p.state.bad {
+                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " with a wrong outcome." }
+                }
+                ul { @for (mutant, why) in &complaints {
+                    li { a href={ "#" (mutant.mutant.name) } { (mutant.mutant.name) } ": " (why) }
+                } }
+            }
+            dl.facts {
+                (origin!(hunt))
+                dt { "Scope" } dd {
+                    (count(hunt.mutants.len() as u64, "planted bug")) ", "
+                    (count(hunt.cases, "case")) ", " (duration(hunt.seconds))
+                    @if !hunt.full { "; an area ends at a bug's first Fail" }
+                }
+            }
+        }
+        section {
+            h2 { "Totals" }
+            ul.totals {
+                @for (outcome, about) in [
+                    (Catch::Caught, "Some case failed."),
+                    (Catch::Noticed, "Legal: some texels lie outside the yardstick, none is wrong."),
+                    (Catch::Survived, "Every case passed."),
+                    (Catch::Broken, "It could not be drawn: a bug of the mutant."),
+                ] {
+                    @let n = hunt.count(outcome);
+                    @if n > 0 || outcome != Catch::Broken {
+                        li class=(class(outcome)) {
+                            span.big { (n) } " " span.m { (outcome.name()) } small { (about) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The class that colours an outcome: a fixed letter.
+fn class(outcome: Catch) -> &'static str {
+    match outcome {
+        Catch::Caught => "p",
+        Catch::Noticed => "i",
+        Catch::Survived => "o",
+        Catch::Broken => "b",
+    }
+}
+
+fn by_area(hunt: &Hunt) -> Markup {
+    html! {
+        section {
+            h2 { "By area" }
+            p {
+                "Which area's cases see which bugs. A bug has one area that must see it alone; the last "
+                "column counts those that it does."
+            }
+            (area_table().page(areas(hunt)))
+        }
+    }
+}
+
+fn lists(hunt: &Hunt) -> Markup {
+    html! {
+        @for (title, mutants, _) in noted(hunt) { @if !mutants.is_empty() {
+            section {
+                h2 { (title) }
+                ul { @for m in mutants { li {
+                    a href={ "#" (m.mutant.name) } { (m.mutant.name) } ": " (m.mutant.about) " "
+                    @if let Some(why) = &m.mutant.legal { cite { (why) } }
+                    @else if m.complaint().is_some() { b { "No proof." } }
+                } } }
+            }
+        } }
+    }
+}
+
+fn all(hunt: &Hunt) -> Markup {
+    html! {
+        section {
+            h2 { "All planted bugs" }
+            (all_table().page(&hunt.mutants))
+        }
+    }
+}
+
+fn all_table<'a>() -> Table<'a, &'a MutantRecord> {
+    let outcome = |m: &&MutantRecord| {
+        let legal = m.mutant.legal.is_some();
+        let shown = html! { span.chip { (m.outcome.name()) } @if legal { small { " legal" } } };
+        Cell::from(shown).class(class(m.outcome))
+    };
+    Table::new("figures")
+        .head("Name", |m: &&MutantRecord| {
+            Cell::from(&m.mutant.name).with("id", m.mutant.name.clone())
+        })
+        .text("Effect", |m| &*m.mutant.about)
+        .text("Source", |m| &*m.mutant.source)
+        .text("Outcome", outcome)
+        .text("Cases that failed / were imprecise / passed", |m| {
+            html! { @for area in &m.areas { (tally(area, area.area == m.mutant.area)) } }
+        })
+        .text(
+            "First seen",
+            |m| html! { @if let Some(first) = &m.first { (sighting(first)) } },
+        )
+}
+
+fn tally(area: &AreaTally, own: bool) -> Markup {
+    html! {
+        @if area.fail + area.imprecise + area.broken > 0 || own {
+            div {
+                @if own { b { (area.area) } } @else { (area.area) }
+                " " (area.fail) " / " (area.imprecise) " / " (area.pass)
+                @if area.broken > 0 { ", " (area.broken) " broken" }
+            }
+        }
+    }
+}
+
+fn sighting(first: &Sighting) -> Markup {
+    html! {
+        code { (first.case) }
+        @if let Some(texel) = &first.texel {
+            small {
+                " (" (texel.x) ", " (texel.y) ")"
+                @if let Some(c) = texel.channels.first() {
+                    " " (c.attachment) " " (c.aspect) " channel " (c.channel) ": " (c.actual)
+                    ", due "
+                    @if c.low == c.high { (c.low) } @else { (c.low) " to " (c.high) }
+                }
+            }
+        }
+        @if !first.message.is_empty() { small { " " (first.message) } }
+    }
+}
+
+/// One area's share in the hunt.
+struct AreaRow<'a> {
+    area: &'a str,
+    /// Bugs that this area must catch by itself.
+    own: usize,
+    /// Those of them whose outcome the area reaches by itself.
+    own_reached: usize,
+    /// Bugs of any area that it caught, noticed without catching, and passed.
+    counts: [usize; 3],
+}
+
+/// The share of every area, in alphabetical order.
+fn areas(hunt: &Hunt) -> Vec<AreaRow<'_>> {
+    let tallies = || hunt.mutants.iter().flat_map(|m| &m.areas);
+    let mut names: Vec<&str> = tallies().map(|t| t.area.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let row = |area| {
+        let mut row = AreaRow {
+            area,
+            own: 0,
+            own_reached: 0,
+            counts: [0; 3],
+        };
+        for mutant in &hunt.mutants {
+            if mutant.mutant.area == area {
+                row.own += 1;
+                row.own_reached += usize::from(mutant.by_own_area());
+            }
+            let tally = mutant.areas.iter().find(|t| t.area == area);
+            let place = tally.map_or(2, |t| match (t.fail, t.imprecise) {
+                (1.., _) => 0,
+                (0, 1..) => 1,
+                (0, 0) => 2,
+            });
+            row.counts[place] += 1;
+        }
+        row
+    };
+    names.into_iter().map(row).collect()
+}
+
+/// The table of areas.
+fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
+    Table::new("")
+        .head("area", |row: &AreaRow<'_>| row.area)
+        .number("caught", |row| row.counts[0])
+        .number("noticed", |row| row.counts[1])
+        .number("passed", |row| row.counts[2])
+        .number("of its own", |row| {
+            format!("{} of {}", row.own_reached, row.own)
+        })
+}
+
+/// The text that a terminal shows below a bug.
+type Reason = fn(&MutantRecord) -> Option<&String>;
+
+/// Bugs to look at: noticed, survived, or caught by the cases of other areas only.
+fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
+    let of = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
+    let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);
+    let elsewhere = hunt
+        .mutants
+        .iter()
+        .filter(seen)
+        .filter(|m| !m.by_own_area());
+    let legal: Reason = |m| m.mutant.legal.as_ref();
+    let first: Reason = |m| m.first.as_ref().map(|first| &first.case);
+    [
+        ("Noticed", of(Catch::Noticed).collect(), legal),
+        ("Survived", of(Catch::Survived).collect(), legal),
+        ("Caught by other areas only", elsewhere.collect(), first),
+    ]
+}
+
+/// The totals in one line.
+fn totals(hunt: &Hunt) -> String {
+    let of = |outcome: Catch| format!("{} {}", hunt.count(outcome), outcome.name());
+    let mut parts = vec![of(Catch::Caught), of(Catch::Noticed), of(Catch::Survived)];
+    if hunt.count(Catch::Broken) > 0 {
+        parts.push(of(Catch::Broken));
+    }
+    format!(
+        "{} planted bugs, {} cases, {}: {}",
+        hunt.mutants.len(),
+        hunt.cases,
+        duration(hunt.seconds),
+        parts.join(", ")
+    )
+}

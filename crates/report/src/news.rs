@@ -102,15 +102,13 @@ pub fn news_table(news: &News, options: TableOptions) -> String {
         if entries.is_empty() && at > 1 {
             continue;
         }
-        text.push_str(&match entries.is_empty() {
-            true => format!("{head}\n"),
-            false => format!("{}\n", options.paint(&head, color)),
-        });
+        let color = if entries.is_empty() { "" } else { color };
+        text.push_str(&format!("{}\n", options.paint(&head, color)));
         for entry in entries.iter().take(LISTED) {
             text.push_str(&format!("  {}\n", line(entry)));
         }
         if let Some(more @ 1..) = entries.len().checked_sub(LISTED) {
-            text.push_str(&format!("  and {}\n", format_args!("{more} more")));
+            text.push_str(&format!("  and {more} more\n"));
         }
     }
     text

@@ -34,6 +34,11 @@ fn scaled(seconds: f64) -> (f64, &'static str) {
     }
 }
 
+/// The ends of a range: `1 ms to 2 ms`.
+pub(crate) fn between([low, high]: [f64; 2], text: impl Fn(f64) -> String) -> String {
+    format!("{} to {}", text(low), text(high))
+}
+
 /// A ratio as a signed change: `+3.1 %`; as a factor from two on: `×2.50`.
 pub(crate) fn change(ratio: f64) -> String {
     if !ratio.is_finite() {
@@ -85,11 +90,19 @@ pub(crate) fn digits(value: f64, significant: i32) -> String {
     trimmed(format!("{value:.decimals$}"))
 }
 
+/// A text with its first letter as a capital.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
 /// A decimal number without trailing zeros behind its point.
 pub(crate) fn trimmed(text: String) -> String {
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 

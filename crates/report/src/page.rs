@@ -15,21 +15,40 @@ const STYLE: &str = include_str!("page/style.css");
 
 /// One page.
 pub(crate) struct Page<'a> {
-    /// The title of the window.
-    pub(crate) title: &'a str,
-    /// Style sheets beyond the one of all pages.
-    pub(crate) styles: &'a [&'static str],
-    /// The script, which the content holds as [`script`].
-    pub(crate) script: Option<&'static str>,
+    title: &'a str,
+    source: &'a str,
+    main: &'a Markup,
+    styles: Vec<&'static str>,
+    script: Option<&'static str>,
     /// True if the page's own script loads others from the page's folder.
-    pub(crate) beside: bool,
-    /// The content.
-    pub(crate) main: Markup,
-    /// The files that the page was made from.
-    pub(crate) source: &'a str,
+    beside: bool,
 }
 
-impl Page<'_> {
+impl<'a> Page<'a> {
+    /// A page with the title of its window, its content, and the files that it was made from.
+    pub(crate) fn new(title: &'a str, source: &'a str, main: &'a Markup) -> Self {
+        Self {
+            title,
+            source,
+            main,
+            styles: Vec::new(),
+            script: None,
+            beside: false,
+        }
+    }
+
+    /// Adds a style sheet to the one of all pages.
+    pub(crate) fn style(mut self, style: impl Into<Option<&'static str>>) -> Self {
+        self.styles.extend(style.into());
+        self
+    }
+
+    /// Allows the script, which the content holds as [`script`], and those that it loads if there are any `beside`.
+    pub(crate) fn script(mut self, script: &'static str, beside: bool) -> Self {
+        (self.script, self.beside) = (Some(script), beside);
+        self
+    }
+
     /// The HTML text.
     pub(crate) fn html(&self) -> String {
         html! {
@@ -45,7 +64,7 @@ impl Page<'_> {
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="color-scheme" content="light dark";
                     title { (self.title) }
-                    style { (PreEscaped(STYLE)) @for style in self.styles { (PreEscaped(style)) } }
+                    style { (PreEscaped(STYLE)) @for style in &self.styles { (PreEscaped(style)) } }
                 }
                 body {
                     a.skip href="#main" { "Skip to the content" }

@@ -21,7 +21,7 @@ const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
 
 /// One picture.
 pub(crate) struct Picture {
-    pub(crate) label: &'static str,
+    pub(crate) label: String,
     /// A `data:` address.
     pub(crate) uri: String,
     /// Width and height in the page.
@@ -115,17 +115,7 @@ pub struct Ringed {
 /// Returns the pictures of an image with a ring around a sample (column, row and number). `None` when the image's lists
 /// do not fit its size.
 pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<Ringed> {
-    if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
-        return None;
-    }
-    let window = window(image);
-    let longest = window.width.max(window.height).max(1);
-    let view = View {
-        image,
-        window,
-        scale: (TARGET / longest).clamp(1, ENLARGED),
-        range: range(image),
-    };
+    let view = View::of(image)?;
     let color = image.aspect == Aspect::Color;
     let value = |codes: &[u32], sample, channel| view.value(codes, sample, channel);
     let alike =
@@ -154,40 +144,31 @@ pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<Ringed> {
 
 /// The pictures of an image. `None` when the image's lists do not fit its size.
 pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
-    if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
-        return None;
-    }
-    let window = window(image);
-    let longest = window.width.max(window.height).max(1);
-    let view = View {
-        image,
-        window,
-        scale: (TARGET / longest).clamp(1, ENLARGED),
-        range: range(image),
-    };
+    named(image, "allowed", "actual")
+}
+
+/// The pictures of an image with the names of what is allowed and of what came.
+pub(crate) fn named(image: &FrameImage, allowed: &str, actual: &str) -> Option<Strip> {
+    let view = View::of(image)?;
     let mut pictures = Vec::new();
     let same = image.low == image.high;
-    let mut add = |labels: [&'static str; 4], look: Look| {
-        if same {
-            pictures.push(view.plain(labels[0], &image.low, look));
-        } else {
-            pictures.push(view.plain(labels[1], &image.low, look));
-            pictures.push(view.plain(labels[2], &image.high, look));
+    let mut add = |channels: &str, look: Look| {
+        let ends = [
+            ("", &image.low),
+            (" low", &image.low),
+            (" high", &image.high),
+        ];
+        let ends = if same { &ends[..1] } else { &ends[1..] };
+        for (end, codes) in ends {
+            pictures.push(view.plain(format!("{allowed}{end}{channels}"), codes, look));
         }
-        pictures.push(view.plain(labels[3], &image.actual, look));
+        pictures.push(view.plain(format!("{actual}{channels}"), &image.actual, look));
     };
     let color = image.aspect == Aspect::Color;
-    let look = if color { Look::Rgb } else { Look::Grey(0) };
-    add(["allowed", "allowed low", "allowed high", "actual"], look);
+    add("", if color { Look::Rgb } else { Look::Grey(0) });
     let alpha = alpha(image);
     if alpha == Alpha::Varies {
-        let labels = [
-            "allowed alpha",
-            "allowed low alpha",
-            "allowed high alpha",
-            "actual alpha",
-        ];
-        add(labels, Look::Grey(3));
+        add(" alpha", Look::Grey(3));
     }
     pictures.push(view.difference());
     let pictures = pictures.into_iter().collect::<Option<Vec<_>>>()?;
@@ -283,7 +264,22 @@ enum Look {
     Grey(usize),
 }
 
-impl View<'_> {
+impl<'a> View<'a> {
+    /// The view of an image; `None` if its lists do not fit its size.
+    fn of(image: &'a FrameImage) -> Option<Self> {
+        if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
+            return None;
+        }
+        let window = window(image);
+        let longest = window.width.max(window.height).max(1);
+        Some(Self {
+            image,
+            window,
+            scale: (TARGET / longest).clamp(1, ENLARGED),
+            range: range(image),
+        })
+    }
+
     fn value(&self, codes: &[u32], sample: usize, channel: usize) -> u8 {
         let Some(encoding) = self.image.channels.get(channel) else {
             return 0;
@@ -303,7 +299,7 @@ impl View<'_> {
     }
 
     /// One pixel per sample; samples of one texel lie in pictures of their own, side by side.
-    fn plain(&self, label: &'static str, codes: &[u32], look: Look) -> Option<Picture> {
+    fn plain(&self, label: String, codes: &[u32], look: Look) -> Option<Picture> {
         self.draw(label, 1, |sample, _, _| match look {
             Look::Rgb => [0, 1, 2].map(|c| self.value(codes, sample, c)),
             Look::Grey(channel) => [self.value(codes, sample, channel); 3],
@@ -315,7 +311,7 @@ impl View<'_> {
         let block = self.scale;
         // The pixels of a row follow each other sample by sample.
         let mut last = (usize::MAX, 0.0);
-        self.draw("difference", block, |sample, x, y| {
+        self.draw("difference".to_owned(), block, |sample, x, y| {
             let (base, mark) = match self.image.wrong[sample] {
                 FrameImage::FINE => return FINE,
                 FrameImage::IMPRECISE => {
@@ -359,7 +355,7 @@ impl View<'_> {
     /// Draws a picture of `block`² pixels per sample with a gap between the samples' tiles.
     fn draw(
         &self,
-        label: &'static str,
+        label: String,
         block: u32,
         pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
     ) -> Option<Picture> {
@@ -491,9 +487,10 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
         let encoding = image.channels[channel];
         let one = |sample: usize| {
             let code = image.codes[(texel * image.samples as usize + sample) * channels + channel];
-            match encoding.is_nan(code) {
-                true => 0.0,
-                false => encoding.value_of_order(encoding.order_of_code(code)) / most,
+            if encoding.is_nan(code) {
+                0.0
+            } else {
+                encoding.value_of_order(encoding.order_of_code(code)) / most
             }
         };
         let sum: f64 = (0..image.samples as usize)
@@ -568,7 +565,7 @@ mod tests {
     #[test]
     fn pictures_show_codes_and_mark_wrong_texels() {
         let strip = strip(&image(1, [16, 16])).unwrap();
-        let labels: Vec<_> = strip.pictures.iter().map(|p| p.label).collect();
+        let labels: Vec<_> = strip.pictures.iter().map(|p| &*p.label).collect();
         let due = ["allowed low", "allowed high", "actual", "difference"];
         assert_eq!(labels, due);
         assert!(strip.pictures.iter().all(|p| p.size == [128, 128]));

@@ -1,9 +1,19 @@
 //! The figures of a bench.
 
-use super::kind::software;
-use etalon_record::{Bench, BenchRecord, Time};
+use crate::lists::grouped;
+use crate::numbers::duration;
+use etalon_record::{AdapterRecord, Bench, BenchRecord, Time, Verdict};
 use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
 use std::collections::BTreeMap;
+
+/// Software and hardware adapters, which never share a ranking: the value of [`software`], and in words.
+pub(crate) const KINDS: [(bool, &str); 2] = [(true, "Software"), (false, "Hardware")];
+
+/// True if the adapter draws with the processor. An adapter that no header names counts as hardware, which is compared
+/// without the ruler.
+pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
+    adapter.is_some_and(|a| a.software)
+}
 
 /// The figures of a whole bench.
 pub(crate) struct Figures<'a> {
@@ -49,6 +59,19 @@ impl Timed<'_> {
         &self.record.picture.adapter
     }
 
+    /// The median of another time, if it was measured.
+    pub(crate) fn other(&self, time: Time) -> Option<String> {
+        self.others
+            .get(&time)
+            .map(|summary| duration(summary.median))
+    }
+
+    /// The number of rounds and the frames of each.
+    pub(crate) fn counted(&self, times: &str) -> String {
+        let s = &self.wall;
+        format!("{}{times}{}", s.rounds, s.samples / s.rounds.max(1))
+    }
+
     /// The median wall time of each round.
     pub(crate) fn medians(&self) -> Vec<f64> {
         self.samples.medians()
@@ -57,41 +80,47 @@ impl Timed<'_> {
 
 impl<'a> Figures<'a> {
     pub(crate) fn new(bench: &'a Bench) -> Self {
-        let mut cases: Vec<CaseFigures<'a>> = Vec::new();
-        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
-        for record in &bench.records {
-            let name = record.picture.case.as_str();
-            let place = *places.entry(name).or_insert_with(|| {
-                cases.push(CaseFigures {
-                    case: name,
-                    software: Vec::new(),
-                    hardware: Vec::new(),
-                    untimed: Vec::new(),
-                });
-                cases.len() - 1
-            });
-            let case = &mut cases[place];
-            let kind = software(bench.header.adapter(&record.picture.adapter));
-            match timed(record) {
-                Some(timed) if kind => case.software.push(timed),
-                Some(timed) => case.hardware.push(timed),
-                None => case.untimed.push(record),
+        let records = bench.records.iter();
+        let cases = grouped(records.map(|r| (r.picture.case.as_str(), r)));
+        let cases = cases.into_iter().map(|(case, records)| {
+            let (mut on_processor, mut elsewhere, mut untimed) =
+                (Vec::new(), Vec::new(), Vec::new());
+            for record in records {
+                let adapter = bench.header.adapter(&record.picture.adapter);
+                match timed(record) {
+                    Some(timed) if software(adapter) => on_processor.push(timed),
+                    Some(timed) => elsewhere.push(timed),
+                    None => untimed.push(record),
+                }
             }
+            rank(&mut on_processor);
+            rank(&mut elsewhere);
+            CaseFigures {
+                case,
+                software: on_processor,
+                hardware: elsewhere,
+                untimed,
+            }
+        });
+        Self {
+            cases: cases.collect(),
         }
-        for case in &mut cases {
-            rank(&mut case.software);
-            rank(&mut case.hardware);
-        }
-        Self { cases }
     }
 
     /// Everything that was timed.
     pub(crate) fn timed(&self) -> impl Iterator<Item = (&'a str, &Timed<'a>)> {
-        let both = |c: &'_ CaseFigures<'a>| c.case;
-        self.cases.iter().flat_map(move |c| {
-            let name = both(c);
-            c.software.iter().chain(&c.hardware).map(move |t| (name, t))
+        self.cases.iter().flat_map(|c| {
+            let timed = c.software.iter().chain(&c.hardware);
+            timed.map(|t| (c.case, t))
         })
+    }
+}
+
+/// The verdict of a record and its message: those of its end, else those of its picture.
+pub(crate) fn end(record: &BenchRecord) -> (Verdict, &str) {
+    match &record.ended {
+        Some(ended) => (ended.verdict, &ended.message),
+        None => (record.picture.verdict, &record.picture.message),
     }
 }
 

@@ -1,16 +1,16 @@
 //! `index.html` of a bench.
 
-use super::figures::{CaseFigures, Figures, Timed};
-use super::kind::KINDS;
-use super::ruler::drift;
-use super::spread::{Times, strip};
-use crate::numbers::{change, count, duration, percent, round_duration};
+use super::charts::{Times, drift, strip};
+use super::figures::{CaseFigures, Figures, KINDS, Timed, end};
+use crate::lists::distinct;
+use crate::numbers::{between, change, count, duration, percent, round_duration};
 use crate::page::Page;
-use crate::page::adapter::{breakable, details};
-use crate::page::origin::Origin;
+use crate::page::adapter::{adapter as adapter_cell, breakable, details};
+use crate::page::origin::origin;
+use crate::table::{Cell, Table, as_is};
 use crate::words;
-use etalon_record::{Bench, BenchRecord, Time, Verdict, cell};
-use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
+use etalon_record::{Bench, BenchRecord, Time, cell};
+use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER};
 use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("bench.css");
@@ -39,28 +39,19 @@ pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
             }
         }
     };
-    Page {
-        title: &format!("etalon bench {}", bench.header.started),
-        styles: &[OWN_STYLE],
-        script: None,
-        beside: false,
-        main,
-        source: "bench.jsonl in this folder",
-    }
+    Page::new(
+        &format!("etalon bench {}", bench.header.started),
+        "bench.jsonl in this folder",
+        &main,
+    )
+    .style(OWN_STYLE)
     .html()
 }
 
 fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
     let h = &bench.header;
     let untimed = figures.cases.iter().flat_map(|c| &c.untimed);
-    let bad = untimed.filter(|r| verdict(r).is_bad()).count() as u64;
-    let origin = Origin {
-        started: &h.started,
-        command: &h.command,
-        machine: &h.machine,
-        etalon: &h.etalon,
-        commit: h.commit.as_deref(),
-    };
+    let bad = untimed.filter(|r| end(r).0.is_bad()).count() as u64;
     html! {
         header {
             h1 { "etalon bench" }
@@ -75,7 +66,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
                 }
             }
             dl.facts {
-                (origin.facts())
+                (origin!(h))
                 dt { "Scope" } dd {
                     (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(u64::from(h.rounds), "round")) " each"
@@ -125,36 +116,27 @@ fn explanation() -> Markup {
 
 /// Medians of all cases on all adapters of a kind.
 fn overview(figures: &Figures<'_>, kind: bool, title: &str) -> Markup {
-    let mut adapters: Vec<&str> = Vec::new();
-    for timed in figures.cases.iter().flat_map(|c| c.of_kind(kind)) {
-        if !adapters.contains(&timed.adapter()) {
-            adapters.push(timed.adapter());
-        }
-    }
+    let timed = figures.cases.iter().flat_map(|c| c.of_kind(kind));
+    let mut adapters = distinct(timed.map(Timed::adapter));
     adapters.sort_unstable();
-    let cell = |case: &CaseFigures<'_>, adapter: &str| {
-        let timed = case.of_kind(kind).iter().find(|t| t.adapter() == adapter);
-        html! {
-            @match timed {
-                Some(t) if t.rank == 1 && adapters.len() > 1 => td.num.best { (duration(t.wall.median)) },
-                Some(t) => td.num { (duration(t.wall.median)) },
-                None => td.soft { "–" },
-            }
-        }
-    };
+    let several = adapters.len() > 1;
+    let mut table = Table::<(usize, &CaseFigures<'_>)>::new("times").head("Case", |(i, case)| {
+        html! { a href={ "#case-" (i) } { (case.case) } }
+    });
+    for adapter in &adapters {
+        table = table.number(adapter_cell(adapter), move |(_, case)| {
+            let timed = case.of_kind(kind).iter().find(|t| t.adapter() == *adapter);
+            timed.map(|t| {
+                let best = if t.rank == 1 && several { "best" } else { "" };
+                Cell::from(duration(t.wall.median)).class(best)
+            })
+        });
+    }
     html! {
         @if !adapters.is_empty() {
             section {
                 h2 { (title) " adapters, wall time per frame" }
-                div.wide { table.times {
-                    thead { tr { th { "Case" } @for a in &adapters { th { (breakable(a)) } } } }
-                    tbody { @for (i, case) in figures.cases.iter().enumerate() {
-                        tr {
-                            th scope="row" { a href={ "#case-" (i) } { (case.case) } }
-                            @for a in &adapters { (cell(case, a)) }
-                        }
-                    } }
-                } }
+                (table.page(figures.cases.iter().enumerate()))
                 p.cap { "Bold: first rank among these adapters. –: not timed." }
             }
         }
@@ -194,49 +176,30 @@ fn of_case(case: &CaseFigures<'_>, number: usize) -> Markup {
 
 fn table(rows: &[Timed<'_>], title: &str) -> Markup {
     let scale = Times::of(rows);
-    let shown: Vec<Time> = Time::ALL
-        .into_iter()
-        .filter(|t| rows.iter().any(|r| r.others.contains_key(t)))
-        .collect();
-    html! {
-        div.wide { table.times.stacked {
-            thead { tr {
-                th { "Rank" } th { (title) " adapter" } th { "Picture" } th { "Median" } th { "Interval" }
-                th { "p50" } th { "p95" } th { "Rounds × frames" } th { "Discarded" } th { "Visible" }
-                @for time in &shown { th { (time.name()) } }
-                th { "Spread" br; small { (scale.caption()) } }
-            } }
-            tbody { @for row in rows {
-                tr {
-                    td.num data-head="Rank" { (row.rank) }
-                    th scope="row" { (breakable(row.adapter())) }
-                    td data-head="Picture" { (words::name(row.record.picture.verdict)) small { " " (share(row.record)) } (ended(row.record)) }
-                    (figures_of(&row.wall))
-                    td.num data-head="Rounds × frames" { (row.wall.rounds) " × " (row.wall.samples / row.wall.rounds.max(1)) }
-                    td.num data-head="Discarded" { (row.record.discarded()) }
-                    td.num data-head="Visible" { @match row.wall.visible { Some(v) => (change(v)), None => "–" } }
-                    @for time in &shown {
-                        td.num data-head=(time.name()) { @match row.others.get(time) { Some(s) => (duration(s.median)), None => "–" } }
-                    }
-                    td data-head="Spread" { (strip(row, scale)) }
-                }
-            } }
-        } }
-    }
-}
-
-fn figures_of(s: &Summary) -> Markup {
-    html! {
-        td.num data-head="Median" { b { (duration(s.median)) } }
-        td.num data-head="Interval" {
-            @match s.interval {
-                Some([low, high]) => { (duration(low)) " to " (duration(high)) }
-                None => "–",
-            }
+    let mut table = Table::<&Timed<'_>>::new("times stacked")
+        .number("Rank", |row| row.rank)
+        .head(format!("{title} adapter"), |row| breakable(row.adapter()))
+        .text("Picture", |row| {
+            let verdict = words::name(row.record.picture.verdict);
+            html! { (verdict) small { " " (share(row.record)) } (ended(row.record)) }
+        })
+        .number("Median", |row| html! { b { (duration(row.wall.median)) } })
+        .number("Interval", |row| {
+            row.wall.interval.map(|ends| between(ends, duration))
+        })
+        .number(as_is("p50"), |row| duration(row.wall.p50))
+        .number(as_is("p95"), |row| duration(row.wall.p95))
+        .number("Rounds × frames", |row| row.counted(" × "))
+        .number("Discarded", |row| row.record.discarded().to_string())
+        .number("Visible", |row| row.wall.visible.map(change));
+    for time in Time::ALL {
+        if rows.iter().any(|row| row.others.contains_key(&time)) {
+            table = table.number(as_is(time.name()), move |row| row.other(time));
         }
-        td.num data-head="p50" { (duration(s.p50)) }
-        td.num data-head="p95" { (duration(s.p95)) }
     }
+    let spread = html! { "Spread" br; small { (scale.caption()) } };
+    let spread = Cell::from("Spread").on_page(spread);
+    table.text(spread, |row| strip(row, scale)).page(rows)
 }
 
 /// The share of the picture that was asserted.
@@ -252,18 +215,11 @@ fn ended(record: &BenchRecord) -> Markup {
     }
 }
 
-fn verdict(record: &BenchRecord) -> Verdict {
-    let ended = record.ended.as_ref().map(|e| e.verdict);
-    ended.unwrap_or(record.picture.verdict)
-}
-
 fn untimed(record: &BenchRecord) -> Markup {
-    let v = verdict(record);
-    let p = &record.picture;
-    let message = record.ended.as_ref().map_or(&p.message, |e| &e.message);
+    let (v, message) = end(record);
     html! {
         li {
-            (breakable(&p.adapter)) ": " (words::symbol(v)) " " (words::name(v)) ", no frame time"
+            (breakable(&record.picture.adapter)) ": " (words::symbol(v)) " " (words::name(v)) ", no frame time"
             @if !message.is_empty() { small { " " (message) } }
         }
     }

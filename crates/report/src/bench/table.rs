@@ -1,55 +1,39 @@
 //! The summary of a bench for a terminal.
 
-use super::figures::{Figures, Timed};
-use super::kind::KINDS;
-use crate::numbers::{change, count, duration};
-use crate::terminal::{self, TableOptions, wrapped};
+use super::figures::{Figures, KINDS, Timed, end};
+use crate::numbers::{between, change, count, duration};
+use crate::table::Table;
+use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::{Bench, Time, cell};
-use tabled::builder::Builder;
+use std::iter::repeat;
 
 /// The cases outside the performance matrix: a table per kind of adapter with a row per case and adapter, fastest first; then what was not
 /// timed, and why. Always ends in a newline.
 pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     let figures = Figures::new(bench);
     let mut text = String::new();
+    let cases = || figures.cases.iter().filter(|c| cell(c.case).is_none());
     for (kind, title) in KINDS {
-        let mut builder = Builder::default();
-        builder.push_record([
-            "case", "#", "adapter", "median", "interval", "p95", "cpu", "gpu", "n", "visible",
-        ]);
-        let mut rows = 0;
-        for case in figures.cases.iter().filter(|c| cell(c.case).is_none()) {
-            for (i, timed) in case.of_kind(kind).iter().enumerate() {
-                let name = if i == 0 { case.case } else { "" };
-                builder.push_record(row(name, timed));
-                rows += 1;
-            }
-        }
-        if rows > 0 {
-            // Samples, the visible change, the other times, the interval.
-            let (builder, _) = terminal::fit(builder, options, &[8, 7, 6, 9, 5, 4]);
-            let table = wrapped(terminal::table(builder, options, 3), options);
+        let rows: Vec<(&str, &Timed<'_>)> = cases()
+            .flat_map(|case| {
+                let names = [case.case].into_iter().chain(repeat(""));
+                names.zip(case.of_kind(kind))
+            })
+            .collect();
+        if !rows.is_empty() {
+            let optional = ["n", "gpu", "cpu", "visible", "p95", "interval"];
+            let (table, _) = table().terminal(rows, options, &optional);
             text.push_str(&format!("{title}\n{table}\n\n"));
         }
     }
-    let untimed: Vec<_> = figures
-        .cases
-        .iter()
-        .filter(|c| cell(c.case).is_none())
-        .flat_map(|c| &c.untimed)
-        .collect();
+    let untimed: Vec<_> = cases().flat_map(|c| &c.untimed).collect();
     if !untimed.is_empty() {
         text.push_str("Not timed\n");
         for record in untimed {
-            let p = &record.picture;
-            let verdict = record.ended.as_ref().map_or(p.verdict, |e| e.verdict);
-            let line = format!(
-                "{verdict}  {}  {}",
-                plain(&p.adapter, 60),
-                plain(&p.case, 200)
-            );
-            text.push_str(&format!("  {line}\n"));
+            let (verdict, p) = (end(record).0, &record.picture);
+            let (adapter, case) = (plain(&p.adapter, 60), plain(&p.case, 200));
+            text.push_str(&format!("  {verdict}  {adapter}  {case}\n"));
         }
         text.push('\n');
     }
@@ -65,26 +49,18 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     text
 }
 
-fn row(case: &str, timed: &Timed<'_>) -> Vec<String> {
-    let s = &timed.wall;
-    let other = |time: Time| match timed.others.get(&time) {
-        Some(summary) => duration(summary.median),
-        None => "·".to_owned(),
-    };
-    let interval = match s.interval {
-        Some([low, high]) => format!("{} to {}", duration(low), duration(high)),
-        None => "·".to_owned(),
-    };
-    vec![
-        plain(case, 120),
-        timed.rank.to_string(),
-        plain(timed.adapter(), 60),
-        duration(s.median),
-        interval,
-        duration(s.p95),
-        other(Time::Cpu),
-        other(Time::Gpu),
-        format!("{}×{}", s.rounds, s.samples / s.rounds.max(1)),
-        s.visible.map_or_else(|| "·".to_owned(), change),
-    ]
+fn table<'a>() -> Table<'a, (&'a str, &'a Timed<'a>)> {
+    Table::new("")
+        .text("case", |(case, _): &(&'a str, &'a Timed<'a>)| *case)
+        .text("#", |(_, timed)| timed.rank)
+        .text("adapter", |(_, timed)| timed.adapter())
+        .number("median", |(_, timed)| duration(timed.wall.median))
+        .number("interval", |(_, timed)| {
+            timed.wall.interval.map(|ends| between(ends, duration))
+        })
+        .number("p95", |(_, timed)| duration(timed.wall.p95))
+        .number("cpu", |(_, timed)| timed.other(Time::Cpu))
+        .number("gpu", |(_, timed)| timed.other(Time::Gpu))
+        .number("n", |(_, timed)| timed.counted("×"))
+        .number("visible", |(_, timed)| timed.wall.visible.map(change))
 }

@@ -1,13 +1,14 @@
 //! Writing the reports of a bench.
 
-use super::benchmarks::benchmarks;
-use super::figures::Figures;
+use super::figures::{Figures, Timed};
 use super::page;
 use crate::error::ReportError;
 use crate::files::replace;
 use crate::matrix::{self, Matrix};
-use etalon_dashboards::{ACTION_FILE, BENCHER_FILE};
-use etalon_record::Bench;
+use crate::numbers::change;
+use etalon_dashboards::{ACTION_FILE, BENCHER_FILE, Benchmark, Figure, nanoseconds};
+use etalon_record::{Bench, Time};
+use etalon_stats::Summary;
 use std::path::{Path, PathBuf};
 
 /// The files that [`write_bench`] writes.
@@ -47,12 +48,51 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
         html: replace(folder, HTML, html.as_bytes())?,
         bencher: replace(folder, BENCHER_FILE, &bencher)?,
         action: replace(folder, ACTION_FILE, &action)?,
-        matrix: match matrix.cells.is_empty() {
-            true => None,
-            false => Some([
+        matrix: if matrix.cells.is_empty() {
+            None
+        } else {
+            Some([
                 replace(folder, MATRIX, matrix::page(&matrix).as_bytes())?,
                 replace(folder, MATRIX_CSV, matrix::csv(&matrix).as_bytes())?,
-            ]),
+            ])
         },
     })
+}
+
+/// All that was timed, in the order of the figures.
+fn benchmarks(figures: &Figures<'_>) -> Vec<Benchmark> {
+    let each = figures.timed().map(|(case, timed)| {
+        let wall = [(Time::Wall, figure(&timed.wall))].into_iter();
+        let others = timed.others.iter().map(|(time, s)| (*time, figure(s)));
+        Benchmark {
+            // Ids and adapters hold no spaces.
+            name: format!("{case} {}", timed.adapter()),
+            times: wall.chain(others).collect(),
+            extra: extra(timed),
+        }
+    });
+    each.collect()
+}
+
+fn figure(summary: &Summary) -> Figure {
+    Figure {
+        median: summary.median,
+        interval: summary.interval,
+    }
+}
+
+fn extra(timed: &Timed<'_>) -> String {
+    let s = &timed.wall;
+    let visible = s.visible.map_or_else(
+        || "no change is visible with so few rounds".to_owned(),
+        |v| format!("smallest visible change {}", change(v)),
+    );
+    format!(
+        "{} rounds, {} samples, {} discarded as warm-up\np50 {} ns, p95 {} ns\n{visible}",
+        s.rounds,
+        s.samples,
+        timed.record.discarded(),
+        nanoseconds(s.p50),
+        nanoseconds(s.p95),
+    )
 }

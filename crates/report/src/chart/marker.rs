@@ -1,6 +1,6 @@
 //! Markers: a colour, a shape and a line pattern per method or adapter.
 
-use super::number::n;
+use super::plot::n;
 use maud::{Markup, html};
 
 /// The number of colours, shapes and line patterns; as many methods are told apart by each of them alone.

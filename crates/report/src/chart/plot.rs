@@ -1,6 +1,5 @@
 //! The frame of a chart: its place, box, grid, ticks and axis names.
 
-use super::number::n;
 use super::scale::Scale;
 use maud::{Markup, html};
 
@@ -71,6 +70,15 @@ impl Plot {
     }
 }
 
+/// A line through these places.
+pub(crate) fn polyline(places: &[(f64, f64)]) -> String {
+    let place = |(i, (x, y)): (usize, &(f64, f64))| {
+        let pen = if i == 0 { 'M' } else { 'L' };
+        format!("{pen}{} {}", n(*x), n(*y))
+    };
+    places.iter().enumerate().map(place).collect()
+}
+
 /// One chart: an image with a description for screen readers below its title, which may take several lines.
 pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
     let view = format!("0 0 {WIDTH} {height}");
@@ -82,5 +90,25 @@ pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Mar
                 (body)
             }
         }
+    }
+}
+
+/// A coordinate with one decimal at most.
+pub(crate) fn n(value: f64) -> String {
+    let text = format!("{value:.1}");
+    match text.strip_suffix(".0") {
+        Some("-0") => "0".to_owned(),
+        Some(whole) => whole.to_owned(),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn coordinates_are_short() {
+        assert_eq!(super::n(-0.04), "0");
+        assert_eq!(super::n(12.0), "12");
+        assert_eq!(super::n(12.34), "12.3");
     }
 }

@@ -37,7 +37,7 @@ pub use table::table;
 
 use crate::error::ReportError;
 use crate::export::status::incomplete;
-use crate::numbers::count;
+use crate::numbers::{capital, count};
 use etalon_record::{Record, Run, Shard, read_cases, shard_of};
 use pairs::{Folder, Matched};
 use std::cmp::Reverse;
@@ -68,11 +68,7 @@ pub fn diff(
         facts: facts::of_headers(&runs[0].header, &runs[1].header),
         untold: untold(&runs),
         unpaired: pairs::unpaired(first, second, &chosen, adapters.is_some()),
-        pairs: Vec::new(),
-        changes: Vec::new(),
-        only: Vec::new(),
-        times: Vec::new(),
-        methods: Vec::new(),
+        ..RunDiff::default()
     };
     for adapter in chosen {
         of_pair(&mut found, &folders, adapter, &selections);
@@ -174,9 +170,10 @@ impl Selections {
             });
         }
         let [_, after] = runs;
-        let list = match after.header.settings.selection.is_empty() {
-            true => None,
-            false => read_cases(folders[1], &after.header)?,
+        let list = if after.header.settings.selection.is_empty() {
+            None
+        } else {
+            read_cases(folders[1], &after.header)?
         };
         Ok(Self {
             same,
@@ -195,25 +192,20 @@ impl Selections {
     }
 }
 
-/// Parts of the runs that hold no word about their cases.
+/// The reasons for which the runs are incomplete.
 fn untold(runs: &[Run; 2]) -> Vec<String> {
-    let mut untold = Vec::new();
-    for (run, which) in runs.iter().zip(["first", "second"]) {
-        if let Some(why) = incomplete(run) {
-            untold.push(format!("the {which} run is incomplete: {why}"));
-        }
-    }
-    untold
+    let each = runs.iter().zip(["first", "second"]);
+    let each = each.filter_map(|(run, which)| {
+        let why = incomplete(run)?;
+        Some(format!("the {which} run is incomplete: {why}"))
+    });
+    each.collect()
 }
 
 /// Reasons for which the comparison may mislead.
 fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (run, which) in runs.iter().zip(["first", "second"]) {
-        if let Some(why) = incomplete(run) {
-            warnings.push(format!("The {which} run is incomplete: {why}."));
-        }
-    }
+    let untold = untold(runs).into_iter();
+    let mut warnings: Vec<String> = untold.map(|why| format!("{}.", capital(&why))).collect();
     if !same_selection {
         warnings.push(
             "The runs are of different selections of cases: a case that one of them does not select is \

@@ -64,16 +64,17 @@ struct Summary {
     duration: u64,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Status {
+    #[default]
     Passed,
     Failed,
     Skipped,
     Other,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Test<'a> {
     name: &'a str,
@@ -231,66 +232,60 @@ fn test(record: &Record) -> Test<'_> {
 
 /// The facts of a record that the format has no field for.
 fn extra(record: &Record) -> Map<String, Value> {
-    let mut extra = Map::new();
-    let mut put = |key: &str, value: Value| {
-        extra.insert(key.to_owned(), value);
-    };
-    put("adapter", json!(record.adapter));
-    if record.texels.total > 0 {
-        put("texels", json!(record.texels));
-    }
     let channels: u64 = record.assertions.iter().map(|a| a.channels).sum();
-    if channels > 0 {
-        let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
-        put("asserted", json!(asserted as f64 / channels as f64));
-    }
-    if let Some(expected) = &record.expected {
-        put("expected", json!(expected.reason));
-    }
-    if let Some(verdict) = record.improves {
-        put("improves", json!(verdict));
-    }
-    if record.due_fail {
-        put("dueFail", json!(true));
-    }
-    if !record.repeats.is_empty() {
-        put("repeats", json!(record.repeats));
-    }
-    if !record.after.is_empty() {
-        put("after", json!(record.after));
-    }
-    if !record.blocked_by.is_empty() {
-        put("blockedBy", json!(record.blocked_by));
-    }
-    if let Some(end) = &record.process {
-        put(
-            "process",
-            json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit, "seconds": end.seconds }),
-        );
-    }
-    extra
+    let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+    let t = &record.texels;
+    let process = record.process.as_ref().map(|end| {
+        json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit, "seconds": end.seconds })
+    });
+    let facts = [
+        ("adapter", Some(json!(record.adapter))),
+        ("texels", (t.total > 0).then(|| json!(t))),
+        (
+            "asserted",
+            (channels > 0).then(|| json!(asserted as f64 / channels as f64)),
+        ),
+        (
+            "expected",
+            record
+                .expected
+                .as_ref()
+                .map(|expected| json!(expected.reason)),
+        ),
+        ("improves", record.improves.map(|verdict| json!(verdict))),
+        ("dueFail", record.due_fail.then_some(json!(true))),
+        (
+            "repeats",
+            Some(json!(record.repeats)).filter(|_| !record.repeats.is_empty()),
+        ),
+        (
+            "after",
+            Some(json!(record.after)).filter(|_| !record.after.is_empty()),
+        ),
+        (
+            "blockedBy",
+            Some(json!(record.blocked_by)).filter(|_| !record.blocked_by.is_empty()),
+        ),
+        ("process", process),
+    ];
+    let facts = facts.into_iter();
+    facts
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)))
+        .collect()
 }
 
 fn completeness(incomplete: Option<String>) -> Test<'static> {
+    let (status, raw_status) = match incomplete {
+        None => (Status::Passed, "complete"),
+        Some(_) => (Status::Failed, "incomplete"),
+    };
     Test {
         name: "the run is complete",
-        status: match incomplete {
-            None => Status::Passed,
-            Some(_) => Status::Failed,
-        },
-        duration: 0,
+        status,
         suite: vec!["etalon"],
-        raw_status: match incomplete {
-            None => "complete",
-            Some(_) => "incomplete",
-        },
+        raw_status,
         message: incomplete,
-        trace: None,
-        flaky: None,
-        stdout: Vec::new(),
-        stderr: Vec::new(),
-        attachments: Vec::new(),
-        extra: Map::new(),
+        ..Test::default()
     }
 }
 

@@ -10,6 +10,7 @@ use crate::news::{News, NewsEntry};
 use crate::numbers::{count, percent_of};
 use crate::run::grid::Tally;
 use crate::run::unexpected::unexpected_records;
+use crate::table::{Table, some};
 use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_frame::Aspect;
 use etalon_record::{Assertion, Record, Run, Verdict};
@@ -41,6 +42,24 @@ impl Text {
             self.text.push('\n');
         }
         fits
+    }
+
+    /// Adds a section with a table.
+    fn table<R>(&mut self, title: &str, table: &Table<'_, R>, rows: impl IntoIterator<Item = R>) {
+        let (head, rows) = table.markdown(rows);
+        self.line(&format!("## {title}\n"));
+        self.line(&head);
+        self.lines(&rows, LISTED, String::clone);
+        self.line("");
+    }
+
+    /// Adds a section with a line per item; nothing if there are no items.
+    fn list<T>(&mut self, title: &str, all: &[T], line: impl Fn(&T) -> String) {
+        if !all.is_empty() {
+            self.line(&format!("## {title}\n"));
+            self.lines(all, LISTED, line);
+            self.line("");
+        }
     }
 
     /// Adds as many lines as there is room for, at most so many, and says how many more there are.
@@ -167,58 +186,34 @@ fn adapters(text: &mut Text, run: &Run) {
         .into_iter()
         .map(|(adapter, records)| (adapter, Tally::of(records)))
         .collect();
-    let occurs = |v: &Verdict| rows.iter().any(|(_, tally)| tally.plain(*v) > 0);
-    let verdicts: Vec<Verdict> = Verdict::ALL.into_iter().filter(occurs).collect();
-    let excused = rows.iter().any(|(_, tally)| tally.excused() > 0);
     let missing = |tally: &Tally| run.header.cases.saturating_sub(tally.total);
-    let some_missing = rows.iter().any(|(_, tally)| missing(tally) > 0);
-
-    let mut titles: Vec<String> = vec!["adapter".to_owned(), "driver".to_owned()];
-    titles.extend(
-        verdicts
-            .iter()
-            .map(|v| format!("{} {}", symbol(*v), name(*v))),
-    );
-    if excused {
-        titles.push("expected".to_owned());
-    }
-    titles.push("unexpected".to_owned());
-    if some_missing {
-        titles.push("missing".to_owned());
-    }
-    text.line("## Adapters\n");
-    text.line(&format!("| {} |", titles.join(" | ")));
-    text.line(&format!("|---|---{}|", "|---:".repeat(titles.len() - 2)));
-    text.lines(&rows, LISTED, |(adapter, tally)| {
-        let driver = run.header.adapter(adapter).map(|a| a.driver_text());
-        let mut cells = vec![
-            code(adapter, 100),
-            escaped(&driver.unwrap_or_default(), 200),
-        ];
-        let number = |n: u64| if n == 0 { String::new() } else { n.to_string() };
-        cells.extend(verdicts.iter().map(|v| number(tally.plain(*v))));
-        if excused {
-            cells.push(number(tally.excused()));
-        }
-        cells.push(match tally.unexpected {
-            0 => String::new(),
-            n => format!("**{n}**"),
+    let any = |of: &dyn Fn(&Tally) -> u64| rows.iter().any(|(_, tally)| of(tally) > 0);
+    let mut table = Table::<&(&str, Tally)>::new("")
+        .text("adapter", |(adapter, _)| code(adapter, 100))
+        .text("driver", |(adapter, _)| {
+            let driver = run.header.adapter(adapter).map(|a| a.driver_text());
+            escaped(&driver.unwrap_or_default(), 200)
         });
-        if some_missing {
-            cells.push(number(missing(tally)));
+    for verdict in Verdict::ALL {
+        if any(&|tally| tally.plain(verdict)) {
+            let title = format!("{} {}", symbol(verdict), name(verdict));
+            table = table.number(title, move |(_, tally)| some(tally.plain(verdict)));
         }
-        format!("| {} |", cells.join(" | "))
+    }
+    if any(&Tally::excused) {
+        table = table.number("expected", |(_, tally)| some(tally.excused()));
+    }
+    table = table.number("unexpected", |(_, tally)| {
+        some(tally.unexpected).map(|n| format!("**{n}**"))
     });
-    text.line("");
+    if any(&missing) {
+        table = table.number("missing", |(_, tally)| some(missing(tally)));
+    }
+    text.table("Adapters", &table, &rows);
 }
 
 fn unexpected(text: &mut Text, run: &Run) {
-    let bad = unexpected_records(run);
-    if bad.is_empty() {
-        return;
-    }
-    text.line("## Unexpected\n");
-    text.lines(&bad, LISTED, |record| {
+    text.list("Unexpected", &unexpected_records(run), |record| {
         let sign = match Tone::of(record) {
             Tone::Missed => symbol(Verdict::Fail),
             _ => symbol(record.verdict),
@@ -236,26 +231,19 @@ fn unexpected(text: &mut Text, run: &Run) {
         entry.push_str(&format!("\\\n  {}", code(&command::explain(record), 800)));
         entry
     });
-    text.line("");
 }
 
 fn improvements(text: &mut Text, run: &Run) {
     let better: Vec<&Record> = run.records.iter().filter(|r| r.improvement()).collect();
-    if better.is_empty() {
-        return;
-    }
-    text.line("## Better than expected\n");
-    text.lines(&better, LISTED, |record| {
-        let due = record.improves.map_or("", name);
+    text.list("Better than expected", &better, |record| {
         format!(
             "- {} on {}: {} expected, {} recorded",
             code(&record.case, 400),
             code(&record.adapter, 100),
-            due,
+            record.improves.map_or("", name),
             name(record.verdict)
         )
     });
-    text.line("");
 }
 
 /// The asserted channels over all adapters, by area and aspect.
@@ -271,20 +259,17 @@ fn asserted(text: &mut Text, run: &Run) {
     if sums.is_empty() {
         return;
     }
-    text.line("## What was asserted\n");
-    text.line("| area | aspect | channels | asserted | exactly one code legal |");
-    text.line("|---|---|---:|---:|---:|");
-    let rows: Vec<_> = sums.into_iter().collect();
-    text.lines(&rows, LISTED, |((area, aspect), sum)| {
-        format!(
-            "| {} | {aspect} | {} | {} | {} |",
-            code(area, 100),
-            sum.channels,
-            percent_of(sum.asserted, sum.channels),
+    let table = Table::<((&str, Aspect), Assertion)>::new("")
+        .text("area", |((area, _), _)| code(area, 100))
+        .text("aspect", |((_, aspect), _)| aspect.to_string())
+        .number("channels", |(_, sum)| sum.channels)
+        .number("asserted", |(_, sum)| {
+            percent_of(sum.asserted, sum.channels)
+        })
+        .number("exactly one code legal", |(_, sum)| {
             percent_of(sum.exact, sum.channels)
-        )
-    });
-    text.line("");
+        });
+    text.table("What was asserted", &table, sums);
 }
 
 fn absent(text: &mut Text, run: &Run) {

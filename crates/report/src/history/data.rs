@@ -8,6 +8,8 @@ use super::looks::Looks;
 use super::news::{self, News};
 use super::places::Places;
 use super::times::{Series, Timed};
+use crate::lists::Interner;
+use crate::numbers::trimmed;
 use crate::words::machine;
 use etalon_history::{History, Kind, TriageEntry, format_time};
 use serde_json::{Value, json};
@@ -58,34 +60,10 @@ impl Packed {
     }
 }
 
-/// Each text once, by place.
-struct Interner<T> {
-    places: BTreeMap<T, usize>,
-    all: Vec<T>,
-}
-
-impl<T: Ord + Clone> Interner<T> {
-    fn new() -> Self {
-        Self {
-            places: BTreeMap::new(),
-            all: Vec::new(),
-        }
-    }
-
-    fn place(&mut self, value: T) -> usize {
-        if let Some(place) = self.places.get(&value) {
-            return *place;
-        }
-        self.places.insert(value.clone(), self.all.len());
-        self.all.push(value);
-        self.all.len() - 1
-    }
-}
-
 /// All runs, timelines, drivers, machines and looks.
 pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Value {
-    let mut drivers: Interner<[String; 3]> = Interner::new();
-    let mut machines: Interner<String> = Interner::new();
+    let mut drivers: Interner<[String; 3]> = Interner::default();
+    let mut machines: Interner<String> = Interner::default();
     let timelines: Vec<Value> = places
         .timelines
         .iter()
@@ -134,8 +112,8 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
     json!({
         "runs": runs,
         "timelines": timelines,
-        "drivers": drivers.all,
-        "machines": machines.all,
+        "drivers": drivers.values,
+        "machines": machines.values,
         "looks": looks.data(),
     })
 }
@@ -297,14 +275,14 @@ pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
 fn timed(timed: &Timed) -> Value {
     let micros = |seconds: f64| number(seconds * 1e6);
     let medians: Vec<Value> = timed.points.iter().map(|p| micros(p.median)).collect();
-    let rulers: Vec<Value> = match timed.points.iter().any(|p| p.ruler.is_some()) {
-        true => timed
-            .points
-            .iter()
-            .map(|p| p.ruler.map_or(json!(0), micros))
-            .collect(),
-        false => Vec::new(),
-    };
+    let rulers = timed
+        .points
+        .iter()
+        .map(|p| p.ruler.map_or(json!(0), micros));
+    let mut rulers: Vec<Value> = rulers.collect();
+    if timed.points.iter().all(|p| p.ruler.is_none()) {
+        rulers.clear();
+    }
     let ratio = |r: &etalon_stats::Ratio| [number(r.estimate), number(r.low), number(r.high)];
     let changes: Vec<Value> = timed
         .told()
@@ -358,11 +336,8 @@ fn number(value: f64) -> Value {
         return json!(0);
     }
     let digits = 3 - value.abs().log10().floor() as i32;
-    let text = format!("{:.*}", usize::try_from(digits.min(12)).unwrap_or(0), value);
-    let short = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
-    };
+    let digits = usize::try_from(digits.min(12)).unwrap_or(0);
+    let short = trimmed(format!("{value:.digits$}"));
     match short.parse::<i64>() {
         Ok(whole) => json!(whole),
         Err(_) => short.parse::<f64>().map_or(json!(0), |n| json!(n)),

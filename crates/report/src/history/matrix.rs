@@ -5,6 +5,7 @@ use super::places::{Line, Places};
 use super::scores::Scores;
 use crate::numbers::{percent, thousands};
 use crate::page::adapter::breakable;
+use crate::table::{Cell, Table};
 use etalon_stats::{Score, Scores as Both};
 use maud::{Markup, html};
 use serde_json::{Value, json};
@@ -47,13 +48,32 @@ pub(super) fn table(
         .sum(0..families.names.len(), shown[0])
         .common
         .of;
-    let areas: Vec<usize> = (0..families.areas.len())
-        .filter(|area| {
-            let of = of_area(families, *area);
+    let areas = (0..families.areas.len())
+        .map(|area| (Some(&*families.areas[area]), of_area(families, area)));
+    let areas: Vec<(Option<&str>, Vec<usize>)> = areas
+        .filter(|(_, of)| {
             let own = |at: &usize| counted.scores.sum(of.iter().copied(), *at).own.of;
             shown.iter().any(|at| own(at) > 0)
         })
         .collect();
+    let all_areas = (None, (0..families.names.len()).collect());
+    let mut table = Table::<(Option<&str>, Vec<usize>)>::new("matrix over")
+        .spoken(format!("Good cases by area and version on {}", line.name))
+        .row_class(|(area, _)| area.map_or("sum", |_| ""))
+        .head("Area", |(area, _)| html! { (area.unwrap_or("all")) });
+    for (i, at) in shown.iter().enumerate() {
+        let run = &line.runs[*at];
+        let head = html! {
+            a href={ "#run=" (places.runs[run.place].id) } {
+                (run.part.adapter.shown_version()) " " small { (places.day(run.place)) }
+            }
+        };
+        table = table.text(head, move |(_, of)| {
+            let sum = |at: usize| counted.scores.sum(of.iter().copied(), at);
+            let before = i.checked_sub(1).map(|before| sum(shown[before]).common);
+            cell(&sum(*at), before)
+        });
+    }
     html! {
         details open[number < 3] {
             summary { h3 { (breakable(&line.name)) } " " small { (of_all(all.len(), shown.len())) } }
@@ -62,41 +82,16 @@ pub(super) fn table(
                 " cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. "
                 a href={ "#adapter=" (crate::page::link::encoded(&line.name)) } { "Every run" } "."
             }
-            div.wide { table.matrix.over {
-                caption.vh { "Good cases by area and version on " (line.name) }
-                thead { tr {
-                    th scope="col" { "Area" }
-                    @for at in shown {
-                        @let run = &line.runs[*at];
-                        th scope="col" {
-                            a href={ "#run=" (places.runs[run.place].id) } {
-                                (run.part.adapter.shown_version()) " " small { (places.day(run.place)) }
-                            }
-                        }
-                    }
-                } }
-                tbody {
-                    @for area in &areas {
-                        tr {
-                            th scope="row" { (families.areas[*area]) }
-                            (row(counted.scores, &of_area(families, *area), shown))
-                        }
-                    }
-                    tr.sum {
-                        th scope="row" { "all" }
-                        @let every: Vec<usize> = (0..families.names.len()).collect();
-                        (row(counted.scores, &every, shown))
-                    }
-                }
-            } }
+            (table.page(areas.into_iter().chain([all_areas])))
         }
     }
 }
 
 fn of_all(all: usize, shown: usize) -> String {
-    match all == shown {
-        true => format!("{all} columns"),
-        false => format!("the last {shown} of {all} columns"),
+    if all == shown {
+        format!("{all} columns")
+    } else {
+        format!("the last {shown} of {all} columns")
     }
 }
 
@@ -107,36 +102,26 @@ fn of_area(families: &Families, area: usize) -> Vec<usize> {
         .collect()
 }
 
-fn row(scores: &Scores, families: &[usize], shown: &[usize]) -> Markup {
-    let all: Vec<Both> = shown
-        .iter()
-        .map(|at| scores.sum(families.iter().copied(), *at))
-        .collect();
-    html! {
-        @for (i, both) in all.iter().enumerate() {
-            (cell(both, i.checked_sub(1).map(|before| all[before].common)))
-        }
-    }
-}
-
-fn cell(both: &Both, before: Option<Score>) -> Markup {
+fn cell(both: &Both, before: Option<Score>) -> Cell {
     let change = before.map_or(0, |b| both.common.good as i64 - b.good as i64);
-    html! {
-        td class=(if both.own.of == 0 { "u" } else { "s" }) style=[shade(both.common)] {
-            @match both.common.share() {
-                Some(share) => b { (percent(share, 2)) },
-                None => b { "–" },
-            }
-            @if change != 0 {
-                " " span.step.down[change < 0] { (if change < 0 { "▼" } else { "▲" }) (change.abs()) }
-            }
-            @if both.own.of > 0 && both.own != both.common {
-                small.c { (both.own.share().map_or_else(String::new, |s| percent(s, 2))) " of " (thousands(both.own.of as u64)) }
-            } @else if both.own.of == 0 {
-                small.c { "no verdict" }
-            }
+    let shown = html! {
+        @match both.common.share() {
+            Some(share) => b { (percent(share, 2)) },
+            None => b { "–" },
         }
-    }
+        @if change != 0 {
+            " " span.step.down[change < 0] { (if change < 0 { "▼" } else { "▲" }) (change.abs()) }
+        }
+        @if both.own.of > 0 && both.own != both.common {
+            small.c { (both.own.share().map_or_else(String::new, |s| percent(s, 2))) " of " (thousands(both.own.of as u64)) }
+        } @else if both.own.of == 0 {
+            small.c { "no verdict" }
+        }
+    };
+    let class = if both.own.of == 0 { "u" } else { "s" };
+    Cell::from(shown)
+        .class(class)
+        .with("style", shade(both.common))
 }
 
 /// From the colour of good cases to that of bad ones, over the tenth in which scores differ.

@@ -5,8 +5,9 @@ use super::families::Families;
 use super::looks::Looks;
 use super::places::{Line, Places};
 use super::times::{Series, Timed};
-use crate::numbers::{change, count};
-use etalon_history::{Subject, TriageState, TriageStates};
+use crate::lists::grouped;
+use crate::numbers::{between, change, count};
+use etalon_history::{Subject, TriageEntry, TriageState, TriageStates};
 use etalon_stats::{Cause, ChangePoint, Event};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -190,33 +191,28 @@ fn of_case(
     states: &TriageStates,
 ) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
-    let said = |hit: &Hit| {
+    let entry = |hit: &Hit| {
         states.get(&Subject {
             case: case.to_owned(),
             timeline: told[hit.line].line.name.to_string(),
             step: None,
         })
     };
-    let entries: Vec<_> = hits.iter().map(said).collect();
+    let entries: Vec<_> = hits.iter().map(entry).collect();
     let is_known = kind < 2
         && entries.iter().all(|entry| {
             entry.is_some_and(|e| matches!(e.state, TriageState::Ignored | TriageState::Real))
         });
     let chip = match entries.iter().flatten().next() {
-        Some(entry) if entry.reason.is_empty() => entry.state.name().to_owned(),
-        Some(entry) => format!("{}: {}", entry.state.name(), entry.reason),
+        Some(entry) => said(entry),
         None if kind < 2 && !unexpected => "expected".to_owned(),
         None => String::new(),
     };
     // Adapters with the same change share a mention.
-    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
-    for hit in hits {
-        let name: &str = &told[hit.line].line.name;
-        match texts.iter_mut().find(|(text, _)| *text == hit.text) {
-            Some((_, names)) => names.push(name),
-            None => texts.push((&hit.text, vec![name])),
-        }
-    }
+    let texts = grouped(
+        hits.iter()
+            .map(|hit| (&*hit.text, &*told[hit.line].line.name)),
+    );
     let texts: Vec<String> = texts
         .into_iter()
         .map(|(text, names)| format!("{text} on {}", named(&names)))
@@ -256,6 +252,12 @@ fn of_set(kind: usize, family: &str, lines: &BTreeMap<usize, u64>, told: &[Told<
         chip: String::new(),
         rank: (-(most as i64), family.to_owned()),
     }
+}
+
+/// The state of triage with its reason.
+fn said(entry: &TriageEntry) -> String {
+    let reason = if entry.reason.is_empty() { "" } else { ": " };
+    format!("{}{reason}{}", entry.state.name(), entry.reason)
 }
 
 fn named(names: &[&str]) -> String {
@@ -298,29 +300,33 @@ fn of_times(
         let size = ratio.estimate.ln().abs();
         items.push(Item {
             kind: if known { Kind::Known } else { Kind::Times },
-            word: match ratio.estimate > 1.0 {
-                true => "▲ slower".to_owned(),
-                false => "▼ faster".to_owned(),
-            },
+            word: if ratio.estimate > 1.0 {
+                "▲ slower"
+            } else {
+                "▼ faster"
+            }
+            .to_owned(),
             subject: case.to_owned(),
             is_family: false,
             text: format!(
-                "{} {} ({} to {}), p {}, between {} and {} on {}; a change of {} would be visible; {}{}",
+                "{} {} ({}), p {}, between {} and {} on {}; a change of {} would be visible; {}{}",
                 timed.time.name(),
                 change(ratio.estimate),
-                change(ratio.low),
-                change(ratio.high),
+                between([ratio.low, ratio.high], change),
                 probability(point.p),
                 run(point.between[0]),
                 run(point.between[1]),
                 told[series.line].line.name,
                 change(point.visible),
                 point.cause.text(),
-                if point.returns { "; it goes back and forth" } else { "" },
+                if point.returns {
+                    "; it goes back and forth"
+                } else {
+                    ""
+                },
             ),
             chip: match state {
-                Some(entry) if entry.reason.is_empty() => entry.state.name().to_owned(),
-                Some(entry) => format!("{}: {}", entry.state.name(), entry.reason),
+                Some(entry) => said(entry),
                 None if fresh => "found with this run".to_owned(),
                 None => "new".to_owned(),
             },

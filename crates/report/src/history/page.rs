@@ -8,6 +8,7 @@ use super::sparkline::{moves, sparkline};
 use crate::numbers::{count, percent, thousands};
 use crate::page::adapter::breakable;
 use crate::page::{self, Page, link};
+use crate::table::{Cell, Table};
 use etalon_history::History;
 use etalon_stats::Score;
 use maud::{Markup, PreEscaped, html};
@@ -15,6 +16,7 @@ use maud::{Markup, PreEscaped, html};
 /// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
+    include_str!("../page/base.js"),
     include_str!("script/load.js"),
     include_str!("script/runs.js"),
     include_str!("script/case.js"),
@@ -77,15 +79,10 @@ pub(super) fn page(start: &Start<'_>) -> String {
         script type="application/json" id="index" { (PreEscaped(start.index.replace('<', "\\u003c"))) }
         (page::script(SCRIPT))
     };
-    Page {
-        title: "History – etalon",
-        styles: &[include_str!("history.css")],
-        script: Some(SCRIPT),
-        beside: true,
-        main,
-        source: &source,
-    }
-    .html()
+    Page::new("History – etalon", &source, &main)
+        .style(include_str!("history.css"))
+        .script(SCRIPT, true)
+        .html()
 }
 
 fn news(start: &Start<'_>) -> Markup {
@@ -107,9 +104,10 @@ fn news(start: &Start<'_>) -> Markup {
 }
 
 fn line(item: &Item) -> Markup {
-    let href = match item.is_family {
-        true => format!("#q={}", link::encoded(&item.subject)),
-        false => link::case(&item.subject),
+    let href = if item.is_family {
+        format!("#q={}", link::encoded(&item.subject))
+    } else {
+        link::case(&item.subject)
     };
     html! {
         li class=(item.kind.colour()) {
@@ -130,27 +128,28 @@ fn last_runs(start: &Start<'_>) -> Markup {
             " " (run.part.adapter.shown_version())
         }
     };
-    html! {
-        div.wide { table.last {
-            caption { "Each adapter against its run before" }
-            thead { tr {
-                th scope="col" { "Adapter" } th scope="col" { "Last run" } th scope="col" { "Run before" }
-                @for word in ["Broken", "Flaky", "Fixed", "Appeared", "Gone"] { th.num scope="col" { (word) } }
-                th scope="col" { "Last change" }
-            } }
-            tbody { @for (line, counts) in start.told.iter().zip(&start.news.counts) {
-                tr {
-                    th scope="row" { a href={ "#adapter=" (link::encoded(&line.line.name)) } { (breakable(&line.line.name)) } }
-                    td { (run(line, line.last)) @if !line.line.runs[line.last].whole { " " small { "(a part)" } } }
-                    td { @match line.last.checked_sub(1) { Some(before) => (run(line, before)), None => "none" } }
-                    @for (kind, n) in counts.iter().enumerate() {
-                        td.num.f[kind == 0 && *n > 0].o[kind == 1 && *n > 0].p[kind == 2 && *n > 0] { (n) }
-                    }
-                    td { @match last_change(line) { Some(at) => (run(line, at)), None => "none" } }
-                }
-            } }
-        } }
+    type Row<'a> = (&'a Told<'a>, &'a [u64; 5]);
+    let mut table = Table::<Row<'_>>::new("last")
+        .caption("Each adapter against its run before")
+        .head("Adapter", |(line, _)| {
+            let name = &line.line.name;
+            html! { a href={ "#adapter=" (link::encoded(name)) } { (breakable(name)) } }
+        })
+        .text("Last run", |(line, _)| {
+            html! { (run(line, line.last)) @if !line.line.runs[line.last].whole { " " small { "(a part)" } } }
+        })
+        .text("Run before", |(line, _)| line.last.checked_sub(1).map(|at| run(line, at)));
+    let words = ["Broken", "Flaky", "Fixed", "Appeared", "Gone"];
+    for (kind, (word, colour)) in words.into_iter().zip(["f", "o", "p", "", ""]).enumerate() {
+        table = table.number(word, move |(_, counts)| {
+            Cell::from(counts[kind]).class(if counts[kind] > 0 { colour } else { "" })
+        });
     }
+    table
+        .text("Last change", |(line, _)| {
+            last_change(line).map(|at| run(line, at))
+        })
+        .page(start.told.iter().zip(&start.news.counts))
 }
 
 /// The last run that shows an event.
@@ -189,33 +188,27 @@ fn families(start: &Start<'_>) -> Markup {
 }
 
 fn curves(start: &Start<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], caption: &str) -> Markup {
-    html! {
-        div.wide { table.curves {
-            caption.vh { (caption) }
-            thead { tr {
-                th scope="col" { "Family" }
-                @for counted in start.counted { th scope="col" { (breakable(&counted.line.name)) } }
-            } }
-            tbody { @for family in shown {
-                @let name = &start.families.names[*family];
-                tr {
-                    th scope="row" { a href={ "#q=" (link::encoded(name)) } { (name) } }
-                    @for of in &scores[*family] { (curve(of)) }
-                }
-            } }
-        } }
+    let mut table = Table::<&usize>::new("curves")
+        .spoken(caption)
+        .head("Family", |family| {
+            let name = &start.families.names[**family];
+            html! { a href={ "#q=" (link::encoded(name)) } { (name) } }
+        });
+    for (i, counted) in start.counted.iter().enumerate() {
+        table = table.text(breakable(&counted.line.name), move |family| {
+            curve(&scores[**family][i])
+        });
     }
+    table.page(shown)
 }
 
-fn curve(scores: &[Score]) -> Markup {
+fn curve(scores: &[Score]) -> Cell {
     let last = scores.last().copied().unwrap_or_default();
-    html! {
-        @match last.share() {
-            Some(share) => td {
-                @if moves(scores) { (sparkline(scores)) " " }
-                small { (percent(share, 1)) " of " (thousands(last.of as u64)) }
-            },
-            None => td.u { small { "no common case" } },
-        }
+    match last.share() {
+        Some(share) => Cell::from(html! {
+            @if moves(scores) { (sparkline(scores)) " " }
+            small { (percent(share, 1)) " of " (thousands(last.of as u64)) }
+        }),
+        None => Cell::from(html! { small { "no common case" } }).class("u"),
     }
 }

@@ -1,5 +1,6 @@
 //! Small curves of a score over runs.
 
+use crate::chart::n;
 use crate::numbers::percent;
 use etalon_stats::Score;
 use maud::{Markup, html};
@@ -24,20 +25,17 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
     let span = (high - low).max(1) as f64;
     let points: Vec<usize> = match scores.len() {
         0..=POINTS => scores.iter().map(good).collect(),
-        n => (0..POINTS)
-            .map(|i| &scores[i * n / POINTS..(i + 1) * n / POINTS])
+        all => (0..POINTS)
+            .map(|i| &scores[i * all / POINTS..(i + 1) * all / POINTS])
             .map(|part| part.iter().map(good).min().unwrap_or(0))
             .collect(),
     };
     let step = WIDTH as f64 / points.len().max(2).saturating_sub(1) as f64;
-    let y = |good: usize| match high == low {
-        true => 2.0,
-        false => 2.0 + (high - good) as f64 / span * (HEIGHT - 4.0),
-    };
+    let y = |good: usize| 2.0 + (high - good) as f64 / span * (HEIGHT - 4.0);
     let mut path = String::new();
     let mut before = None;
     for (i, good) in points.iter().enumerate() {
-        let (x, y) = (short(i as f64 * step), short(y(*good)));
+        let (x, y) = (n(i as f64 * step), n(y(*good)));
         match before {
             None => path.push_str(&format!("M{x} {y}")),
             // A step, since a score holds until the next run; a level needs no point.
@@ -63,21 +61,12 @@ fn words(scores: &[Score]) -> String {
         share.map_or_else(|| "nothing".to_owned(), |share| percent(share, 1))
     };
     let least = scores.iter().min_by_key(|score| score.good);
-    match moves(scores) {
-        true => format!(
-            "from {} to {} good, at least {}",
-            share(scores.first()),
-            share(scores.last()),
-            share(least)
-        ),
-        false => format!("{} good in all runs", share(scores.last())),
+    let (first, last, least) = (share(scores.first()), share(scores.last()), share(least));
+    if moves(scores) {
+        format!("from {first} to {last} good, at least {least}")
+    } else {
+        format!("{last} good in all runs")
     }
-}
-
-/// A coordinate without digits that nobody sees.
-fn short(value: f64) -> String {
-    let text = format!("{value:.1}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use super::places::Places;
 use crate::threads::on_threads;
 use etalon_history::{
-    History, HistoryError, MachineId, RunId, SeriesKey, Subject, TimePoint, TriageEntry,
-    TriageStates,
+    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry, TriageStates,
 };
 use etalon_record::Time;
 use etalon_stats::{ChangePoint, Changes, Point, change_points};
@@ -45,16 +44,27 @@ pub(super) fn read(
     places: &Places<'_>,
     states: &TriageStates,
 ) -> Result<Vec<Series>, HistoryError> {
-    let mut all = Vec::new();
+    let mut all: Vec<Series> = Vec::new();
     let mut measured = Vec::new();
     for key in history.series_keys()? {
         let line = places.timelines.iter().position(|l| l.name == key.timeline);
         let Some(line) = line else { continue };
-        let of_case = Said::of(history, &key, states)?;
+        let said = said(history, &key, places, states)?;
         for (ruler, points) in history.series_by_ruler(&key)? {
-            let times = TIMES.into_iter();
-            let times = times.filter_map(|time| Measured::new(time, &points, places, &of_case));
-            measured.extend(times.map(|one| (all.len(), one)));
+            for time in TIMES {
+                let point = |p: &TimePoint| Some((places.of(p.run)?, p.times.point(time)?));
+                let (runs, points): (Vec<_>, Vec<_>) = points.iter().filter_map(point).unzip();
+                let said = said.iter().filter(|(of, ..)| *of == time);
+                if !points.is_empty() {
+                    measured.push(Measured {
+                        series: all.len(),
+                        time,
+                        runs,
+                        points,
+                        said: said.map(|(_, place, entry)| (*place, *entry)).collect(),
+                    });
+                }
+            }
             all.push(Series {
                 case: key.case.number() as usize - 1,
                 line,
@@ -64,124 +74,82 @@ pub(super) fn read(
             });
         }
     }
-    // Changes take nearly all of the time.
-    let found = on_threads(&measured, |(_, one)| Found::of(&one.points));
-    for ((series, one), found) in measured.into_iter().zip(found) {
-        let timed = found.map(|found| Timed::new(one, found, places));
-        all[series].times.extend(timed);
+    // Changes take nearly all of the time. All points were checked, so there is no error.
+    let found = on_threads(&measured, |one| {
+        let changes = change_points(&one.points).ok()?;
+        let fresh = fresh(&one.points, &changes);
+        Some((changes, fresh))
+    });
+    for (one, found) in measured.into_iter().zip(found) {
+        let Some((changes, fresh)) = found else {
+            continue;
+        };
+        all[one.series].times.push(Timed {
+            states: changes
+                .points
+                .iter()
+                .map(|change| one.state(change))
+                .collect(),
+            time: one.time,
+            runs: one.runs,
+            points: one.points,
+            changes,
+            fresh,
+        });
     }
     all.retain(|series| !series.times.is_empty());
     Ok(all)
 }
 
-/// One time of a series, and what people said of it.
+/// One time of a series.
 struct Measured<'a> {
+    /// The place of the series.
+    series: usize,
     time: Time,
     /// The places of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    said: Vec<(RunId, &'a TriageEntry)>,
+    /// What people said of its steps, by the place of the run.
+    said: Vec<(usize, &'a TriageEntry)>,
 }
 
-impl<'a> Measured<'a> {
-    /// `None` where no run measured it.
-    fn new(time: Time, points: &[TimePoint], places: &Places<'_>, said: &Said<'a>) -> Option<Self> {
-        let usable = points.iter().filter_map(|point| {
-            let place = places.of(point.run)?;
-            Some((place, point.times.point(time)?))
+impl Measured<'_> {
+    /// The entry about the first run after a change, else the one about the last run within its ends.
+    fn state(&self, change: &ChangePoint) -> Option<TriageEntry> {
+        let [after, by] = change.between.map(|at| self.runs.get(at).copied());
+        let first = self.runs.get(change.index).copied();
+        let ranked = self.said.iter().filter_map(|(place, entry)| {
+            let is_first = first == Some(*place);
+            let within =
+                after.is_some_and(|after| *place > after) && by.is_some_and(|by| *place <= by);
+            (is_first || within).then_some(((is_first, *place), *entry))
         });
-        let (runs, points): (Vec<usize>, Vec<Point>) = usable.unzip();
-        let said = said.entries.iter().filter(|(of, ..)| *of == time);
-        (!points.is_empty()).then(|| Self {
-            time,
-            runs,
-            points,
-            said: said.map(|(_, run, entry)| (*run, *entry)).collect(),
-        })
+        let (_, entry) = ranked.max_by_key(|(rank, _)| *rank)?;
+        Some(entry.clone())
     }
 }
 
-/// The changes of one time.
-struct Found {
-    changes: Changes,
-    /// True by change if the last run showed it.
-    fresh: Vec<bool>,
-}
-
-impl Found {
-    fn of(points: &[Point]) -> Option<Self> {
-        // All points were checked, so there is no error.
-        let changes = change_points(points).ok()?;
-        let fresh = fresh(points, &changes);
-        Some(Self { changes, fresh })
+/// The entries about the steps of a series: the time, the place of the run, the entry.
+fn said<'a>(
+    history: &History,
+    key: &SeriesKey,
+    places: &Places<'_>,
+    states: &'a TriageStates,
+) -> Result<Vec<(Time, usize, &'a TriageEntry)>, HistoryError> {
+    if states.is_empty() {
+        return Ok(Vec::new());
     }
-}
-
-/// The entries about the steps of one series: the time, the place of the run, the entry.
-struct Said<'a> {
-    entries: Vec<(Time, RunId, &'a TriageEntry)>,
-}
-
-impl<'a> Said<'a> {
-    fn of(
-        history: &History,
-        key: &SeriesKey,
-        states: &'a TriageStates,
-    ) -> Result<Self, HistoryError> {
-        if states.is_empty() {
-            return Ok(Self {
-                entries: Vec::new(),
-            });
-        }
-        let case = history.case_name(key.case)?;
-        let of = |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
-        let entries = states.iter().filter(|(subject, _)| of(subject));
-        let entries = entries.filter_map(|(subject, entry)| {
-            let step = subject.step.filter(|step| step.machine == key.machine)?;
-            Some((step.time, step.run, entry))
-        });
-        Ok(Self {
-            entries: entries.collect(),
-        })
-    }
+    let case = history.case_name(key.case)?;
+    let of = |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
+    let entries = states.iter().filter(|(subject, _)| of(subject));
+    let entries = entries.filter_map(|(subject, entry)| {
+        let step = subject.step.filter(|step| step.machine == key.machine)?;
+        Some((step.time, places.of(step.run)?, entry))
+    });
+    Ok(entries.collect())
 }
 
 impl Timed {
-    fn new(measured: Measured<'_>, found: Found, places: &Places<'_>) -> Self {
-        let Measured {
-            time,
-            runs,
-            points,
-            said,
-        } = measured;
-        let Found { changes, fresh } = found;
-        let states = changes.points.iter().map(|change| {
-            let [after, by] = change.between.map(|at| runs.get(at).copied());
-            let first = runs.get(change.index).copied();
-            // An entry about the first run behind the change, else about the last run within its ends.
-            let rank = |place: usize| {
-                let is_first = first == Some(place);
-                let within =
-                    after.is_some_and(|after| place > after) && by.is_some_and(|by| place <= by);
-                (is_first || within).then_some((is_first, place))
-            };
-            let entries = said.iter();
-            let ranked = entries.filter_map(|(run, entry)| Some((rank(places.of(*run)?)?, *entry)));
-            ranked
-                .max_by_key(|(rank, _)| *rank)
-                .map(|(_, entry)| entry.clone())
-        });
-        let states = states.collect();
-        Self {
-            time,
-            runs,
-            points,
-            changes,
-            states,
-            fresh,
-        }
-    }
-
     /// The changes with what people said of each, and whether the last run showed them.
     pub(super) fn told(&self) -> impl Iterator<Item = (&ChangePoint, Option<&TriageEntry>, bool)> {
         let told = self.changes.points.iter().zip(&self.states);

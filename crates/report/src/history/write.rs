@@ -3,7 +3,6 @@
 use super::courses::Courses;
 use super::data::{self, CaseFiles, Packed, file};
 use super::families::Families;
-use super::folder::{Folder, HISTORY_PAGE_FILE};
 use super::looks::Looks;
 use super::matrix::{self, Counted};
 use super::news::{News, Told};
@@ -12,10 +11,16 @@ use super::places::Places;
 use super::scores::Scores;
 use super::times::{self, Series};
 use crate::error::ReportError;
+use crate::staged::{Content, Staged};
 use etalon_history::{History, Labels, TriageEntry};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// The file by which a folder is known to be the page of a history.
+pub const HISTORY_PAGE_FILE: &str = "history.json";
+/// All that such a folder has at its top.
+const TOP: [&str; 3] = ["index.html", "data", HISTORY_PAGE_FILE];
 
 /// The pages of a history, written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +51,16 @@ pub fn write_history(
             path: history.path().to_owned(),
         });
     }
-    let mut folder = Folder::begin(to)?;
+    match Content::of(to, HISTORY_PAGE_FILE, &TOP)? {
+        Content::Empty | Content::Earlier => {}
+        Content::Foreign(path) => return Err(ReportError::NotOfTheHistory { path }),
+        Content::Other => {
+            return Err(ReportError::NoHistoryPage {
+                path: to.to_owned(),
+            });
+        }
+    }
+    let mut folder = Staged::begin(to)?;
     let cases = history.cases()?;
     let families = Families::new(cases);
     let mut looks = Looks::default();
@@ -88,8 +102,9 @@ pub fn write_history(
         ranks[*case] = rank;
     }
 
-    let mut write =
-        |name: &str, value: &str| folder.write(&format!("data/{name}.js"), &file(name, value));
+    let mut write = |name: &str, value: &str| {
+        folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
+    };
     write("runs", &data::runs(history, &places, &looks).to_string())?;
     write("cases", &data::cases(cases, &order).to_string())?;
     write("news", &data::news(&news).to_string())?;
@@ -150,9 +165,9 @@ pub fn write_history(
         cases: cases.len(),
         index: &index.to_string(),
     });
-    folder.write("index.html", &html)?;
+    folder.write("index.html", html.as_bytes())?;
     let about = json!({ "format": 1, "runs": places.runs.len(), "cases": cases.len() });
-    folder.write(HISTORY_PAGE_FILE, &format!("{about}\n"))?;
+    folder.write(HISTORY_PAGE_FILE, format!("{about}\n").as_bytes())?;
     let (files, bytes) = (folder.files, folder.bytes);
     folder.finish()?;
     Ok(WrittenHistory {

@@ -66,8 +66,9 @@ fn number(value: Option<f64>) -> String {
 /// A field on one line, in quotes where it needs them.
 fn field(text: &str) -> String {
     let text = plain(text, 1000);
-    match text.contains([',', '"']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text,
+    if text.contains([',', '"']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text
     }
 }

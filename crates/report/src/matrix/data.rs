@@ -1,6 +1,7 @@
 //! The cells of a bench: their rates, and what they are held against.
 
-use crate::bench::kind::software;
+use crate::bench::figures::{end, software};
+use crate::lists::{distinct, grouped};
 use etalon_record::{Bench, BenchRecord, CellRate, Measure, Verdict, cell};
 use std::collections::BTreeMap;
 
@@ -71,10 +72,8 @@ impl Outcome {
             ended || !r.picture.may_be_timed()
         });
         if let Some(record) = wrong {
-            let picture = (record.picture.verdict, &record.picture.message);
-            let ended = record.ended.as_ref().map(|e| (e.verdict, &e.message));
-            let (verdict, message) = ended.unwrap_or(picture);
-            return Self::Untimed(verdict, message.clone());
+            let (verdict, message) = end(record);
+            return Self::Untimed(verdict, message.to_owned());
         }
         let [one, other] = records else {
             return Self::Incomplete;
@@ -101,27 +100,13 @@ const CLEAR: (&str, &[(&str, &str)]) = ("clear", &[("format", "rgba8unorm")]);
 
 impl<'a> Matrix<'a> {
     pub(crate) fn new(bench: &'a Bench) -> Self {
-        let mut found: Vec<(String, BTreeMap<&'a str, Vec<&'a BenchRecord>>)> = Vec::new();
-        let mut places: BTreeMap<String, usize> = BTreeMap::new();
-        let mut adapters: Vec<&str> = Vec::new();
-        for record in &bench.records {
-            let picture = &record.picture;
-            let Some(name) = cell(&picture.case) else {
-                continue;
-            };
-            if !adapters.contains(&picture.adapter.as_str()) {
-                adapters.push(&picture.adapter);
-            }
-            let place = *places.entry(name.clone()).or_insert_with(|| {
-                found.push((name, BTreeMap::new()));
-                found.len() - 1
-            });
-            let all = found[place].1.entry(&picture.adapter).or_default();
-            all.push(record);
-        }
-        let mut cells: Vec<Cell> = found
-            .into_iter()
-            .map(|(name, records)| Cell::new(bench, name, &records))
+        let records = bench.records.iter();
+        let named = records.filter_map(|r| Some((cell(&r.picture.case)?, r)));
+        let named: Vec<(String, &'a BenchRecord)> = named.collect();
+        let adapters = distinct(named.iter().map(|(_, r)| r.picture.adapter.as_str()));
+        let cells = grouped(named).into_iter();
+        let mut cells: Vec<Cell> = cells
+            .map(|(name, records)| Cell::new(bench, name, records))
             .collect();
         hold_against(&mut cells, &adapters);
         Self {
@@ -138,7 +123,7 @@ impl<'a> Matrix<'a> {
 }
 
 impl Cell {
-    fn new(bench: &Bench, name: String, records: &BTreeMap<&str, Vec<&BenchRecord>>) -> Self {
+    fn new(bench: &Bench, name: String, records: Vec<&BenchRecord>) -> Self {
         let mut parts = name.split('/').skip(2);
         let group = parts.next().unwrap_or_default().to_owned();
         let axis = |part: &str| {
@@ -147,13 +132,14 @@ impl Cell {
         };
         let mut axes: BTreeMap<String, String> = parts.filter_map(axis).collect();
         let size = axes.remove("size").unwrap_or_default();
-        let results = records.iter().map(|(adapter, records)| {
+        let results = grouped(records.into_iter().map(|r| (r.picture.adapter.as_str(), r)));
+        let results = results.into_iter().map(|(adapter, records)| {
             let entry = Entry {
-                outcome: Outcome::new(records, software(bench.header.adapter(adapter))),
+                outcome: Outcome::new(&records, software(bench.header.adapter(adapter))),
                 of_base: None,
                 of_clear: None,
             };
-            ((*adapter).to_owned(), entry)
+            (adapter.to_owned(), entry)
         });
         Self {
             group,
@@ -207,17 +193,6 @@ fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
             }
         }
     }
-}
-
-/// Values without those that stand before.
-pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
-    let mut all = Vec::new();
-    for value in values {
-        if !all.contains(&value) {
-            all.push(value);
-        }
-    }
-    all
 }
 
 /// The unit of a rate, and by how much a rate in units per second is divided.

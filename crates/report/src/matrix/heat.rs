@@ -1,6 +1,7 @@
 //! The layout of heat maps: which cells stand in one, and where.
 
-use super::data::{Cell, distinct};
+use super::data::Cell;
+use crate::lists::distinct;
 
 /// A heat map: rows are blending and format, columns tests and samples.
 pub(super) struct Heat<'a> {

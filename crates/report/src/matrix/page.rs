@@ -9,14 +9,20 @@ use super::heat::Heat;
 use super::table::half_width;
 use crate::numbers::{count, digits, duration, percent, round_duration};
 use crate::page::adapter::breakable;
-use crate::page::origin::Origin;
+use crate::page::origin::origin;
 use crate::page::{Page, script};
+use crate::table::{self, Table, as_is};
 use etalon_record::{CellRate, Measure, Time};
 use etalon_stats::{RATE_CONFIDENCE, quantile};
 use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("page/matrix.css");
-const SCRIPT: &str = include_str!("page/matrix.js");
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("../page/base.js"),
+    include_str!("page/matrix.js"),
+    "})();\n",
+);
 
 /// The page.
 pub(crate) fn page(matrix: &Matrix<'_>) -> String {
@@ -41,26 +47,18 @@ pub(crate) fn page(matrix: &Matrix<'_>) -> String {
         }
         (script(SCRIPT))
     };
-    Page {
-        title: &format!("etalon matrix {}", matrix.bench.header.started),
-        styles: &[OWN_STYLE],
-        script: Some(SCRIPT),
-        beside: false,
-        main,
-        source: "bench.jsonl in this folder",
-    }
+    Page::new(
+        &format!("etalon matrix {}", matrix.bench.header.started),
+        "bench.jsonl in this folder",
+        &main,
+    )
+    .style(OWN_STYLE)
+    .script(SCRIPT, false)
     .html()
 }
 
 fn head(matrix: &Matrix<'_>) -> Markup {
     let h = &matrix.bench.header;
-    let origin = Origin {
-        started: &h.started,
-        command: &h.command,
-        machine: &h.machine,
-        etalon: &h.etalon,
-        commit: h.commit.as_deref(),
-    };
     let entries = || matrix.cells.iter().flat_map(|c| c.results.values());
     let below = entries()
         .filter(|e| matches!(e.outcome, Outcome::Below(_)))
@@ -74,7 +72,7 @@ fn head(matrix: &Matrix<'_>) -> Markup {
                 p.state.bad { b { "! Incomplete. " } (count(missing, "round")) " missing." }
             }
             dl.facts {
-                (origin.facts())
+                (origin!(h))
                 dt { "Scope" } dd {
                     (count(matrix.cells.len() as u64, "cell")) " (" (h.profile) ") on "
                     (count(matrix.adapters.len() as u64, "adapter")) ", up to " (count(u64::from(h.rounds), "round")) " each"
@@ -230,49 +228,35 @@ fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> S
         .iter()
         .find_map(|c| c.results.get(adapter)?.outcome.times());
     let unit = measure.map_or("rate", |t| unit(t.measure).0);
-    html! {
-        div.wide { table.list {
-            caption { (group.replace('-', " ")) }
-            thead { tr {
-                th scope="col" { "cell" } th scope="col" { (unit) } th scope="col" { "±" } th scope="col" { "of base" }
-                th scope="col" { "of clear" }
-            } }
-            tbody { @for cell in cells { (row(cell, adapter, link)) } }
-        } }
-    }
+    let share = |share: Option<f64>| share.map(share_of);
+    Table::new("list")
+        .caption(group.replace('-', " "))
+        .head("Cell", |cell: &&Cell| {
+            let axes = cell
+                .axes
+                .iter()
+                .map(|(axis, value)| format!("{} {value}", axis.replace('_', " ")));
+            axes.collect::<Vec<_>>().join(", ")
+        })
+        .number(as_is(unit), |cell| {
+            cell.results.get(adapter).map(|entry| {
+                let shown = html! { a href={ "#" (link(cell)) } { (value(entry)) } };
+                let rate = entry.outcome.rate();
+                table::Cell::from(shown).with("data-rate", rate.map(|rate| rate.to_string()))
+            })
+        })
+        .number("±", |cell| half(cell.results.get(adapter)?))
+        .number("of base", |cell| share(cell.results.get(adapter)?.of_base))
+        .number("of clear", |cell| {
+            share(cell.results.get(adapter)?.of_clear)
+        })
+        .page(cells.iter().copied())
 }
 
-fn row(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
-    let axes: Vec<String> = cell
-        .axes
-        .iter()
-        .map(|(axis, value)| format!("{} {value}", axis.replace('_', " ")))
-        .collect();
-    let entry = cell.results.get(adapter);
-    let share = |share: Option<f64>| share.map_or("–".to_owned(), share_of);
-    html! {
-        tr {
-            th scope="row" { (axes.join(", ")) }
-            @match entry {
-                None => { td.soft { "–" } td {} td {} td {} },
-                Some(entry) => {
-                    td.num data-rate=[entry.outcome.rate()] { a href={ "#" (link(cell)) } { (value(entry)) } }
-                    td.num { (half(entry)) }
-                    td.num { (share(entry.of_base)) }
-                    td.num { (share(entry.of_clear)) }
-                }
-            }
-        }
-    }
-}
-
-fn half(entry: &Entry) -> String {
-    let times = entry
-        .outcome
-        .times()
-        .and_then(|t| Some((t, t.slope.rate()?)));
-    let share = times.and_then(|(t, rate)| half_width(t.slope.rate_interval(), rate));
-    share.map_or("–".to_owned(), |s| format!("{} %", digits(s * 100.0, 2)))
+fn half(entry: &Entry) -> Option<String> {
+    let times = entry.outcome.times()?;
+    let share = half_width(times.slope.rate_interval(), times.slope.rate()?)?;
+    Some(format!("{} %", digits(share * 100.0, 2)))
 }
 
 /// The samples of a cell on an adapter, or why there are none.

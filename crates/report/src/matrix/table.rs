@@ -3,27 +3,27 @@
 use super::csv::state;
 use super::data::{Cell, Entry, Matrix, unit};
 use crate::numbers::digits;
-use crate::terminal::{self, TableOptions, wrapped};
+use crate::table::Table;
+use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::Bench;
-use tabled::builder::Builder;
 
 /// A row per cell with its rate on each adapter; empty where the bench has no cell.
 pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
     let matrix = Matrix::new(bench);
     let mut text = String::new();
     for size in matrix.sizes() {
-        let mut builder = Builder::default();
-        let mut head = vec!["cell".to_owned(), "unit".to_owned()];
-        head.extend(matrix.adapters.iter().map(|a| plain(a, 40)));
-        builder.push_record(head);
         let cells: Vec<&Cell> = matrix.cells.iter().filter(|c| c.size == size).collect();
-        for cell in &cells {
-            let mut row = row(cell, &matrix.adapters);
-            row.insert(0, plain(&short(cell, &cells), 100));
-            builder.push_record(row);
+        let mut table = Table::<&Cell>::new("")
+            .text("cell", |cell| short(cell, &cells))
+            .text("unit", |cell| {
+                let measure = cell.results.values().find_map(|e| e.outcome.times());
+                measure.map(|t| unit(t.measure).0)
+            });
+        for adapter in &matrix.adapters {
+            table = table.number(*adapter, |cell| cell.results.get(*adapter).map(figures));
         }
-        let table = wrapped(terminal::table(builder, options, 2), options);
+        let (table, _) = table.terminal(cells.iter().copied(), options, &[]);
         text.push_str(&format!("Matrix, {}\n{table}\n\n", plain(size, 40)));
     }
     if !text.is_empty() {
@@ -44,18 +44,6 @@ fn short(cell: &Cell, cells: &[&Cell]) -> String {
     let axes = cell.axes.iter().filter(|(axis, _)| differ(axis));
     let axes = axes.map(|(axis, value)| format!(" {axis}={value}"));
     format!("{}{}", cell.group, axes.collect::<String>())
-}
-
-fn row(cell: &Cell, adapters: &[&str]) -> Vec<String> {
-    let measure = cell.results.values().find_map(|e| e.outcome.times());
-    let unit = measure.map_or("·", |t| unit(t.measure).0);
-    let mut row = vec![unit.to_owned()];
-    let entry = |adapter: &&str| match cell.results.get(*adapter) {
-        Some(entry) => figures(entry),
-        None => "·".to_owned(),
-    };
-    row.extend(adapters.iter().map(entry));
-    row
 }
 
 fn figures(entry: &Entry) -> String {

@@ -5,7 +5,9 @@ mod outcome;
 mod words;
 
 use super::data::Methods;
+use crate::lists::distinct;
 use crate::numbers::count;
+use crate::table::{Cell, Table};
 use check::{Checked, check};
 use etalon_methods::claims;
 use maud::{Markup, html};
@@ -35,32 +37,32 @@ pub(super) fn section(methods: &Methods<'_>) -> Markup {
 }
 
 fn table(claims: &[Checked<'_>]) -> Markup {
+    Table::new("text stacked")
+        .head("Claim", |checked: &&Checked<'_>| {
+            html! { (checked.claim.title) br; cite { (checked.claim.source) } }
+        })
+        .text("Compared", |checked| words::compared(checked.claim))
+        .text("Measured", |checked| measured(checked))
+        .text("Outcome", |checked| {
+            let found = Reproduction::of(&checked.figures);
+            let shown = html! { span class={ "chip " (found.class()) } { (found.text()) } };
+            Cell::from(shown).class("verdict").class(found.class())
+        })
+        .page(claims)
+}
+
+fn measured(checked: &Checked<'_>) -> Markup {
     html! {
-        div.wide { table.text.stacked {
-            thead { tr { th scope="col" { "Claim" } th scope="col" { "Compared" } th scope="col" { "Measured" } th scope="col" { "Outcome" } } }
-            tbody {
-                @for checked in claims {
-                    @let found = Reproduction::of(&checked.figures);
-                    tr {
-                        th scope="row" { (checked.claim.title) br; cite { (checked.claim.source) } }
-                        td data-head="Compared" { (words::compared(checked.claim)) }
-                        td data-head="Measured" {
-                            @if checked.figures.is_empty() { "–" }
-                            @for told in together(&checked.figures) {
-                                div {
-                                    @if let Some(sign) = told.holds.sign() { (sign) " " }
-                                    b { (told.text) } small { " " (told.places) }
-                                }
-                            }
-                            @if !checked.blind.is_empty() {
-                                div.u { span.chip.u { "not measured" } " on " (checked.blind.join(", ")) ", where fragments are counted before the depth test" }
-                            }
-                        }
-                        td data-head="Outcome" class={ "verdict " (found.class()) } { span class={ "chip " (found.class()) } { (found.text()) } }
-                    }
-                }
+        @if checked.figures.is_empty() { "–" }
+        @for told in together(&checked.figures) {
+            div {
+                @if let Some(sign) = told.holds.sign() { (sign) " " }
+                b { (told.text) } small { " " (told.places) }
             }
-        } }
+        }
+        @if !checked.blind.is_empty() {
+            div.u { span.chip.u { "not measured" } " on " (checked.blind.join(", ")) ", where fragments are counted before the depth test" }
+        }
     }
 }
 
@@ -84,16 +86,8 @@ fn together(figures: &[Figure]) -> Vec<Told> {
         }
     }
     let told = groups.into_iter().map(|(holds, scene, all)| {
-        let mut adapters: Vec<&str> = Vec::new();
-        let mut settings: Vec<&str> = Vec::new();
-        for f in &all {
-            if !adapters.contains(&f.adapter.as_str()) {
-                adapters.push(&f.adapter);
-            }
-            if !settings.contains(&f.setting.as_str()) {
-                settings.push(&f.setting);
-            }
-        }
+        let adapters = distinct(all.iter().map(|f| f.adapter.as_str()));
+        let settings = distinct(all.iter().map(|f| f.setting.as_str()));
         let at = match settings.as_slice() {
             [] | [""] => String::new(),
             [one] => format!(" at {one}"),

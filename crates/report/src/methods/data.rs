@@ -1,8 +1,9 @@
 //! The method records of a run, sorted by question, scene and method.
 
 use super::name::value_text;
+use crate::lists::distinct;
 use etalon_record::{Measured, Record, Run};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The records of methods.
 pub(crate) struct Methods<'a> {
@@ -188,15 +189,10 @@ impl<'a> Series<'a> {
 impl<'a> SceneSeries<'a> {
     /// Every setting that some method was drawn at: by variant, then along the parameter.
     pub(crate) fn settings(&self) -> Vec<Setting<'a>> {
-        let mut all: Vec<Setting<'a>> = Vec::new();
-        for series in &self.series {
-            for point in &series.points {
-                let setting = series.setting(point);
-                if !all.contains(&setting) {
-                    all.push(setting);
-                }
-            }
-        }
+        let of = |series: &Series<'a>| -> Vec<Setting<'a>> {
+            series.points.iter().map(|p| series.setting(p)).collect()
+        };
+        let mut all = distinct(self.series.iter().flat_map(of));
         all.sort_by(|a, b| {
             let key = |s: &Setting<'a>| s.parameter.map_or(("", 0.0), |p| p);
             let ((a_name, a_value), (b_name, b_value)) = (key(a), key(b));
@@ -277,15 +273,17 @@ impl<'a> Methods<'a> {
         if measured.is_empty() {
             return None;
         }
-        let mut adapters: Vec<Adapter<'a>> = Vec::new();
         let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
-        for name in from_header.chain(measured.iter().map(|(r, _)| r.adapter.as_str())) {
-            let known = adapters.iter().any(|a| a.name == name);
-            if !known && measured.iter().any(|(r, _)| r.adapter == name) {
-                let kind = Kind::of(run, name);
-                adapters.push(Adapter { name, kind });
-            }
-        }
+        let names = from_header.chain(measured.iter().map(|(r, _)| r.adapter.as_str()));
+        let drew = |name: &&str| measured.iter().any(|(r, _)| r.adapter == *name);
+        let adapters = distinct(names)
+            .into_iter()
+            .filter(drew)
+            .map(|name| Adapter {
+                name,
+                kind: Kind::of(run, name),
+            });
+        let adapters: Vec<Adapter<'a>> = adapters.collect();
         let mut sorted: BTreeMap<&str, BTreeMap<&str, Family<'_>>> = BTreeMap::new();
         for (record, m) in measured {
             let scenes = sorted.entry(&m.question).or_default();
@@ -345,14 +343,9 @@ fn scene<'a>(
     adapters: &[Adapter<'a>],
 ) -> SceneSeries<'a> {
     // An axis with one value in the whole scene is no variant.
-    let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for (record, m) in records {
-        for (axis, value) in settings(record, m) {
-            let of_axis = values.entry(axis).or_default();
-            if !of_axis.contains(&value) {
-                of_axis.push(value);
-            }
-        }
+    let mut values: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (axis, value) in records.iter().flat_map(|(record, m)| settings(record, m)) {
+        values.entry(axis).or_default().insert(value);
     }
     let variant = |record: &'a Record, m: &'a Measured| {
         let telling = settings(record, m).filter(|(axis, _)| values[axis].len() > 1);

@@ -4,9 +4,11 @@ use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
 use crate::numbers::{digits, duration, share};
 use crate::page::adapter::breakable;
 use crate::run::grid::Grid;
+use crate::table::{Cell, Table};
 use crate::words::plain;
 use etalon_frame::{Accuracy, Aspect, ChannelEncoding};
 use etalon_record::{Record, Verdict};
+use etalon_stats::quantile;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
@@ -105,8 +107,7 @@ fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     values.sort_by(f64::total_cmp);
-    let last = values.len().checked_sub(1)?;
-    Some(f64::midpoint(values[last / 2], values[last.div_ceil(2)]))
+    quantile(&values, 0.5)
 }
 
 /// The section of `index.html`; `None` where no record has a distance.
@@ -155,39 +156,47 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
 }
 
 fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
+    // The names of a row, its class, and a cell per adapter.
+    type Row = ([String; 3], &'static str, Vec<Cell>);
     let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
-    let time = |t: Option<f64>| t.map_or_else(|| "–".to_owned(), duration);
-    html! {
-        div.wide { table.numbers {
-            thead { tr {
-                th { "Area" } th { "Aspect" } th { "Encoding" }
-                @for adapter in &grid.adapters { th { (breakable(adapter)) } }
-            } }
-            tbody {
-                @for ((area, aspect, encoding), figures) in rows {
-                    tr {
-                        th scope="row" { (area) } td { (aspect.name()) }
-                        td { @if let Some(encoding) = encoding { (encoding) } @else { "several" } }
-                        @for f in figures { (cell(f, *encoding)) }
-                    }
-                }
-                tr.sum {
-                    th scope="row" colspan="3" { "cases per second" }
-                    @for s in &speeds { td { @if let Some(rate) = s.cases_per_second { (digits(rate, 3)) } @else { "–" } } }
-                }
-                tr {
-                    th scope="row" colspan="3" { "median draw time" }
-                    @for s in &speeds { td { (time(s.draw)) } }
-                }
-                @if speeds.iter().any(|s| s.frame.is_some()) {
-                    tr {
-                        th scope="row" colspan="3" { "median frame time of methods" }
-                        @for s in &speeds { td { (time(s.frame)) } }
-                    }
-                }
-            }
-        } }
+    let speed = |name: &str, class, of: &dyn Fn(&Speed) -> Option<String>| -> Row {
+        let cells = speeds.iter().map(|s| Cell::from(of(s))).collect();
+        (
+            [name.to_owned(), String::new(), String::new()],
+            class,
+            cells,
+        )
+    };
+    let mut lines: Vec<Row> = rows
+        .iter()
+        .map(|((area, aspect, encoding), figures)| {
+            let encoded = encoding.map_or_else(|| "several".to_owned(), |e| e.to_string());
+            let names = [(*area).to_owned(), aspect.name().to_owned(), encoded];
+            (
+                names,
+                "",
+                figures.iter().map(|f| cell(f, *encoding)).collect(),
+            )
+        })
+        .collect();
+    lines.push(speed("cases per second", "sum", &|s| {
+        s.cases_per_second.map(|rate| digits(rate, 3))
+    }));
+    lines.push(speed("median draw time", "", &|s| s.draw.map(duration)));
+    if speeds.iter().any(|s| s.frame.is_some()) {
+        lines.push(speed("median frame time of methods", "", &|s| {
+            s.frame.map(duration)
+        }));
     }
+    let mut table = Table::<Row>::new("numbers")
+        .row_class(|(_, class, _)| *class)
+        .head("Area", |(names, ..)| names[0].clone())
+        .text("Aspect", |(names, ..)| names[1].clone())
+        .text("Encoding", |(names, ..)| names[2].clone());
+    for (i, adapter) in grid.adapters.iter().enumerate() {
+        table = table.text(breakable(adapter), move |(.., cells)| cells[i].clone());
+    }
+    table.page(lines)
 }
 
 /// Codes as a share of an encoding's range; none where it is not known.
@@ -205,20 +214,22 @@ fn part(value: f64) -> String {
     }
 }
 
-fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Markup {
-    html! {
-        td title=[figures.legal.map(|_| format!("The largest: {}", figures.farthest))] {
-            @if let Some(legal) = &figures.legal {
-                (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
-                @if let (Some(mean), Some(max)) = (of_range(legal.mean, encoding), of_range(legal.max, encoding)) {
-                    br; small { (part(mean)) " / " (part(max)) }
-                }
-            } @else { "–" }
-            @if let Some(wrong) = &figures.wrong {
-                " (" (digits(wrong.max, 3)) ")"
+fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
+    let shown = html! {
+        @if let Some(legal) = &figures.legal {
+            (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
+            @if let (Some(mean), Some(max)) = (of_range(legal.mean, encoding), of_range(legal.max, encoding)) {
+                br; small { (part(mean)) " / " (part(max)) }
             }
+        } @else { "–" }
+        @if let Some(wrong) = &figures.wrong {
+            " (" (digits(wrong.max, 3)) ")"
         }
-    }
+    };
+    let title = figures
+        .legal
+        .map(|_| format!("The largest: {}", figures.farthest));
+    Cell::from(shown).with("title", title)
 }
 
 /// The mean and the largest distance over all encodings, as shares of their ranges.
@@ -350,7 +361,7 @@ mod tests {
         assert!((mean - (0.002 + 0.01) / 2.0).abs() < 1e-9, "{mean}");
         let text = |encoding, i: usize| {
             let figures = rows.values().nth(i).unwrap();
-            cell(&figures[0], encoding).into_string()
+            cell(&figures[0], encoding).element("td").into_string()
         };
         assert!(text(None, 0).contains("1 / 7<"), "{}", text(None, 0));
         assert!(

@@ -1,6 +1,6 @@
 //! Names that the page of methods, its links and its texts share.
 
-use crate::numbers::digits;
+use crate::numbers::{capital, digits};
 
 /// The name of the page of methods in a run folder.
 pub(crate) const PAGE: &str = "methods.html";
@@ -18,13 +18,8 @@ pub(super) fn anchor(question: usize, scene: usize) -> String {
 
 /// A name of the records as a heading: `cut-outs` is Cut outs.
 pub(super) fn title(name: &str) -> String {
-    let mut letters = name.chars();
-    match letters.next() {
-        Some(first) => first
-            .to_uppercase()
-            .chain(letters)
-            .collect::<String>()
-            .replace('-', " "),
-        None => "(no name)".to_owned(),
+    match name {
+        "" => "(no name)".to_owned(),
+        name => capital(name).replace('-', " "),
     }
 }

@@ -3,15 +3,18 @@
 use super::data::{Methods, Point, Question, SceneSeries, Series, Setting};
 use super::name::{anchor, title, value_text};
 use super::pictures::Pictures;
+use super::stability::CurveBreak;
 use super::{claims, scatter, stability};
 use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
-use crate::numbers::{bytes, count, digits, duration, share};
+use crate::lists::{distinct, grouped};
+use crate::numbers::{between, bytes, count, digits, duration, share};
 use crate::page::adapter::breakable;
 use crate::page::{self, Page};
+use crate::table::Table;
 use crate::words;
 use etalon_methods::{Lesson, lessons};
-use etalon_record::Run;
+use etalon_record::{Run, Times};
 use maud::{Markup, html};
 use std::path::Path;
 
@@ -19,6 +22,8 @@ const STYLE: &str = include_str!("page/methods.css");
 
 /// The sliders, the legend's pins, other limits of breaks, and the enlarged pictures. All else needs no script.
 const SCRIPT: &str = concat!(
+    "\"use strict\";\n",
+    include_str!("../page/base.js"),
     include_str!("page/flip.js"),
     include_str!("page/story.js"),
     include_str!("page/pictures.js"),
@@ -53,14 +58,14 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         @for question in questions { (question) }
         (page::script(SCRIPT))
     };
-    Page {
-        title: &format!("etalon methods {}", run.header.started),
-        styles: &[chart::STYLE, STYLE],
-        script: Some(SCRIPT),
-        beside: false,
-        main,
-        source: "run.jsonl and pictures/ in this folder",
-    }
+    Page::new(
+        &format!("etalon methods {}", run.header.started),
+        "run.jsonl and pictures/ in this folder",
+        &main,
+    )
+    .style(chart::STYLE)
+    .style(STYLE)
+    .script(SCRIPT, false)
     .html()
 }
 
@@ -150,20 +155,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 p.u { "Not measured: no method was drawn at two values of its parameter." }
             } @else if broken.is_empty() { p { "No method crosses it." } }
             @else {
-                div.wide { table.text {
-                    thead { tr { th scope="col" { "Scene" } th scope="col" { "Method" } th scope="col" { "Break" } th scope="col" { "Pictures" } th scope="col" { "Adapters" } } }
-                    tbody #break-rows {
-                        @for (anchor, question, scene, found) in &broken {
-                            tr {
-                                td { a href={ "#" (anchor) } { (question.name) "/" (scene.name) } }
-                                td { (key(question.style(found.method))) " " (found.series) }
-                                td { (found.sentence) }
-                                td { (beside(scene, anchor, &found.between)) }
-                                td { (stability::who(methods, found)) }
-                            }
-                        }
-                    }
-                } }
+                div #break-rows { (broken_table(methods).page(broken)) }
             }
             @if !steady.is_empty() {
                 p.note #steady { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
@@ -173,6 +165,29 @@ fn breaks(methods: &Methods<'_>) -> Markup {
             }
         }
     }
+}
+
+/// A break with the anchor of its scene.
+type Broken<'m, 'a> = (
+    String,
+    &'m Question<'a>,
+    &'m SceneSeries<'a>,
+    CurveBreak<'a>,
+);
+
+fn broken_table<'m, 'a>(methods: &'m Methods<'a>) -> Table<'m, Broken<'m, 'a>> {
+    Table::new("text")
+        .text("Scene", |(anchor, question, scene, _): &Broken<'m, 'a>| {
+            html! { a href={ "#" (anchor) } { (question.name) "/" (scene.name) } }
+        })
+        .text("Method", |(_, question, _, found)| {
+            html! { (key(question.style(found.method))) " " (found.series) }
+        })
+        .text("Break", |(.., found)| found.sentence.clone())
+        .text("Pictures", |(anchor, _, scene, found)| {
+            beside(scene, anchor, &found.between)
+        })
+        .text("Adapters", |(.., found)| stability::who(methods, found))
 }
 
 /// The number of series with a parameter of which there is one value.
@@ -327,28 +342,16 @@ fn unmeasured(
     setting: &Setting<'_>,
     (index, shown): (usize, bool),
 ) -> Markup {
-    let mut missing: Vec<(&str, Vec<&str>)> = Vec::new();
-    let mut drew = 0;
-    for (i, adapter) in methods.adapters.iter().enumerate() {
-        if !scene.series.iter().any(|s| s.on(i).next().is_some()) {
-            continue;
-        }
-        drew += 1;
-        for method in scene.unmeasured(setting, i) {
-            match missing.iter_mut().find(|(m, _)| *m == method) {
-                Some((_, on)) => on.push(adapter.name),
-                None => missing.push((method, vec![adapter.name])),
-            }
-        }
-    }
-    let untimed: Vec<&str> = {
-        let all = scene
-            .at(setting)
-            .filter(|(_, p)| p.error().is_some() && p.wall().is_none());
-        let mut names: Vec<&str> = all.map(|(s, _)| s.method).collect();
-        names.dedup();
-        names
-    };
+    let drew = |i: &usize| scene.series.iter().any(|s| s.on(*i).next().is_some());
+    let drew: Vec<usize> = (0..methods.adapters.len()).filter(drew).collect();
+    let missing = grouped(drew.iter().flat_map(|i| {
+        let missing = scene.unmeasured(setting, *i).into_iter();
+        missing.map(|method| (method, methods.adapters[*i].name))
+    }));
+    let untimed = scene
+        .at(setting)
+        .filter(|(_, p)| p.error().is_some() && p.wall().is_none());
+    let untimed = distinct(untimed.map(|(s, _)| s.method));
     let class = if shown {
         "missing at"
     } else {
@@ -362,7 +365,7 @@ fn unmeasured(
                     @for (i, (method, on)) in missing.iter().enumerate() {
                         @if i > 0 { ", " }
                         (method)
-                        @if on.len() < drew { " on " (on.join(" and ")) }
+                        @if on.len() < drew.len() { " on " (on.join(" and ")) }
                     }
                     ". "
                 }
@@ -375,50 +378,45 @@ fn unmeasured(
 }
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
-    let parameter = scene.series.iter().any(|s| s.parameter.is_some());
-    html! {
-        div.wide { table.numbers {
-            thead { tr {
-                th { "Method" }
-                @if parameter { th { "Parameter" } }
-                th { "Adapter" } th { "RMSE" } th { "Largest" } th { "FLIP" } th { "Wrong texels" }
-                th { "Wall" } th { "Interval" } th { "CPU" } th { "GPU" } th { "Frames" } th { "Passes" } th { "Draws" }
-                th { "Fragments" } th { "Attachments" } th { "Verdict" }
-            } }
-            tbody {
-                @for series in &scene.series {
-                    @for point in &series.points { (row(methods, series, point, parameter)) }
-                }
-            }
-        } }
+    type Row<'s, 'a> = (&'s Series<'a>, &'s Point<'a>);
+    let time = |point: &Point<'_>, of: fn(&Times) -> Option<f64>| {
+        point.measured.time.as_ref().and_then(of).map(duration)
+    };
+    let mut table =
+        Table::<Row<'_, '_>>::new("numbers").head("Method", |(series, _)| series.name());
+    if scene.series.iter().any(|s| s.parameter.is_some()) {
+        table = table.text("Parameter", |(series, point)| {
+            let value = series.parameter.zip(point.value);
+            value.map_or_else(String::new, |(name, value)| {
+                format!("{name} {}", value_text(value))
+            })
+        });
     }
-}
-
-fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter: bool) -> Markup {
-    let m = point.measured;
-    let time = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), duration);
-    let record = point.record;
-    html! {
-        tr {
-            th scope="row" { (series.name()) }
-            @if parameter {
-                td { @if let (Some(p), Some(v)) = (series.parameter, point.value) { (p) " " (value_text(v)) } }
-            }
-            td { (methods.adapters[point.adapter].name) }
-            td { (share(m.distance.rmse)) }
-            td { (share(m.distance.max)) }
-            td { (digits(m.distance.flip, 3)) }
-            td { (share(m.distance.wrong)) }
-            td { (time(m.time.map(|t| t.wall))) }
-            td { @if let Some([low, high]) = point.interval() { (duration(low)) " to " (duration(high)) } @else { "–" } }
-            td { (time(m.time.map(|t| t.cpu))) }
-            td { (time(m.time.and_then(|t| t.gpu))) }
-            td { (m.time.map_or(0, |t| t.samples)) }
-            td { (m.passes) }
-            td { (m.draws) }
-            td { @if let Some(n) = m.fragments { (n) } @else { "–" } }
-            td { (bytes(m.bytes)) }
-            td { (words::symbol(record.verdict)) " " (words::name(record.verdict)) }
-        }
-    }
+    table
+        .text("Adapter", |(_, p)| methods.adapters[p.adapter].name)
+        .text("RMSE", |(_, p)| share(p.measured.distance.rmse))
+        .text("Largest", |(_, p)| share(p.measured.distance.max))
+        .text("FLIP", |(_, p)| digits(p.measured.distance.flip, 3))
+        .text("Wrong texels", |(_, p)| share(p.measured.distance.wrong))
+        .text("Wall", move |(_, p)| time(p, |t| Some(t.wall)))
+        .text("Interval", |(_, p)| {
+            p.interval().map(|ends| between(ends, duration))
+        })
+        .text("CPU", move |(_, p)| time(p, |t| Some(t.cpu)))
+        .text("GPU", move |(_, p)| time(p, |t| t.gpu))
+        .text("Frames", |(_, p)| p.measured.time.map_or(0, |t| t.samples))
+        .text("Passes", |(_, p)| p.measured.passes)
+        .text("Draws", |(_, p)| p.measured.draws)
+        .text("Fragments", |(_, p)| p.measured.fragments)
+        .text("Attachments", |(_, p)| bytes(p.measured.bytes))
+        .text("Verdict", |(_, p)| {
+            let verdict = p.record.verdict;
+            format!("{} {}", words::symbol(verdict), words::name(verdict))
+        })
+        .page(
+            scene
+                .series
+                .iter()
+                .flat_map(|s| s.points.iter().map(move |p| (s, p))),
+        )
 }

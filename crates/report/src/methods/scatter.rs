@@ -3,9 +3,10 @@
 use super::data::{Kind, Methods, Point, Question, SceneSeries, Setting};
 use super::front::front;
 use crate::chart::{
-    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, zero_band,
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, polyline,
+    zero_band,
 };
-use crate::numbers::{duration, round_duration, share};
+use crate::numbers::{between, duration, round_duration, share};
 use maud::{Markup, html};
 
 /// The error of rounding to 8 bits alone where values lie anywhere between two codes: the standard
@@ -200,7 +201,7 @@ fn at_setting(
         .map(|d| (d, labels.place(&d.point.measured.method, place(d))))
         .collect();
     let body = html! {
-        @for (corners, class) in &lines { path class=(class) d=(path(corners)) {} }
+        @for (corners, class) in &lines { path class=(class) d=(polyline(corners)) {} }
         @for (dot, label) in named.iter().rev() {
             @let m = dot.point.measured;
             @let interval = dot.point.interval();
@@ -224,14 +225,7 @@ fn at_setting(
 /// A time with its interval: `1.2 ms (1.1 ms to 1.4 ms)`.
 pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
     match interval {
-        Some([low, high]) => {
-            format!(
-                "{} ({} to {})",
-                duration(time),
-                duration(low),
-                duration(high)
-            )
-        }
+        Some(ends) => format!("{} ({})", duration(time), between(ends, duration)),
         None => duration(time),
     }
 }
@@ -251,15 +245,6 @@ fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         corners.push((RIGHT, y));
     }
     corners
-}
-
-fn path(corners: &[(f64, f64)]) -> String {
-    let mut path = String::new();
-    for (i, (x, y)) in corners.iter().enumerate() {
-        let letter = if i == 0 { 'M' } else { 'L' };
-        path.push_str(&format!("{letter}{} {}", n(*x), n(*y)));
-    }
-    path
 }
 
 /// The explanation of the charts of accuracy against speed.

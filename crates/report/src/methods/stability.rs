@@ -5,8 +5,10 @@ use super::data::{Methods, Question, SceneSeries, Series, Setting};
 use super::name::{anchor, value_text};
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
-    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, zero_band,
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, polyline,
+    zero_band,
 };
+use crate::lists::grouped;
 use crate::numbers::share;
 use maud::{Markup, html};
 
@@ -176,21 +178,20 @@ pub(super) fn json(methods: &Methods<'_>) -> serde_json::Value {
 pub(super) fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) =
         found(methods, scene).into_iter().partition(|f| f.crosses());
-    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
-    for f in steady {
-        let head = match f.found {
-            Break::Always => format!("Always beyond 1\u{a0}% RMSE, {}", f.range),
-            _ => format!("Never beyond 1\u{a0}% RMSE, {}", f.range),
+    let groups = grouped(steady.into_iter().map(|f| {
+        let side = if f.found == Break::Always {
+            "Always"
+        } else {
+            "Never"
         };
-        let name = match f.adapters.len() {
-            n if n == methods.adapters.len() => f.series,
-            _ => format!("{} ({})", f.series, f.adapters.join(", ")),
+        let on = if f.adapters.len() == methods.adapters.len() {
+            String::new()
+        } else {
+            format!(" ({})", f.adapters.join(", "))
         };
-        match groups.iter_mut().find(|(h, _)| *h == head) {
-            Some((_, names)) => names.push(name),
-            None => groups.push((head, vec![name])),
-        }
-    }
+        let head = format!("{side} beyond 1\u{a0}% RMSE, {}", f.range);
+        (head, f.series + &on)
+    }));
     html! {
         ul.breaks {
             @for found in &broken {
@@ -311,7 +312,7 @@ fn panel<'a>(
         @for s in series {
             @let (style, places) = (question.style(s.method), places(s));
             g class={ "of " (color(style)) } {
-                path class={ "curve " (color(style)) } d=(line(&places)) stroke-dasharray=(dash(style)) {}
+                path class={ "curve " (color(style)) } d=(polyline(&places)) stroke-dasharray=(dash(style)) {}
                 @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
                     @let text = format!("{}: RMSE {} at {parameter} {}", s.name(), share(error), value_text(value));
                     (marker(style, place, true, &text))
@@ -346,15 +347,6 @@ fn panel<'a>(
         names.join(", ")
     );
     chart(HEIGHT, &title, &about, &body)
-}
-
-fn line(places: &[(f64, f64)]) -> String {
-    let mut path = String::new();
-    for (i, (x, y)) in places.iter().enumerate() {
-        let letter = if i == 0 { 'M' } else { 'L' };
-        path.push_str(&format!("{letter}{} {}", n(*x), n(*y)));
-    }
-    path
 }
 
 /// The explanation of the charts of stability.

@@ -4,66 +4,136 @@ use super::breaks::LIMIT;
 use super::data::{Kind, Methods, Point, SceneSeries, Series, Setting};
 use super::name::{PAGE, anchor};
 use crate::numbers::{count, duration, share};
+use crate::table::{Cell, Table};
 use crate::words::plain;
 use maud::{Markup, html};
 
 /// The most scenes that the terminal lists.
 const LISTED: usize = 40;
 
-/// A method on an adapter.
-struct Best<'s, 'a> {
-    series: &'s Series<'a>,
-    point: &'s Point<'a>,
-    error: f64,
+/// The best methods of a scene on adapters of a kind, all at one setting.
+struct Best<'a> {
+    /// The place of the scene in the page of methods.
+    anchor: String,
+    /// The scene's number among all scenes.
+    number: usize,
+    scene: String,
+    setting: Setting<'a>,
+    kind: Kind,
+    /// The most accurate method and its error.
+    accurate: (&'a str, f64),
+    fast: Fast<'a>,
 }
 
-/// A scene's candidates on adapters of a kind, all at one setting.
+/// The fastest method within one percent.
+enum Fast<'a> {
+    /// The method, its time and its adapter.
+    Method(&'a str, f64, &'a str),
+    /// No method is within.
+    Nothing,
+    /// One method alone is neither the most accurate nor the fastest.
+    Alone,
+}
+
+/// Finds the best methods of all scenes.
+fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
+    let mut found = Vec::new();
+    let mut number = 0;
+    for (q, question) in methods.questions.iter().enumerate() {
+        for (s, scene) in question.scenes.iter().enumerate() {
+            let Some(setting) = scene.main() else {
+                continue;
+            };
+            for kind in methods.kinds() {
+                let all: Vec<_> = candidates(methods, scene, &setting, kind).collect();
+                let Some((series, _, error)) = accurate(&all) else {
+                    continue;
+                };
+                found.push(Best {
+                    anchor: anchor(q, s),
+                    number,
+                    scene: format!("{}/{}", scene.question, scene.name),
+                    setting: setting.clone(),
+                    kind,
+                    accurate: (series.method, *error),
+                    fast: fast(methods, &all),
+                });
+            }
+            number += 1;
+        }
+    }
+    found
+}
+
+/// A method on an adapter with its error.
+type Candidate<'s, 'a> = (&'s Series<'a>, &'s Point<'a>, f64);
+
 fn candidates<'s, 'a>(
     methods: &'s Methods<'a>,
     scene: &'s SceneSeries<'a>,
     setting: &'s Setting<'a>,
     kind: Kind,
-) -> Vec<Best<'s, 'a>> {
+) -> impl Iterator<Item = Candidate<'s, 'a>> {
     let of_kind = scene
         .at(setting)
-        .filter(|(_, p)| methods.adapters[p.adapter].kind == kind);
-    let best = of_kind.filter_map(|(series, point)| {
-        let error = point.error()?;
-        Some(Best {
-            series,
-            point,
-            error,
-        })
-    });
-    best.collect()
-}
-
-/// True if there are two methods among them: one alone is neither the most accurate nor the fastest.
-fn compared(all: &[Best<'_, '_>]) -> bool {
-    let first = all.first().map(|b| b.series.method);
-    all.iter().any(|b| Some(b.series.method) != first)
+        .filter(move |(_, p)| methods.adapters[p.adapter].kind == kind);
+    of_kind.filter_map(|(series, point)| Some((series, point, point.error()?)))
 }
 
 /// The most accurate method; of equal ones the faster.
-fn accurate<'s, 'a>(all: &'s [Best<'s, 'a>]) -> Option<&'s Best<'s, 'a>> {
-    let time = |b: &Best<'_, '_>| b.point.wall().unwrap_or(f64::INFINITY);
-    all.iter().min_by(|a, b| {
-        a.error
-            .total_cmp(&b.error)
-            .then(time(a).total_cmp(&time(b)))
+fn accurate<'s, 'a, 'c>(all: &'c [Candidate<'s, 'a>]) -> Option<&'c Candidate<'s, 'a>> {
+    let time = |point: &Point<'_>| point.wall().unwrap_or(f64::INFINITY);
+    all.iter().min_by(|(_, a, a_error), (_, b, b_error)| {
+        let errors = a_error.total_cmp(b_error);
+        errors.then(time(a).total_cmp(&time(b)))
     })
 }
 
-/// The fastest method within one percent.
-fn fast<'s, 'a>(all: &'s [Best<'s, 'a>]) -> Option<(&'s Best<'s, 'a>, f64)> {
-    let good = all.iter().filter(|b| b.error <= LIMIT);
-    good.filter_map(|b| Some((b, b.point.wall()?)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
+fn fast<'a>(methods: &Methods<'a>, all: &[Candidate<'_, 'a>]) -> Fast<'a> {
+    let first = all.first().map(|(series, ..)| series.method);
+    if all.iter().all(|(series, ..)| Some(series.method) == first) {
+        return Fast::Alone;
+    }
+    let good = all.iter().filter(|(.., error)| *error <= LIMIT);
+    let timed = good.filter_map(|(series, point, _)| Some((series, point, point.wall()?)));
+    match timed.min_by(|a, b| a.2.total_cmp(&b.2)) {
+        Some((series, point, time)) => {
+            Fast::Method(series.method, time, methods.adapters[point.adapter].name)
+        }
+        None => Fast::Nothing,
+    }
 }
 
 /// The section of `index.html` that leads to the page of methods.
 pub(crate) fn section(methods: &Methods<'_>) -> Markup {
-    let kinds = methods.kinds();
+    let mut table = Table::<Best<'_>>::new("text")
+        .head(
+            "Scene",
+            |best| html! { a href={ (PAGE) "#" (best.anchor) } { (best.scene) } },
+        )
+        .text("At", |best| best.setting.text());
+    if methods.kinds().len() > 1 {
+        table = table.text("Adapters", |best| best.kind.name());
+    }
+    let table = table
+        .text("Most accurate", |best| match best.fast {
+            Fast::Alone => format!("only {} measured", best.accurate.0),
+            _ => best.accurate.0.to_owned(),
+        })
+        .number("RMSE", |best| share(best.accurate.1))
+        .text("Fastest within 1 % RMSE", |best| match best.fast {
+            Fast::Method(method, ..) => Cell::from(method),
+            Fast::Nothing => Cell::from("none"),
+            Fast::Alone => Cell::from("nothing to compare").class("u"),
+        })
+        .number("Frame time", |best| match best.fast {
+            Fast::Method(_, time, _) => Some(duration(time)),
+            _ => None,
+        })
+        .text("On", |best| match best.fast {
+            Fast::Method(.., adapter) => Some(adapter),
+            _ => None,
+        });
     html! {
         section id="methods" {
             h2 { "Methods: accuracy against speed" }
@@ -71,58 +141,7 @@ pub(crate) fn section(methods: &Methods<'_>) -> Markup {
                 "The best methods of every scene, all at the same parameters. Charts, break points and "
                 "claims are on " a href=(PAGE) { "the page of methods" } "."
             }
-            div.wide { table.text {
-                thead { tr {
-                    th { "Scene" } th { "At" }
-                    @if kinds.len() > 1 { th { "Adapters" } }
-                    th { "Most accurate" } th { "RMSE" } th { "Fastest within 1 % RMSE" } th { "Frame time" } th { "On" }
-                } }
-                tbody {
-                    @for (q, question) in methods.questions.iter().enumerate() {
-                        @for (s, scene) in question.scenes.iter().enumerate() {
-                            @if let Some(setting) = scene.main() {
-                                @for kind in &kinds {
-                                    (row(methods, scene, &setting, *kind, &anchor(q, s)))
-                                }
-                            }
-                        }
-                    }
-                }
-            } }
-        }
-    }
-}
-
-fn row(
-    methods: &Methods<'_>,
-    scene: &SceneSeries<'_>,
-    setting: &Setting<'_>,
-    kind: Kind,
-    anchor: &str,
-) -> Markup {
-    let all = candidates(methods, scene, setting, kind);
-    html! {
-        @if let Some(best) = accurate(&all) {
-            tr {
-                th scope="row" { a href={ (PAGE) "#" (anchor) } { (scene.question) "/" (scene.name) } }
-                td { (setting.text()) }
-                @if methods.kinds().len() > 1 { td { (kind.name()) } }
-                @if compared(&all) {
-                    td { (best.series.method) }
-                    td.num { (share(best.error)) }
-                    @if let Some((fast, time)) = fast(&all) {
-                        td { (fast.series.method) }
-                        td.num { (duration(time)) }
-                        td { (methods.adapters[fast.point.adapter].name) }
-                    } @else {
-                        td colspan="3" { "none" }
-                    }
-                } @else {
-                    td { "only " (best.series.method) " measured" }
-                    td.num { (share(best.error)) }
-                    td.u colspan="3" { "nothing to compare" }
-                }
-            }
+            (table.page(best(methods)))
         }
     }
 }
@@ -132,39 +151,23 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
     let mut text = String::from(
         "\nMethods at the same parameters: the most accurate, and the fastest within 1 % RMSE\n",
     );
-    let scenes = methods.scenes().count();
-    let kinds = methods.kinds();
-    let listed = methods.scenes().take(LISTED);
-    for (scene, kind) in listed.flat_map(|s| kinds.iter().map(move |k| (s, *k))) {
-        let Some(setting) = scene.main() else {
-            continue;
-        };
-        let all = candidates(methods, scene, &setting, kind);
-        let Some(best) = accurate(&all) else { continue };
-        let mut line = format!("  {}/{}{}", scene.question, scene.name, setting.at());
-        if kinds.len() > 1 {
-            line.push_str(&format!(" ({})", kind.name()));
+    let several = methods.kinds().len() > 1;
+    for best in best(methods).iter().filter(|best| best.number < LISTED) {
+        let mut line = format!("  {}{}", best.scene, best.setting.at());
+        if several {
+            line.push_str(&format!(" ({})", best.kind.name()));
         }
-        if !compared(&all) {
-            let only = (best.series.method, share(best.error));
-            line.push_str(&format!(": only {} measured, {}", only.0, only.1));
-            text.push_str(&plain(&line, width.max(20)));
-            text.push('\n');
-            continue;
-        }
-        line.push_str(&format!(": {} {}", best.series.method, share(best.error)));
-        match fast(&all) {
-            Some((fast, time)) => line.push_str(&format!(
-                "; {} {} on {}",
-                fast.series.method,
-                duration(time),
-                methods.adapters[fast.point.adapter].name
-            )),
-            None => line.push_str("; none within"),
-        }
-        text.push_str(&plain(&line, width.max(20)));
-        text.push('\n');
+        let (method, error) = (best.accurate.0, share(best.accurate.1));
+        line.push_str(&match best.fast {
+            Fast::Alone => format!(": only {method} measured, {error}"),
+            Fast::Nothing => format!(": {method} {error}; none within"),
+            Fast::Method(fast, time, adapter) => {
+                format!(": {method} {error}; {fast} {} on {adapter}", duration(time))
+            }
+        });
+        text.push_str(&format!("{}\n", plain(&line, width.max(20))));
     }
+    let scenes = methods.scenes().count();
     if scenes > LISTED {
         let more = count((scenes - LISTED) as u64, "more scene");
         text.push_str(&format!("  and {more}\n"));

@@ -1,7 +1,8 @@
 //! Adapters on pages: their names and their facts.
 
 use crate::numbers::count;
-use etalon_frame::{FormatSupport, Limits, TextureFormat};
+use crate::table::{Cell, Table};
+use etalon_frame::{Limits, TextureFormat};
 use etalon_record::AdapterRecord;
 use maud::{Markup, PreEscaped, html};
 
@@ -13,6 +14,11 @@ pub(crate) fn breakable(name: &str) -> Markup {
             (part)
         }
     }
+}
+
+/// A cell of a table with an adapter's name.
+pub(crate) fn adapter(name: &str) -> Cell {
+    Cell::from(name).on_page(breakable(name))
 }
 
 pub(crate) fn details(a: &AdapterRecord) -> Markup {
@@ -49,29 +55,24 @@ pub(crate) fn details(a: &AdapterRecord) -> Markup {
 }
 
 fn formats(limits: &Limits) -> Markup {
-    html! {
-        div.wide { table.text {
-            caption { "Texel formats" }
-            thead { tr { th scope="col" { "Format" } th scope="col" { "Samples" } th scope="col" { "Depth encoding" } th scope="col" { "Read by" } } }
-            tbody {
-                @for format in TextureFormat::ALL { (format_row(format, limits.formats.get(&format))) }
-            }
-        } }
-    }
-}
-
-fn format_row(format: TextureFormat, support: Option<&FormatSupport>) -> Markup {
-    let join = |texts: Vec<String>, with: &str| texts.join(with);
-    html! {
-        tr {
-            th scope="row" { (format.name()) }
-            @if let Some(s) = support {
-                td { (join(s.samples.iter().map(u32::to_string).collect(), ", ")) }
-                td { (join(s.depth.iter().map(|d| d.to_string()).collect(), " or ")) }
-                td { (format!("{:?}", s.read).to_lowercase()) }
-            } @else {
-                td colspan="3" { "– not supported" }
-            }
-        }
-    }
+    let support = |format: &TextureFormat| limits.formats.get(format);
+    let list = |all: Vec<String>, with: &str| all.join(with);
+    Table::<TextureFormat>::new("text")
+        .caption("Texel formats")
+        .head("Format", |format| format.name())
+        .text("Samples", move |format| match support(format) {
+            Some(s) => list(s.samples.iter().map(u32::to_string).collect(), ", "),
+            None => "– not supported".to_owned(),
+        })
+        .text("Depth encoding", move |format| {
+            let depth = support(format).map(|s| s.depth.iter());
+            list(
+                depth.into_iter().flatten().map(|d| d.to_string()).collect(),
+                " or ",
+            )
+        })
+        .text("Read by", move |format| {
+            support(format).map_or_else(String::new, |s| format!("{:?}", s.read).to_lowercase())
+        })
+        .page(TextureFormat::ALL)
 }

@@ -4,7 +4,6 @@
 //! search and filters, and the view of one case. Every view has an address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
-mod adapters;
 mod assertions;
 mod cases;
 mod causes;
@@ -13,15 +12,14 @@ mod data;
 mod detail;
 mod facts;
 mod findings;
-mod matrix;
-mod undrawn;
+mod overview;
 
 use crate::catalogue::scripts;
 use crate::chart;
 use crate::mark::{class, mark};
 use crate::methods::{self, Methods};
 use crate::numbers::count;
-use crate::page::origin::Origin;
+use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
 use crate::run::undrawn::{Undrawn, undrawn};
@@ -34,6 +32,7 @@ const CASES_STYLE: &str = include_str!("index/cases.css");
 /// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
+    include_str!("../page/base.js"),
     include_str!("index/script/data.js"),
     include_str!("index/script/state.js"),
     include_str!("index/script/table.js"),
@@ -54,10 +53,7 @@ pub(crate) fn page(
     let plan = findings::Plan::new(&grid);
     let scripts = scripts(folder);
     let drivers = methods::driver_section(&grid);
-    let mut styles = vec![CASES_STYLE];
-    if drivers.is_some() {
-        styles.push(chart::STYLE);
-    }
+    let charts = drivers.is_some().then_some(chart::STYLE);
     let main = html! {
         (cases::view())
         div id="report" {
@@ -67,9 +63,9 @@ pub(crate) fn page(
             } @else {
                 (causes::section(&grid))
                 (totals(run))
-                (matrix::section(&grid))
-                (undrawn::section(run))
-                (undrawn::dead(dead))
+                (overview::matrix(&grid))
+                (overview::not_drawn(run))
+                (overview::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
                 (cases::section(&grid, &scripts))
@@ -81,18 +77,14 @@ pub(crate) fn page(
                 (findings::section(folder, &grid, &plan))
                 (assertions::section(&grid))
             }
-            (adapters::section(&run.header))
+            (overview::adapters(&run.header))
         }
     };
-    Page {
-        title: &title(run),
-        styles: &styles,
-        script: Some(SCRIPT),
-        beside: !scripts.is_empty(),
-        main,
-        source: "run.jsonl and frames/ in this folder",
-    }
-    .html()
+    Page::new(&title(run), "run.jsonl and frames/ in this folder", &main)
+        .style(CASES_STYLE)
+        .style(charts)
+        .script(SCRIPT, !scripts.is_empty())
+        .html()
 }
 
 fn title(run: &Run) -> String {
@@ -105,20 +97,13 @@ fn title(run: &Run) -> String {
 
 fn head(run: &Run, dead: &[Dead], methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
-    let origin = Origin {
-        started: &h.started,
-        command: &h.command,
-        machine: &h.machine,
-        etalon: &h.etalon,
-        commit: h.commit.as_deref(),
-    };
     html! {
         header {
             h1 { "etalon" }
             p.lead { "Conformance of graphics drivers' per-fragment operations." }
             (state(run, dead))
             dl.facts {
-                (origin.facts())
+                (origin!(h))
                 dt { "Scope" } dd {
                     (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(run.records.len() as u64, "record"))

@@ -5,12 +5,11 @@ use crate::numbers::count;
 use crate::run::grid::{Grid, Tally};
 use crate::run::undrawn::{Undrawn, undrawn};
 use crate::run::unexpected::unexpected_records;
-use crate::terminal::{self, TableOptions, dotted, wrapped};
+use crate::table::{Cell, Table, some};
+use crate::terminal::{self, TableOptions};
 use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
-use tabled::builder::Builder;
 use tabled::settings::Color;
-use tabled::settings::object::Cell;
 
 /// The most unexpected records that are listed.
 const LISTED: usize = 20;
@@ -43,9 +42,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
         .iter()
         .map(|a| (*a, run.records.iter().filter(|r| r.adapter == *a).collect()))
         .collect();
-    let mut text = adapters(&rows, options);
-    text.push('\n');
-    text.push_str(&not_drawn(run, options));
+    let mut text = format!("{}\n{}", adapters(&rows, options), not_drawn(run, options));
     if let Some(found) = methods::Methods::of(run) {
         text.push_str(&methods::lines(&found, options.width));
     }
@@ -61,116 +58,66 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text
 }
 
+/// Columns that are there only where a run has such a verdict.
+const RARE: [&str; 4] = ["measured", "required by CTS", "disputed", "skipped"];
+
 fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
-    let measured = rows
-        .iter()
-        .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Measured));
-    let mut columns: Vec<(&str, &[Verdict], Color)> = vec![
-        ("pass", &[Verdict::Pass], Color::FG_GREEN),
-        ("imprecise", &[Verdict::Imprecise], Color::FG_CYAN),
-        ("fail", &[Verdict::Fail], Color::FG_RED | Color::BOLD),
-        ("open", &[Verdict::Open], Color::FG_YELLOW),
-        (
-            "not supported",
-            &[Verdict::NotSupported],
-            Color::FG_BRIGHT_BLACK,
-        ),
+    use Verdict::{
+        Disputed, Fail, Imprecise, Measured, NotSupported, Open, Pass, RequiredByCts, Skipped,
+    };
+    let occurs = |verdicts: &[Verdict]| {
+        let mut records = rows.iter().flat_map(|(_, records)| records);
+        records.any(|r| verdicts.contains(&r.verdict))
+    };
+    // Not supported is the adapter's word, skipped is the user's.
+    let columns: [(&'static str, &[Verdict], Color); 10] = [
+        ("pass", &[Pass], Color::FG_GREEN),
+        ("measured", &[Measured], Color::FG_BLUE),
+        ("imprecise", &[Imprecise], Color::FG_CYAN),
+        ("fail", &[Fail], Color::FG_RED | Color::BOLD),
+        ("required by CTS", &[RequiredByCts], Color::FG_RED),
+        ("disputed", &[Disputed], Color::FG_RED),
+        ("open", &[Open], Color::FG_YELLOW),
+        ("not supported", &[NotSupported], Color::FG_BRIGHT_BLACK),
+        ("skipped", &[Skipped], Color::FG_BRIGHT_BLACK),
         ("broken", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
     ];
-    // Not supported is the adapter's word, skipped is the user's.
-    let skipped = rows
-        .iter()
-        .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Skipped));
-    if skipped {
-        let column = ("skipped", &[Verdict::Skipped][..], Color::FG_BRIGHT_BLACK);
-        columns.insert(columns.len() - 1, column);
-    }
-    // Weaker grades of evidence have columns of their own, where a run has any.
-    for (name, verdict) in [
-        ("disputed", Verdict::Disputed),
-        ("required by CTS", Verdict::RequiredByCts),
-    ] {
-        let any = rows
-            .iter()
-            .any(|(_, r)| r.iter().any(|r| r.verdict == verdict));
-        if any {
-            let verdicts: &[Verdict] = match verdict {
-                Verdict::Disputed => &[Verdict::Disputed],
-                _ => &[Verdict::RequiredByCts],
-            };
-            columns.insert(3, (name, verdicts, Color::FG_RED));
-        }
-    }
-    if measured {
-        columns.insert(1, ("measured", &[Verdict::Measured], Color::FG_BLUE));
-    }
-    let mut builder = Builder::default();
-    let names = columns.iter().map(|(name, _, _)| *name);
-    builder.push_record(
-        ["adapter"]
-            .into_iter()
-            .chain(names)
-            .chain(["expected", "cases/s"]),
-    );
-    let mut painted = Vec::new();
-    for (at, (adapter, records)) in rows.iter().enumerate() {
-        let tally = Tally::of(records.iter().copied());
-        let mut row = vec![plain(adapter, 60)];
-        for (i, (_, verdicts, color)) in columns.iter().enumerate() {
-            let n: u64 = verdicts.iter().map(|v| tally.plain(*v)).sum();
-            row.push(dotted(n));
-            if n > 0 {
-                painted.push((at + 1, i + 1, color.clone()));
-            }
-        }
-        row.push(dotted(tally.excused()));
-        row.push(rate(records));
-        builder.push_record(row);
-    }
+    let mut table = Table::<(&str, Tally, Option<String>)>::new("").text("adapter", |row| row.0);
     // What is 0 everywhere goes first, then what says least about the driver.
-    let empty = |i: &usize| {
-        let none = |verdicts: &[Verdict]| {
-            rows.iter()
-                .all(|(_, r)| !r.iter().any(|r| verdicts.contains(&r.verdict)))
-        };
-        none(columns[*i].1)
-    };
-    let mut optional: Vec<usize> = (0..columns.len()).filter(empty).map(|i| i + 1).collect();
-    optional.push(columns.len() + 2);
-    for name in ["imprecise", "skipped", "measured", "not supported", "open"] {
-        let place = columns
-            .iter()
-            .position(|(other, ..)| *other == name)
-            .map(|i| i + 1);
-        optional.extend(place.filter(|i| !optional.contains(i)));
-    }
-    let heads: Vec<&str> = columns.iter().map(|(name, ..)| *name).collect();
-    let (builder, left_out) = terminal::fit(builder, options, &optional);
-    let mut table = terminal::table(builder, options, 1);
-    if options.color {
-        for (row, column, color) in painted {
-            let before = left_out.iter().filter(|c| **c < column).count();
-            if !left_out.contains(&column) {
-                table.modify(Cell::new(row, column - before), color);
-            }
+    let mut optional = Vec::new();
+    for (name, verdicts, color) in columns {
+        let occurs = occurs(verdicts);
+        if !occurs && RARE.contains(&name) {
+            continue;
         }
+        if !occurs {
+            optional.push(name);
+        }
+        table = table.number(name, move |(_, tally, _)| {
+            let count = some(verdicts.iter().map(|v| tally.plain(*v)).sum());
+            Cell::from(count).color(count.map(|_| color.clone()))
+        });
     }
-    let mut text = wrapped(table, options);
-    let named: Vec<String> = left_out
+    optional.extend([
+        "cases/s",
+        "imprecise",
+        "skipped",
+        "measured",
+        "not supported",
+        "open",
+    ]);
+    let table = table
+        .number("expected", |(_, tally, _)| some(tally.excused()))
+        .number("cases/s", |(_, _, rate)| rate.clone());
+    let rows = rows
         .iter()
-        .map(|column| {
-            heads
-                .get(*column - 1)
-                .copied()
-                .unwrap_or("cases/s")
-                .to_owned()
-        })
-        .collect();
-    if !named.is_empty() {
+        .map(|(adapter, records)| (*adapter, Tally::of(records.iter().copied()), rate(records)));
+    let (mut text, left_out) = table.terminal(rows, options, &optional);
+    if !left_out.is_empty() {
         text.push('\n');
         text.push_str(&terminal::listed(
             "Left out for width: ",
-            &named,
+            &left_out,
             2,
             options,
         ));
@@ -212,16 +159,12 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     text
 }
 
-fn rate(records: &[&Record]) -> String {
+fn rate(records: &[&Record]) -> Option<String> {
     let seconds: f64 = records
         .iter()
         .map(|r| r.seconds.draw + r.seconds.judge)
         .sum();
-    if seconds > 0.0 {
-        format!("{:.0}", records.len() as f64 / seconds)
-    } else {
-        "·".to_owned()
-    }
+    (seconds > 0.0).then(|| format!("{:.0}", records.len() as f64 / seconds))
 }
 
 fn unexpected(run: &Run, options: TableOptions) -> String {

@@ -25,6 +25,14 @@ impl Undrawn {
         self.adapters.iter().map(|(_, n)| n).sum()
     }
 
+    /// The number of records on an adapter.
+    pub(crate) fn on(&self, adapter: &str) -> u64 {
+        let mut adapters = self.adapters.iter();
+        adapters
+            .find(|(name, _)| name == adapter)
+            .map_or(0, |(_, n)| *n)
+    }
+
     /// `blocked: texture format r8unorm does not survive`; what is not supported needs no word before it.
     pub(crate) fn text(&self) -> String {
         match self.verdict {

@@ -58,6 +58,12 @@ impl Recorded {
         pages
     }
 
+    /// The files beside the pages.
+    pub(crate) fn beside(&self) -> impl Iterator<Item = &str> {
+        let names = self.files.iter().filter_map(|file| file.to_str());
+        names.filter(|name| !name.ends_with(".html") && !name.contains('/'))
+    }
+
     /// The areas whose cases can be seen.
     pub(crate) fn galleries(&self) -> Vec<&str> {
         let names = self.files.iter().filter_map(|file| file.to_str());
@@ -87,12 +93,11 @@ pub(crate) fn collect(folders: &[PathBuf]) -> Result<Vec<Recorded>, ReportError>
                 facts: facts(folder)?,
                 files,
             };
-            match recorded.pages().is_empty() {
-                true => Err(ReportError::NoPage {
-                    path: folder.clone(),
-                }),
-                false => Ok(recorded),
+            if recorded.pages().is_empty() {
+                let path = folder.clone();
+                return Err(ReportError::NoPage { path });
             }
+            Ok(recorded)
         })
         .collect()
 }
@@ -156,9 +161,9 @@ fn name(folder: &Path, taken: &mut HashSet<String>) -> String {
     let own = whole
         .file_name()
         .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    let plain = |c: char| match c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {
-        true => c,
-        false => '_',
+    let plain = |c: char| {
+        let keeps = c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+        if keeps { c } else { '_' }
     };
     let own: String = own.trim_start_matches('.').chars().map(plain).collect();
     let own = if own.is_empty() {

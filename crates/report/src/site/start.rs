@@ -4,6 +4,7 @@ use super::docs::Docs;
 use super::runs::{Facts, Recorded, RunFacts};
 use crate::numbers::{count, thousands};
 use crate::page::Page;
+use crate::table::Table;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,65 +29,42 @@ pub(super) fn page(runs: &[Recorded], docs: Option<&Docs>) -> String {
         @if let Some(run) = shown { (galleries(run)) }
         @if let Some(docs) = docs { (documents(docs)) }
     };
-    Page {
-        title: "etalon",
-        styles: &[STYLE],
-        script: None,
-        beside: false,
-        main,
-        source: "recorded folders and documents",
-    }
-    .html()
+    Page::new("etalon", "recorded folders and documents", &main)
+        .style(STYLE)
+        .html()
 }
 
 fn reports(runs: &[Recorded]) -> Markup {
+    let table = Table::new("stacked")
+        .head("Report", |run: &&Recorded| {
+            let first = run.pages().first().map(|page| address(run, page));
+            html! { @if let Some(first) = first { a href=(first) { (run.name) } } @else { (run.name) } }
+        })
+        .text("Started", |run| match &run.facts {
+            Facts::Run(RunFacts { started, .. }) | Facts::Bench(started, ..) => started.clone(),
+            Facts::Other => String::new(),
+        })
+        .text("Drawn", |run| match &run.facts {
+            Facts::Run(RunFacts { cases, adapters, .. }) | Facts::Bench(_, cases, adapters) => {
+                scope(*cases, adapters)
+            }
+            Facts::Other => String::new(),
+        })
+        .text("Result", |run| match &run.facts {
+            Facts::Run(facts) => result(facts),
+            Facts::Bench(..) => html! { "frame times" },
+            Facts::Other => html! {},
+        })
+        .text("Pages", |run| {
+            html! { @for page in run.pages() { a href=(address(run, page)) { (title(page, &run.facts)) } " " } }
+        })
+        .text("Files", |run| {
+            html! { @for name in run.beside() { a href=(address(run, name)) { (name) } " " } }
+        });
     html! {
         section id="reports" {
             h2 { "Reports" }
-            div.wide { table.stacked {
-                thead { tr {
-                    th scope="col" { "Report" } th scope="col" { "Started" } th scope="col" { "Drawn" }
-                    th scope="col" { "Result" } th scope="col" { "Pages" } th scope="col" { "Files" }
-                } }
-                tbody { @for run in runs { (report(run)) } }
-            } }
-        }
-    }
-}
-
-fn report(run: &Recorded) -> Markup {
-    let first = run.pages().first().map(|page| address(run, page));
-    let (started, drawn) = match &run.facts {
-        Facts::Run(facts) => (facts.started.as_str(), scope(facts.cases, &facts.adapters)),
-        Facts::Bench(started, cases, adapters) => (started.as_str(), scope(*cases, adapters)),
-        Facts::Other => ("", String::new()),
-    };
-    let beside: Vec<&str> = run
-        .files
-        .iter()
-        .filter_map(|file| file.to_str())
-        .filter(|name| !name.ends_with(".html") && !name.contains('/'))
-        .collect();
-    html! {
-        tr {
-            th scope="row" {
-                @if let Some(first) = first { a href=(first) { (run.name) } } @else { (run.name) }
-            }
-            td data-head="Started" { (started) }
-            td data-head="Drawn" { (drawn) }
-            td data-head="Result" {
-                @match &run.facts {
-                    Facts::Run(facts) => (result(facts)),
-                    Facts::Bench(..) => "frame times",
-                    Facts::Other => "",
-                }
-            }
-            td data-head="Pages" {
-                @for page in run.pages() { a href=(address(run, page)) { (title(page, &run.facts)) } " " }
-            }
-            td data-head="Files" {
-                @for name in beside { a href=(address(run, name)) { (name) } " " }
-            }
+            (table.page(runs))
         }
     }
 }
@@ -156,10 +134,8 @@ fn documents(docs: &Docs) -> Markup {
         let folder = path.parent().unwrap_or(Path::new(""));
         let to = format!("docs/{}", path.with_extension("html").display());
         let pages = folders.entry(folder).or_default();
-        match path.ends_with("README.md") {
-            true => pages.insert(0, (to, &page.title)),
-            false => pages.push((to, &page.title)),
-        }
+        let first = path.ends_with("README.md");
+        pages.insert(if first { 0 } else { pages.len() }, (to, &page.title));
     }
     html! {
         section id="documents" {

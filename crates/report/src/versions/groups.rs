@@ -23,10 +23,20 @@ pub(super) struct Group<'a> {
     /// The finding; `None` where none speaks of them.
     pub(super) finding: Option<&'a str>,
     /// The releases in which they are bad, in words.
-    pub(super) bad: String,
+    bad: String,
     /// These releases as the `versions` of a finding.
     pub(super) range: Option<String>,
     pub(super) cases: Vec<&'a CaseVersions>,
+}
+
+impl Group<'_> {
+    /// The releases in which the cases are bad, in words.
+    pub(super) fn bad(&self) -> &str {
+        match self.course {
+            Course::Flaky => "flaky",
+            _ => &self.bad,
+        }
+    }
 }
 
 /// Returns the groups: bad ones first, the largest of each kind first.
@@ -72,9 +82,12 @@ fn spans(versions: &Versions, case: &CaseVersions) -> String {
         return "all".to_owned();
     }
     let version = |i: usize| plain(&releases[i].version, 40);
-    let each = bad.iter().map(|[first, last]| match first == last {
-        true => version(*first),
-        false => format!("{} to {}", version(*first), version(*last)),
+    let each = bad.iter().map(|[first, last]| {
+        if first == last {
+            version(*first)
+        } else {
+            format!("{} to {}", version(*first), version(*last))
+        }
     });
     each.collect::<Vec<_>>().join(", ")
 }

@@ -1,7 +1,6 @@
 //! Two benches compared, from their recorded samples.
 
-use crate::bench::figures;
-use crate::bench::kind::software;
+use crate::bench::figures::{self, software};
 use crate::numbers::count;
 use crate::words::machine;
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
@@ -9,6 +8,7 @@ use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
 };
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// The comparison of two benches. `--format json` prints its serialised form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -84,6 +84,13 @@ pub struct TimeChange {
     pub visible: Option<f64>,
 }
 
+impl TimeChange {
+    /// The outcome if the samples decide it, else nothing.
+    pub(super) fn decided(&self) -> &'static str {
+        if self.why.is_none() { self.outcome } else { "" }
+    }
+}
+
 /// A case on an adapter that has times in one bench only.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Untimed {
@@ -122,6 +129,14 @@ impl BenchDiff {
         ]
     }
 
+    /// The changes on software or hardware adapters.
+    pub(super) fn of_kind(&self, software: bool) -> Vec<&TimeChange> {
+        self.changes
+            .iter()
+            .filter(|c| c.software == software)
+            .collect()
+    }
+
     /// The conclusion in one line.
     pub(super) fn conclusion(&self) -> String {
         let mut parts = Vec::new();
@@ -132,15 +147,9 @@ impl BenchDiff {
         } else {
             parts.push("Nothing is shown to be worse".to_owned());
         }
-        let mut vanished: Vec<&str> = self
-            .gone
-            .iter()
-            .filter(|g| g.vanished)
-            .map(|g| g.adapter.as_str())
-            .collect();
-        vanished.dedup();
-        vanished.sort_unstable();
-        vanished.dedup();
+        let vanished = self.gone.iter().filter(|g| g.vanished);
+        let vanished: BTreeSet<&str> = vanished.map(|g| g.adapter.as_str()).collect();
+        let vanished: Vec<&str> = vanished.into_iter().collect();
         if !vanished.is_empty() {
             parts.push(format!("vanished: {}", vanished.join(", ")));
         }
@@ -175,12 +184,8 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
     for old in &before.records {
         let (case, adapter) = (&old.picture.case, &old.picture.adapter);
         let new = after.record(case, adapter);
-        let kind = software(
-            after
-                .header
-                .adapter(adapter)
-                .or(before.header.adapter(adapter)),
-        );
+        let sides = [after, before].map(|bench| bench.header.adapter(adapter));
+        let kind = software(sides[0].or(sides[1]));
         // The ruler is the processor's: it says nothing of what another device does by itself.
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let of = |record: &BenchRecord| samples(record, time, ruled);
@@ -300,34 +305,29 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
             b.ruler, a.ruler
         ));
     }
-    if b.profile != a.profile {
-        notes.push(format!(
-            "Profiles: {} before, {} after.",
-            b.profile, a.profile
-        ));
-    }
-    if b.shader_cache != a.shader_cache {
-        notes.push(format!(
-            "Shader caches: {} before, {} after.",
-            b.shader_cache.name(),
-            a.shader_cache.name()
-        ));
-    }
+    let mut differs = |what: String, before: &str, after: &str| {
+        if before != after {
+            notes.push(format!("{what} {before} before, {after} after."));
+        }
+    };
+    differs("Profiles:".to_owned(), &b.profile, &a.profile);
+    let caches = [b, a].map(|h| h.shader_cache.name());
+    differs("Shader caches:".to_owned(), caches[0], caches[1]);
     for old in &b.adapters {
         let Some(new) = a.adapter(&old.name) else {
             continue;
         };
-        let said = |what: &str, old_value: &str, new_value: &str| {
-            (old_value != new_value).then(|| {
-                format!(
-                    "{}: {what} {old_value} before, {new_value} after.",
-                    old.name
-                )
-            })
-        };
-        notes.extend(said("device", &old.device, &new.device));
-        notes.extend(said("driver", &old.driver_text(), &new.driver_text()));
-        notes.extend(said("API", &old.api_version, &new.api_version));
+        differs(format!("{}: device", old.name), &old.device, &new.device);
+        differs(
+            format!("{}: driver", old.name),
+            &old.driver_text(),
+            &new.driver_text(),
+        );
+        differs(
+            format!("{}: API", old.name),
+            &old.api_version,
+            &new.api_version,
+        );
     }
     for (bench, name) in [(before, "first"), (after, "second")] {
         if bench.missing() > 0 || bench.truncated {

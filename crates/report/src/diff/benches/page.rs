@@ -1,10 +1,11 @@
 //! The comparison of two benches as a page.
 
-use super::compare::{BenchDiff, BenchFacts, TimeChange};
-use crate::bench::kind::KINDS;
+use super::compare::{BenchDiff, BenchFacts};
+use super::table::changes_table;
+use crate::bench::figures::KINDS;
 use crate::error::ReportError;
 use crate::files::replace_at;
-use crate::numbers::{change, duration};
+use crate::numbers::change;
 use crate::page::Page;
 use crate::page::adapter::breakable;
 use maud::{Markup, html};
@@ -36,9 +37,9 @@ fn page(diff: &BenchDiff) -> String {
             @for note in &diff.notes { p.state.bad { "! " (note) } }
         }
         @for (kind, title) in KINDS {
-            @let changes: Vec<&TimeChange> = diff.changes.iter().filter(|c| c.software == kind).collect();
+            @let changes = diff.of_kind(kind);
             @if !changes.is_empty() {
-                section { h2 { (title) " adapters" } (table(&changes)) }
+                section { h2 { (title) " adapters" } (changes_table().page(changes)) }
             }
         }
         @if !diff.gone.is_empty() {
@@ -65,15 +66,9 @@ fn page(diff: &BenchDiff) -> String {
             }
         }
     };
-    Page {
-        title: "etalon diff",
-        styles: &[BENCH_STYLE],
-        script: None,
-        beside: false,
-        main,
-        source: "two recorded benches",
-    }
-    .html()
+    Page::new("etalon diff", "two recorded benches", &main)
+        .style(BENCH_STYLE)
+        .html()
 }
 
 fn side(name: &str, side: &BenchFacts) -> Markup {
@@ -84,47 +79,5 @@ fn side(name: &str, side: &BenchFacts) -> Markup {
             @if let Some(commit) = &side.commit { ", commit " code { (commit) } }
             ", " (side.machine) br; code { (side.command) }
         }
-    }
-}
-
-fn table(changes: &[&TimeChange]) -> Markup {
-    let interval = |i: Option<[f64; 2]>| match i {
-        Some([low, high]) => format!("{} to {}", change(low), change(high)),
-        None => "–".to_owned(),
-    };
-    html! {
-        div.wide { table.diff {
-            thead { tr {
-                th { "Case" } th { "Adapter" } th { "Outcome" } th { "Before" } th { "After" } th { "Change" }
-                th { "Interval" } th { "In units of the ruler" } th { "Visible" } th { "Rounds" }
-            } }
-            tbody { @for c in changes {
-                tr class=(class(c.outcome)) {
-                    th scope="row" { (c.case) }
-                    td { (breakable(&c.adapter)) }
-                    td { b { (c.outcome) } @if let Some(why) = c.why { small { ": " (why) } } }
-                    td.num { (duration(c.before)) }
-                    td.num { (duration(c.after)) }
-                    td.num { (change(c.ratio)) }
-                    td.num { (interval(c.interval)) }
-                    td.num {
-                        @match c.ruled {
-                            Some(ruled) => { (change(ruled)) " (" (interval(c.ruled_interval)) ")" }
-                            None => "–",
-                        }
-                    }
-                    td.num { @match c.visible { Some(v) => (change(v)), None => "–" } }
-                    td.num { (c.rounds[0]) " and " (c.rounds[1]) }
-                }
-            } }
-        } }
-    }
-}
-
-fn class(outcome: &str) -> &'static str {
-    match outcome {
-        "slower" => "slower",
-        "faster" => "faster",
-        _ => "same",
     }
 }

@@ -1,11 +1,13 @@
 //! The comparison of two benches for a terminal.
 
 use super::compare::{BenchDiff, TimeChange};
-use crate::bench::kind::KINDS;
-use crate::numbers::{change, duration};
-use crate::terminal::{self, TableOptions, wrapped};
+use crate::bench::figures::KINDS;
+use crate::numbers::{between, change, duration};
+use crate::page::adapter::adapter;
+use crate::table::{Cell, Table};
+use crate::terminal::TableOptions;
 use crate::words::plain;
-use tabled::builder::Builder;
+use maud::html;
 use tabled::settings::Color;
 
 /// Facts that make the benches hard to compare, a table of changes per kind of adapter, cases that were timed
@@ -28,12 +30,11 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     }
     text.push('\n');
     for (kind, title) in KINDS {
-        let changes: Vec<&TimeChange> =
-            diff.changes.iter().filter(|c| c.software == kind).collect();
+        let changes = diff.of_kind(kind);
         if !changes.is_empty() {
-            text.push_str(&format!("{title}, {} times\n", diff.time));
-            text.push_str(&changes_table(&changes, options));
-            text.push_str("\n\n");
+            let optional = ["visible", "before", "after", "interval"];
+            let (table, _) = changes_table().terminal(changes, options, &optional);
+            text.push_str(&format!("{title}, {} times\n{table}\n\n", diff.time));
         }
     }
     if !diff.gone.is_empty() {
@@ -67,42 +68,35 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     text
 }
 
-fn changes_table(changes: &[&TimeChange], options: TableOptions) -> String {
-    let mut builder = Builder::default();
-    builder.push_record([
-        "case", "adapter", "outcome", "before", "after", "change", "interval", "visible",
-    ]);
-    let mut painted = Vec::new();
-    for (at, c) in changes.iter().enumerate() {
-        let outcome = match c.why {
-            Some(why) => format!("{}: {why}", c.outcome),
-            None => c.outcome.to_owned(),
-        };
-        match c.outcome {
-            "slower" => painted.push((at + 1, Color::FG_RED | Color::BOLD)),
-            "faster" => painted.push((at + 1, Color::FG_GREEN)),
-            _ => {}
-        }
-        builder.push_record([
-            plain(&c.case, 120),
-            plain(&c.adapter, 60),
-            outcome,
-            duration(c.before),
-            duration(c.after),
-            change(c.ratio),
-            c.interval.map_or_else(
-                || "·".to_owned(),
-                |[low, high]| format!("{} to {}", change(low), change(high)),
-            ),
-            c.visible.map_or_else(|| "·".to_owned(), change),
-        ]);
-    }
-    let (builder, _) = terminal::fit(builder, options, &[7, 3, 4, 6]);
-    let mut table = terminal::table(builder, options, 3);
-    if options.color {
-        for (row, color) in painted {
-            table.modify((row, 2), color);
-        }
-    }
-    wrapped(table, options)
+/// A row per change.
+pub(super) fn changes_table<'a>() -> Table<'a, &'a TimeChange> {
+    let interval = |ends: Option<[f64; 2]>| ends.map(|ends| between(ends, change));
+    Table::new("diff")
+        .row_class(|c: &&TimeChange| c.decided())
+        .head("case", |c| &*c.case)
+        .text("adapter", |c| adapter(&c.adapter))
+        .text("outcome", |c| {
+            let why = c.why.map_or_else(String::new, |why| format!(": {why}"));
+            let color = match c.decided() {
+                "slower" => Some(Color::FG_RED | Color::BOLD),
+                "faster" => Some(Color::FG_GREEN),
+                _ => None,
+            };
+            let shown = html! { b { (c.outcome) } small { (why) } };
+            Cell::from(format!("{}{why}", c.outcome))
+                .on_page(shown)
+                .color(color)
+        })
+        .number("before", |c| duration(c.before))
+        .number("after", |c| duration(c.after))
+        .number("change", |c| change(c.ratio))
+        .number("interval", move |c| interval(c.interval))
+        .number("in units of the ruler", move |c| {
+            let ends = interval(c.ruled_interval).unwrap_or_else(|| "–".to_owned());
+            c.ruled.map(|ruled| format!("{} ({ends})", change(ruled)))
+        })
+        .only_on_page()
+        .number("visible", |c| c.visible.map(change))
+        .number("rounds", |c| format!("{} and {}", c.rounds[0], c.rounds[1]))
+        .only_on_page()
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 /// The comparison of two runs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct RunDiff {
     /// `runs`, which distinguishes it from a comparison of benches.
     pub kind: &'static str,
@@ -133,7 +133,7 @@ pub struct Unpaired {
 }
 
 /// Two adapters that are compared.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pair {
     /// Their names.
     pub adapter: [String; 2],
@@ -164,15 +164,7 @@ impl Pair {
         Self {
             adapter: adapter.map(str::to_owned),
             facts,
-            compared: 0,
-            same: 0,
-            worse: 0,
-            better: 0,
-            other: 0,
-            only: [0; 2],
-            transitions: Vec::new(),
-            asserted: [0.0; 2],
-            channels: [[0; 2]; 2],
+            ..Self::default()
         }
     }
 

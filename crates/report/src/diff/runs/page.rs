@@ -1,15 +1,18 @@
 //! The comparison of two runs as a page.
 
-use super::data::{Change, Direction, Fact, Pair, RunDiff, both_names};
+use super::data::{Change, Direction, Fact, RunDiff, both_names};
+use super::table::{area_table, method_table, pair_table};
 use super::times::STATEMENT;
 use super::{phrases, pixels};
 use crate::command;
 use crate::error::ReportError;
 use crate::files::replace_at;
-use crate::numbers::{count, duration, percent};
+use crate::lists::grouped;
+use crate::numbers::count;
 use crate::page::Page;
 use crate::page::adapter::breakable;
 use crate::picture::Strip;
+use crate::table::Table;
 use crate::words::{name, plain};
 use maud::{Markup, html};
 use std::collections::HashSet;
@@ -49,14 +52,12 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
         (methods(diff))
         (reading())
     };
-    Page {
-        title: &format!("etalon diff: {}", headline(diff)),
-        styles: &[OWN_STYLE],
-        script: None,
-        beside: false,
-        main,
-        source: "the records and frames of two runs",
-    }
+    Page::new(
+        &format!("etalon diff: {}", headline(diff)),
+        "the records and frames of two runs",
+        &main,
+    )
+    .style(OWN_STYLE)
     .html()
 }
 
@@ -111,39 +112,39 @@ fn title(direction: Direction) -> &'static str {
     }
 }
 
+/// One thing in both runs.
+struct Both {
+    name: String,
+    sides: [Markup; 2],
+    differs: bool,
+}
+
 /// Both sides of what the runs state; rows that differ are marked.
+fn both(rows: impl IntoIterator<Item = Both>) -> Markup {
+    Table::new("two")
+        .row_class(|row: &Both| if row.differs { "differs" } else { "" })
+        .head("", |row| row.name.clone())
+        .text("Before", |row| row.sides[0].clone())
+        .text("After", |row| row.sides[1].clone())
+        .page(rows)
+}
+
 fn facts(facts: &[Fact]) -> Markup {
     let shown = |text: &str| {
-        html! {
-            @if text.is_empty() { td.none { "–" } } @else { td { (plain(text, 600)) } }
-        }
+        html! { @if text.is_empty() { span.soft { "–" } } @else { (plain(text, 600)) } }
     };
-    html! {
-        div.wide { table.two {
-            thead { tr { th { "" } th { "Before" } th { "After" } } }
-            tbody { @for fact in facts {
-                tr.differs[fact.differs()] {
-                    th scope="row" { (fact.name) @if fact.differs() { " ≠" } }
-                    (shown(&fact.before)) (shown(&fact.after))
-                }
-            } }
-        } }
-    }
+    both(facts.iter().map(|fact| Both {
+        name: format!("{}{}", fact.name, if fact.differs() { " ≠" } else { "" }),
+        sides: [shown(&fact.before), shown(&fact.after)],
+        differs: fact.differs(),
+    }))
 }
 
 fn pairs(diff: &RunDiff) -> Markup {
     html! {
         section id="adapters" {
             h2 { "Adapters" }
-            @if !diff.pairs.is_empty() {
-                div.wide { table {
-                    thead { tr {
-                        th { "Adapter" } th { "Compared" } th { "Same" } th { "Worse" } th { "Better" } th { "Other" }
-                        th { "Only before" } th { "Only after" } th { "Asserted" } th { "Changed verdicts" }
-                    } }
-                    tbody { @for pair in &diff.pairs { (pair_row(pair)) } }
-                } }
-            }
+            @if !diff.pairs.is_empty() { (pair_table().page(&diff.pairs)) }
             @for pair in &diff.pairs {
                 @if !pair.facts.is_empty() {
                     @let differ = pair.facts.iter().filter(|f| f.differs()).count() as u64;
@@ -158,24 +159,6 @@ fn pairs(diff: &RunDiff) -> Markup {
                     @if unpaired.worse { b { "✗ " } }
                     code { (unpaired.adapter) } " " (phrases::side(unpaired.side)) ": "
                     (count(unpaired.records, "record")) ", not compared."
-                }
-            }
-        }
-    }
-}
-
-fn pair_row(pair: &Pair) -> Markup {
-    let [before, after] = pair.asserted.map(|share| percent(share, 2));
-    html! {
-        tr {
-            th scope="row" { (breakable(&pair.name())) }
-            td.num { (pair.compared) } td.num { (pair.same) }
-            td.num { (pair.worse) } td.num { (pair.better) } td.num { (pair.other) }
-            td.num { (pair.only[0]) } td.num { (pair.only[1]) }
-            td.num { @if before == after { (after) } @else { (before) " → " (after) } }
-            td {
-                @for (i, transition) in pair.transitions.iter().enumerate() {
-                    @if i > 0 { ", " } (transition.records) " " (phrases::transition(transition.verdict))
                 }
             }
         }
@@ -198,15 +181,9 @@ fn section(
         .take(LISTED)
         .map(std::ptr::from_ref)
         .collect();
-    let mut files: Vec<(&str, Vec<&Change>)> = Vec::new();
     let these = diff.changes.iter().filter(|c| c.direction == direction);
-    for change in these.filter(|c| chosen.contains(&std::ptr::from_ref(*c))) {
-        let known = files.iter_mut().find(|(file, _)| *file == change.case_file);
-        match known {
-            Some((_, changes)) => changes.push(change),
-            None => files.push((&change.case_file, vec![change])),
-        }
-    }
+    let these = these.filter(|c| chosen.contains(&std::ptr::from_ref(*c)));
+    let files = grouped(these.map(|change| (&*change.case_file, change)));
     let rest = all - chosen.len() as u64;
     html! {
         section id=(direction.name()) {
@@ -245,29 +222,25 @@ fn line(change: &Change) -> Markup {
 fn body(change: &Change, folders: &[&Path; 2], budget: &mut usize) -> Markup {
     let [old, new] = &change.adapter;
     let run = |adapter: &str| command::run(&change.case, adapter);
-    html! {
-        div.wide { table.two {
-            thead { tr { th { "" } th { "Before" } th { "After" } } }
-            tbody {
-                tr.differs[change.verdict[0] != change.verdict[1]] {
-                    th scope="row" { "verdict" }
-                    @for i in [0, 1] {
-                        td {
-                            b { (name(change.verdict[i])) }
-                            @if change.unexpected[i] { " (unexpected)" }
-                            br; small { (change.headline[i]) }
-                        }
-                    }
-                }
-                @for detail in &change.details {
-                    tr.differs {
-                        th scope="row" { (phrases::title(detail)) }
-                        td { (plain(&phrases::value(&detail.before), 600)) }
-                        td { (plain(&phrases::value(&detail.after), 600)) }
-                    }
-                }
+    let verdict = Both {
+        name: "verdict".to_owned(),
+        sides: [0, 1].map(|i| {
+            html! {
+                b { (name(change.verdict[i])) }
+                @if change.unexpected[i] { " (unexpected)" }
+                br; small { (change.headline[i]) }
             }
-        } }
+        }),
+        differs: change.verdict[0] != change.verdict[1],
+    };
+    let details = change.details.iter().map(|detail| Both {
+        name: phrases::title(detail),
+        sides: [&detail.before, &detail.after]
+            .map(|value| html! { (plain(&phrases::value(value), 600)) }),
+        differs: true,
+    });
+    html! {
+        (both([verdict].into_iter().chain(details)))
         @if let Some(said) = phrases::expectation(change) { p { "The verdict is " (said) "." } }
         @if let Some(frame) = &change.frame {
             @for said in phrases::frame(frame) { p.cap { (said) } }
@@ -326,22 +299,7 @@ fn times(diff: &RunDiff) -> Markup {
             section id="times" {
                 h2 { "Times" }
                 p { (STATEMENT) }
-                div.wide { table {
-                    thead { tr {
-                        th { "Adapter" } th { "Area" } th { "Cases" } th { "Sum before" } th { "After" } th { "Change" }
-                        th { "Median before" } th { "After" } th { "Change" }
-                    } }
-                    tbody { @for time in diff.times.iter().take(ROWS) {
-                        tr {
-                            th scope="row" { (breakable(&both_names(&time.adapter))) }
-                            td { (time.area) } td.num { (time.cases) }
-                            td.num { (duration(time.sum[0])) } td.num { (duration(time.sum[1])) }
-                            td.num { (phrases::ratio(time.sum)) }
-                            td.num { (duration(time.median[0])) } td.num { (duration(time.median[1])) }
-                            td.num { (phrases::ratio(time.median)) }
-                        }
-                    } }
-                } }
+                (area_table().page(diff.times.iter().take(ROWS)))
             }
         }
     }
@@ -353,25 +311,7 @@ fn methods(diff: &RunDiff) -> Markup {
             section id="methods" {
                 h2 { "Frame times of methods" }
                 p { "Medians while nothing else was drawn or judged, of one process each. " (STATEMENT) }
-                div.wide { table {
-                    thead { tr {
-                        th { "Case" } th { "Adapter" } th { "Before" } th { "After" } th { "Change" }
-                        th { "GPU before" } th { "After" } th { "Frames" }
-                    } }
-                    tbody { @for time in diff.methods.iter().take(ROWS) {
-                        tr {
-                            th scope="row" { (time.case) }
-                            td { (breakable(&both_names(&time.adapter))) }
-                            td.num { (duration(time.wall[0])) } td.num { (duration(time.wall[1])) }
-                            td.num { (phrases::ratio(time.wall)) }
-                            @match time.gpu {
-                                Some(gpu) => { td.num { (duration(gpu[0])) } td.num { (duration(gpu[1])) } }
-                                None => { td.num { "–" } td.num { "–" } }
-                            }
-                            td.num { (time.samples[0]) " and " (time.samples[1]) }
-                        }
-                    } }
-                } }
+                (method_table().page(diff.methods.iter().take(ROWS)))
                 @if diff.methods.len() > ROWS { p.note { "and " (diff.methods.len() - ROWS) " more" } }
             }
         }

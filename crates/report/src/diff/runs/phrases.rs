@@ -1,6 +1,6 @@
 //! Differences of runs in words, shared by terminal and page.
 
-use super::data::{Change, Detail, Direction, FrameChange, Only, RunDiff, Side};
+use super::data::{Change, Detail, Direction, FrameChange, Only, Pair, RunDiff, Side};
 use crate::numbers::{change, count, trimmed};
 use crate::words::{name, plain};
 use etalon_record::Verdict;
@@ -35,8 +35,17 @@ pub(super) fn verdicts(change: &Change) -> String {
 }
 
 /// `pass → fail`.
-pub(super) fn transition([before, after]: [Verdict; 2]) -> String {
+fn transition([before, after]: [Verdict; 2]) -> String {
     format!("{} → {}", name(before), name(after))
+}
+
+/// `2 pass → fail, 1 fail → pass`.
+pub(super) fn transitions(pair: &Pair) -> String {
+    let each = pair
+        .transitions
+        .iter()
+        .map(|t| format!("{} {}", t.records, transition(t.verdict)));
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// The change of the expectations, where it alone decides the direction.

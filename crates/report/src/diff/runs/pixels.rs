@@ -99,9 +99,12 @@ fn image(before: &FrameImage, after: &FrameImage) -> ImageChange {
 /// The pictures of one image: the first run's stands where the allowed one does in other strips, so that
 /// the difference is that of the two runs.
 fn between(before: &FrameImage, after: &FrameImage) -> Option<Strip> {
-    let mark = |(old, new): (&[u32], &[u32])| match old == new {
-        true => FrameImage::FINE,
-        false => FrameImage::FAIL,
+    let mark = |(old, new): (&[u32], &[u32])| {
+        if old == new {
+            FrameImage::FINE
+        } else {
+            FrameImage::FAIL
+        }
     };
     let both = FrameImage {
         low: before.actual.clone(),
@@ -110,16 +113,7 @@ fn between(before: &FrameImage, after: &FrameImage) -> Option<Strip> {
         ..after.clone()
     };
     let same = both.wrong.iter().all(|w| *w == FrameImage::FINE);
-    let mut strip = (!same).then(|| picture::strip(&both))??;
-    for picture in &mut strip.pictures {
-        picture.label = match picture.label {
-            "allowed" => "before",
-            "allowed alpha" => "before, alpha",
-            "actual" => "after",
-            "actual alpha" => "after, alpha",
-            other => other,
-        };
-    }
+    let mut strip = (!same).then(|| picture::named(&both, "before", "after"))??;
     strip.caption = strip
         .caption
         .replace(" Exactly one code is allowed everywhere.", "");
@@ -152,7 +146,7 @@ mod tests {
         let change = image(&before, &after);
         assert_eq!((change.samples, change.differ, change.largest), (3, 2, 7));
         let strip = between(&before, &after).unwrap();
-        let labels: Vec<_> = strip.pictures.iter().map(|p| p.label).collect();
+        let labels: Vec<_> = strip.pictures.iter().map(|p| &*p.label).collect();
         assert_eq!(labels, ["before", "after", "difference"]);
         assert!(!strip.caption.contains("allowed"), "{}", strip.caption);
         assert!(between(&before, &before).is_none());

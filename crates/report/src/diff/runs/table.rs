@@ -4,9 +4,10 @@ use super::data::{AreaTime, Direction, MethodTime, Pair, RunDiff, both_names};
 use super::phrases;
 use super::times::STATEMENT;
 use crate::numbers::{count, duration, percent};
-use crate::terminal::{self, TableOptions, dotted, wrapped};
+use crate::page::adapter::adapter;
+use crate::table::{Table, some};
+use crate::terminal::TableOptions;
 use crate::words::{name, plain};
-use tabled::builder::Builder;
 
 /// The most changes of a direction that are listed.
 const LISTED: [(Direction, usize); 3] = [
@@ -57,8 +58,8 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
         }
         return text;
     }
-    text.push_str(&pairs(&diff.pairs, options));
-    text.push('\n');
+    let (table, _) = pair_table().terminal(&diff.pairs, options, &[]);
+    text.push_str(&format!("{table}\n\n"));
     transitions(&mut text, &diff.pairs);
     for (direction, most) in LISTED {
         changes(&mut text, diff, direction, most, options);
@@ -78,51 +79,32 @@ fn fact_line(of: &str, what: &str, before: &str, after: &str) -> String {
     format!("{of}{what}: {} → {}\n", shown(before), shown(after))
 }
 
-fn text_of(builder: Builder, options: TableOptions, text_columns: usize) -> String {
-    format!(
-        "{}\n",
-        wrapped(terminal::table(builder, options, text_columns), options)
-    )
-}
-
-fn pairs(pairs: &[Pair], options: TableOptions) -> String {
-    let mut builder = Builder::default();
-    builder.push_record([
-        "adapter",
-        "compared",
-        "same",
-        "worse",
-        "better",
-        "other",
-        "only before",
-        "only after",
-        "asserted",
-    ]);
-    for pair in pairs {
-        let [before, after] = pair.asserted.map(|share| percent(share, 2));
-        builder.push_record([
-            plain(&pair.name(), 120),
-            dotted(pair.compared),
-            dotted(pair.same),
-            dotted(pair.worse),
-            dotted(pair.better),
-            dotted(pair.other),
-            dotted(pair.only[0]),
-            dotted(pair.only[1]),
-            match before == after {
-                true => after,
-                false => format!("{before} → {after}"),
-            },
-        ]);
-    }
-    text_of(builder, options, 1)
+/// A row per pair of adapters.
+pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
+    Table::new("")
+        .head("adapter", |pair: &&Pair| adapter(&pair.name()))
+        .number("compared", |pair| some(pair.compared))
+        .number("same", |pair| some(pair.same))
+        .number("worse", |pair| some(pair.worse))
+        .number("better", |pair| some(pair.better))
+        .number("other", |pair| some(pair.other))
+        .number("only before", |pair| some(pair.only[0]))
+        .number("only after", |pair| some(pair.only[1]))
+        .number("asserted", |pair| {
+            let [before, after] = pair.asserted.map(|share| percent(share, 2));
+            if before == after {
+                after
+            } else {
+                format!("{before} → {after}")
+            }
+        })
+        .text("changed verdicts", |pair| phrases::transitions(pair))
+        .only_on_page()
 }
 
 fn transitions(text: &mut String, pairs: &[Pair]) {
     for pair in pairs.iter().filter(|p| !p.transitions.is_empty()) {
-        let each = pair.transitions.iter();
-        let each = each.map(|t| format!("{} {}", t.records, phrases::transition(t.verdict)));
-        let all = each.collect::<Vec<_>>().join(", ");
+        let all = phrases::transitions(pair);
         text.push_str(&format!("{}: {all}\n", plain(&pair.name(), 120)));
     }
 }
@@ -216,7 +198,8 @@ fn times(text: &mut String, diff: &RunDiff, options: TableOptions) {
     }
     text.push_str(&format!("\nTimes. {STATEMENT}\n"));
     if !diff.times.is_empty() {
-        text.push_str(&areas(&diff.times, options));
+        let (table, _) = area_table().terminal(&diff.times, options, &[]);
+        text.push_str(&format!("{table}\n"));
     }
     if !diff.methods.is_empty() {
         text.push_str(&methods(&diff.methods, options));
@@ -224,60 +207,52 @@ fn times(text: &mut String, diff: &RunDiff, options: TableOptions) {
     text.push('\n');
 }
 
-fn areas(times: &[AreaTime], options: TableOptions) -> String {
-    let mut builder = Builder::default();
-    builder.push_record([
-        "adapter",
-        "area",
-        "cases",
-        "sum before",
-        "after",
-        "change",
-        "median before",
-        "after",
-        "change",
-    ]);
-    for time in times {
-        let [sum_before, sum_after] = time.sum.map(duration);
-        let [before, after] = time.median.map(duration);
-        builder.push_record([
-            plain(&both_names(&time.adapter), 120),
-            plain(&time.area, 60),
-            time.cases.to_string(),
-            sum_before,
-            sum_after,
-            phrases::ratio(time.sum),
-            before,
-            after,
-            phrases::ratio(time.median),
-        ]);
-    }
-    text_of(builder, options, 2)
+/// A row per area and pair of adapters.
+pub(super) fn area_table<'a>() -> Table<'a, &'a AreaTime> {
+    Table::new("")
+        .head("adapter", |time: &&AreaTime| {
+            adapter(&both_names(&time.adapter))
+        })
+        .text("area", |time| &*time.area)
+        .number("cases", |time| time.cases)
+        .number("sum before", |time| duration(time.sum[0]))
+        .number("after", |time| duration(time.sum[1]))
+        .number("change", |time| phrases::ratio(time.sum))
+        .number("median before", |time| duration(time.median[0]))
+        .number("after", |time| duration(time.median[1]))
+        .number("change", |time| phrases::ratio(time.median))
+}
+
+/// A row per method and pair of adapters.
+pub(super) fn method_table<'a>() -> Table<'a, &'a MethodTime> {
+    Table::new("")
+        .head("method", |time: &&MethodTime| &*time.case)
+        .text("adapter", |time| adapter(&both_names(&time.adapter)))
+        .number("frame before", |time| duration(time.wall[0]))
+        .number("after", |time| duration(time.wall[1]))
+        .number("change", |time| phrases::ratio(time.wall))
+        .number("GPU before", |time| time.gpu.map(|gpu| duration(gpu[0])))
+        .only_on_page()
+        .number("after", |time| time.gpu.map(|gpu| duration(gpu[1])))
+        .only_on_page()
+        .number("frames", |time| {
+            format!("{} and {}", time.samples[0], time.samples[1])
+        })
+        .only_on_page()
 }
 
 fn methods(times: &[MethodTime], options: TableOptions) -> String {
     let mut sorted: Vec<&MethodTime> = times.iter().collect();
     let far = |t: &MethodTime| (t.wall[1] / t.wall[0]).ln().abs();
     sorted.sort_by(|a, b| far(b).total_cmp(&far(a)));
-    let mut builder = Builder::default();
-    builder.push_record(["method", "adapter", "frame before", "after", "change"]);
-    for time in sorted.iter().take(LINES) {
-        let [before, after] = time.wall.map(duration);
-        builder.push_record([
-            plain(&time.case, 160),
-            plain(&both_names(&time.adapter), 120),
-            before,
-            after,
-            phrases::ratio(time.wall),
-        ]);
-    }
-    let table = text_of(builder, options, 2);
+    sorted.truncate(LINES);
+    let (table, _) = method_table().terminal(sorted, options, &[]);
     match times.len().saturating_sub(LINES) {
-        0 => table,
-        rest => format!(
-            "{table}and {} that changed less\n",
-            count(rest as u64, "method")
-        ),
+        0 => format!("{table}\n"),
+        rest => {
+            let rest = count(rest as u64, "method");
+            format!("{table}\nand {rest} that changed less\n")
+        }
     }
 }
 

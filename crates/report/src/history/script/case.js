@@ -88,25 +88,25 @@ function spanTable(line, spans) {
 function strip(line, spans, missing, first, last) {
   const runs = line.runs.length;
   const x = run => (run / runs * STRIP).toFixed(1);
-  const box = (from, end, colour) => draw("rect", { x: x(from), y: 0, width: Math.max(1, (end - from) / runs * STRIP).toFixed(1), height: 22, class: colour });
+  const box = (from, end, colour) => shape("rect", { x: x(from), y: 0, width: Math.max(1, (end - from) / runs * STRIP).toFixed(1), height: 22, class: colour });
   const texts = spans.slice(-5).map(({ from, look }) => look.text + " from " + line.runs[from].run.day);
-  const svg = draw("svg", { class: "strip", viewBox: "0 0 " + STRIP + " 40", role: "img", preserveAspectRatio: "none" },
-    draw("title", {}, (spans.length > 5 ? "The last of " + spans.length + " spans: " : "") + texts.join(", then ")),
-    draw("rect", { x: 0, y: 0, width: STRIP, height: 22, class: "empty" }));
+  const svg = shape("svg", { class: "strip", viewBox: "0 0 " + STRIP + " 40", role: "img", preserveAspectRatio: "none" },
+    shape("title", {}, (spans.length > 5 ? "The last of " + spans.length + " spans: " : "") + texts.join(", then ")),
+    shape("rect", { x: 0, y: 0, width: STRIP, height: 22, class: "empty" }));
   for (const { from, end, look } of spans) svg.append(box(from, end, look.colour.split(" ")[0]));
   for (const [from, end] of missing) {
     for (let run = from; run < end; run++) if (line.runs[run].whole) svg.append(box(run, run + 1, "empty"));
   }
-  svg.append(draw("text", { x: 0, y: 37 }, line.runs[0].run.day), draw("text", { x: STRIP, y: 37, "text-anchor": "end" }, line.runs[runs - 1].run.day));
+  svg.append(shape("text", { x: 0, y: 37 }, line.runs[0].run.day), shape("text", { x: STRIP, y: 37, "text-anchor": "end" }, line.runs[runs - 1].run.day));
   // The driver's versions, as far as there is room for them.
   let free = 90;
   for (let run = 1; run < runs; run++) {
     if (line.runs[run].version === line.runs[run - 1].version) continue;
-    svg.append(draw("path", { d: "M" + x(run) + " 0V26", class: "edge" }));
+    svg.append(shape("path", { d: "M" + x(run) + " 0V26", class: "edge" }));
     const at = run / runs * STRIP;
     const width = 7 * line.runs[run].version.length;
     if (at < free || at + width > STRIP - 90) continue;
-    svg.append(draw("text", { x: x(run), y: 37 }, line.runs[run].version));
+    svg.append(shape("text", { x: x(run), y: 37 }, line.runs[run].version));
     free = at + width + 12;
   }
   return svg;

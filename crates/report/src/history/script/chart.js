@@ -42,23 +42,23 @@ function chart(line, time) {
   const x = i => MARGIN + (runs > 1 ? i / (runs - 1) : 0.5) * (CHART - MARGIN - 8);
   const title = time.name + ": " + (time.changes.length ? time.changes.map(change =>
     sized(change[5]) + " at " + time.runs[change[0]].run.day).join(", then ") : "no change") + "; " + counted(runs, "run");
-  const svg = draw("svg", { class: "times", viewBox: "0 0 " + CHART + " " + height, role: "img" }, draw("title", {}, title));
+  const svg = shape("svg", { class: "times", viewBox: "0 0 " + CHART + " " + height, role: "img" }, shape("title", {}, title));
   const y = curve(svg, time.medians, x, 6, HIGH - 6, "curve", [0, ...time.changes.map(change => change[0])]);
   if (time.rulers.length) {
-    svg.append(draw("text", { x: 0, y: HIGH + 16, class: "name" }, "ruler"));
+    svg.append(shape("text", { x: 0, y: HIGH + 16, class: "name" }, "ruler"));
     curve(svg, time.rulers, x, HIGH + 12, HIGH + LOW, "curve ruler", []);
   }
-  svg.append(draw("text", { x: 0, y: 12, class: "name" }, time.name));
+  svg.append(shape("text", { x: 0, y: 12, class: "name" }, time.name));
   const bottom = height - 22;
   time.changes.forEach((change, number) => {
     const [from, to] = [x(change[1]), x(change[2])];
     svg.append(
-      draw("rect", { x: from.toFixed(1), y: 4, width: Math.max(2, to - from).toFixed(1), height: bottom - 4, class: "between" }),
-      draw("path", { d: "M" + x(change[0]).toFixed(1) + " 4V" + bottom, class: "change" }),
-      draw("text", { x: (x(change[0]) + 4).toFixed(1), y: 14, class: "number" }, String(number + 1)));
+      shape("rect", { x: from.toFixed(1), y: 4, width: Math.max(2, to - from).toFixed(1), height: bottom - 4, class: "between" }),
+      shape("path", { d: "M" + x(change[0]).toFixed(1) + " 4V" + bottom, class: "change" }),
+      shape("text", { x: (x(change[0]) + 4).toFixed(1), y: 14, class: "number" }, String(number + 1)));
   });
-  svg.append(draw("text", { x: MARGIN, y: height - 6 }, time.runs[0].run.day),
-    draw("text", { x: CHART - 8, y: height - 6, "text-anchor": "end" }, time.runs[runs - 1].run.day));
+  svg.append(shape("text", { x: MARGIN, y: height - 6 }, time.runs[0].run.day),
+    shape("text", { x: CHART - 8, y: height - 6, "text-anchor": "end" }, time.runs[runs - 1].run.day));
   const parts = [make("figure", { class: "series" }, svg)];
   const visible = time.visible ? "A step of " + ratioText(time.visible) + " would be found with probability 0.9 when ten runs have followed it; " : "Too few runs for a step to be found; ";
   parts.push(make("p", { class: "cap" }, visible + "a run differs from its level by " + (time.noise * 100).toPrecision(2) + " %."));
@@ -77,8 +77,8 @@ function curve(svg, values, x, top, bottom, look, levels) {
   if (high < low * 1.02) [low, high] = [low * 0.99, high * 1.01];
   const y = value => bottom - (value - low) / (high - low) * (bottom - top - 8);
   for (const value of [low, high]) {
-    svg.append(draw("path", { d: "M" + MARGIN + " " + y(value).toFixed(1) + "H" + (CHART - 8), class: "grid" }),
-      draw("text", { x: MARGIN - 5, y: (y(value) + (value === low ? 0 : 9)).toFixed(1), "text-anchor": "end" }, micros(value)));
+    svg.append(shape("path", { d: "M" + MARGIN + " " + y(value).toFixed(1) + "H" + (CHART - 8), class: "grid" }),
+      shape("text", { x: MARGIN - 5, y: (y(value) + (value === low ? 0 : 9)).toFixed(1), "text-anchor": "end" }, micros(value)));
   }
   let path = "";
   let pen = false;
@@ -86,12 +86,12 @@ function curve(svg, values, x, top, bottom, look, levels) {
     if (value > 0) path += (pen ? "L" : "M") + x(i).toFixed(1) + " " + y(value).toFixed(1);
     pen = value > 0;
   });
-  svg.append(draw("path", { d: path, class: look }));
+  svg.append(shape("path", { d: path, class: look }));
   levels.forEach((from, i) => {
     const to = i + 1 < levels.length ? levels[i + 1] : values.length;
     const part = values.slice(from, to).filter(value => value > 0).sort((a, b) => a - b);
     const middle = part[part.length >> 1];
-    if (middle) svg.append(draw("path", { d: "M" + x(from).toFixed(1) + " " + y(middle).toFixed(1) + "H" + x(to - 1).toFixed(1), class: "level" }));
+    if (middle) svg.append(shape("path", { d: "M" + x(from).toFixed(1) + " " + y(middle).toFixed(1) + "H" + x(to - 1).toFixed(1), class: "level" }));
   });
   return y;
 }

@@ -12,7 +12,7 @@ async function allCases() {
   return ids;
 }
 
-const caseLink = id => make("a", { href: "#case=" + encoded(id) }, make("code", {}, id));
+const caseLink = id => make("a", { href: addressOf(id) }, make("code", {}, id));
 
 // A label that is an address leads there; any other text stays text.
 function labelOf(text) {
@@ -26,12 +26,11 @@ async function showRun(text, into) {
   if (!run || !names) return fail(into, known ? "This history has no run of this number." : LOST);
   const number = placeOf(index.runs, run.place);
   const file = number < 0 ? [] : await need("run-" + number);
-  const facts = [
+  into.append(facts([
     ["Started", run.started], ["Released", run.released], ["Kind", run.kind], ["Suite", "etalon " + run.etalon + (run.commit ? ", commit " + run.commit : "")],
     ["Machine", run.machine], ["Profile", run.profile], ["Missing records", run.missing ? String(run.missing) : ""], ["Digest", run.digest],
     ...run.labels.map(([key, value]) => ["Label " + key, labelOf(value)]),
-  ].filter(([, value]) => value);
-  into.append(make("dl", { class: "facts" }, ...facts.flatMap(([key, value]) => [make("dt", {}, key), make("dd", {}, value)])));
+  ].filter(([, value]) => value)));
   const found = (file || []).find(([place]) => place === run.place);
   for (const line of known.lines) {
     const at = line.runs.findIndex(one => one.run === run);
@@ -85,8 +84,8 @@ async function showNews(_, into) {
 async function showFound(text, into) {
   const names = await allCases();
   if (!names) return fail(into, LOST);
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = names.filter(id => words.every(word => id.toLowerCase().includes(word)));
+  const words = wordsOf(text);
+  const found = names.filter(id => words.every(occurs => occurs(id.toLowerCase())));
   $("view-state").textContent = counted(found.length, "case") + (found.length > MOST_FOUND ? ", the first " + MOST_FOUND : "");
   into.append(make("ul", { class: "found" }, ...found.slice(0, MOST_FOUND).map(id => make("li", {}, caseLink(id)))));
 }

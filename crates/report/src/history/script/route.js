@@ -3,54 +3,35 @@ const VIEWS = {
   case: [id => id, showCase],
   run: [id => "Run " + id, showRun],
   adapter: [name => name, showAdapter],
+  "all-news": [() => "All changes", showNews],
   q: [text => "Cases with “" + text + "”", showFound],
 };
 const TITLE = document.title;
 let shown = 0;
 let scrolled = 0;
 
-function decoded(text) {
-  try {
-    return decodeURIComponent(text);
-  } catch {
-    return text;
-  }
-}
-
-// Ids stay readable in addresses.
-function encoded(text) {
-  return encodeURIComponent(text.toWellFormed()).replace(/%(2F|3A|3D|2C)/g, decodeURIComponent);
-}
-
 async function route() {
-  const hash = location.hash.slice(1);
-  const at = hash.indexOf("=");
-  const name = hash.slice(0, Math.max(0, at));
-  const view = hash === "all-news" ? [() => "All changes", showNews] : Object.hasOwn(VIEWS, name) ? VIEWS[name] : null;
+  const found = viewOf(VIEWS);
   const turn = ++shown;
-  if (!view) {
+  if (!found) {
     const wasAway = $("start").hidden;
-    $("view").hidden = true;
-    $("start").hidden = false;
+    comeBack($("start"), $("view"), TITLE);
     place(false);
-    document.title = TITLE;
-    if (wasAway && !hash) scrollTo(0, scrolled);
+    if (wasAway && !location.hash) scrollTo(0, scrolled);
     return;
   }
+  const [[titled, fill], text] = found;
   if (!$("start").hidden) scrolled = scrollY;
-  const text = decoded(hash.slice(at + 1));
   const into = make("div", { id: "view-body" });
   // A search keeps the focus in its field.
-  const searching = name === "q" && document.activeElement === $("q");
+  const searching = fill === showFound && document.activeElement === $("q");
   $("view-state").textContent = "";
-  await view[1](text, into);
+  await fill(text, into);
   if (turn !== shown) return;
-  $("view-title").textContent = view[0](text);
-  document.title = view[0](text) + " – etalon";
+  $("view-title").textContent = titled(text);
   $("view-body").replaceWith(into);
   place(searching);
-  $("start").hidden = true;
-  $("view").hidden = false;
+  leave($("start"), $("view"), titled(text));
   if (!searching) {
     $("view-title").focus();
     scrollTo(0, 0);
@@ -66,10 +47,8 @@ function place(searching) {
   if (searching) $("q").focus();
 }
 
-const typing = target => target.closest("input, textarea, select");
-
 addEventListener("keydown", event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
+  if (foreign(event)) return;
   const target = event.target instanceof Element ? event.target : document.body;
   const away = !$("view").hidden;
   if (event.key === "Escape" && away) {
@@ -80,8 +59,7 @@ addEventListener("keydown", event => {
     go(1);
   } else if (event.key === "/") {
     if (away) location.hash = "";
-    $("start").hidden = false;
-    $("view").hidden = true;
+    comeBack($("start"), $("view"), TITLE);
     place(false);
     $("q").focus();
     $("q").select();

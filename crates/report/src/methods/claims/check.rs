@@ -191,13 +191,14 @@ impl<'a> On<'_, 'a> {
 
     fn told(&self, setting: &str, text: String, holds: bool) -> Figure {
         Figure {
-            scene: self.scene.name.to_owned(),
-            setting: setting.to_owned(),
-            adapter: self.name.to_owned(),
-            unit: Unit::Text(text),
-            value: 0.0,
-            interval: [0.0; 2],
             holds: holds.into(),
+            ..self.figure(
+                setting,
+                Unit::Text(text),
+                0.0,
+                [0.0; 2],
+                Condition::AtMost(0.0),
+            )
         }
     }
 
@@ -253,9 +254,10 @@ impl<'a> On<'_, 'a> {
                 Some((distance.rmse, distance.max))
             });
             let (one, other) = (one?, other?);
-            let text = match one == other {
-                true => "the same".to_owned(),
-                false => format!("RMSE {} and {}", share(one.0), share(other.0)),
+            let text = if one == other {
+                "the same".to_owned()
+            } else {
+                format!("RMSE {} and {}", share(one.0), share(other.0))
             };
             let figure = self.told(&s.text(), text, one == other);
             Some((Some(s), figure))

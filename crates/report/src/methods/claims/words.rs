@@ -101,9 +101,12 @@ fn share_of(quantity: etalon_methods::Quantity) -> bool {
 }
 
 fn condition(condition: Condition, share: bool) -> String {
-    let text = |v: f64| match share {
-        true => crate::numbers::share(v),
-        false => digits(v, 3),
+    let text = |v: f64| {
+        if share {
+            crate::numbers::share(v)
+        } else {
+            digits(v, 3)
+        }
     };
     match condition {
         Condition::Below(limit) => format!("below {}", text(limit)),

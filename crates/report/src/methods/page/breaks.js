@@ -35,7 +35,7 @@ function showBreaks(percent) {
     rows.push({ one, found, sentence, adapters: known.get(key) });
   }
   const adapters = new Set(allCurves.map(c => c.adapter)).size;
-  const body = $("break-rows");
+  const body = document.querySelector("#break-rows tbody");
   $("limit-text").textContent = text;
   body?.replaceChildren(...rows.map(({ one, found, sentence, adapters: on }) => {
     const sides = found.flatMap((c, i) => [

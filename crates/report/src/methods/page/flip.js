@@ -1,4 +1,3 @@
-"use strict";
 // LDR-FLIP (Andersson and others 2020) at 67 pixels per degree, as nv-flip computes it: a map of 0 to 1.
 const PPD = 67;
 const GREEN_TO_BLUE = (() => {

@@ -1,13 +1,4 @@
 // Differences of pictures from the truth, and the enlarged view of all four.
-const $ = id => document.getElementById(id);
-
-function make(tag, attributes, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-}
-
 const MODES = ["picture", "truth", "difference", "FLIP"];
 const pixels = new WeakMap();
 
@@ -22,7 +13,7 @@ function read(image) {
   return pixels.get(image);
 }
 
-function decoded(image) {
+function ready(image) {
   return image.decode().then(() => image.naturalWidth > 0, () => false);
 }
 
@@ -78,7 +69,7 @@ async function complete(figure) {
   if (figure.dataset.complete) return;
   figure.dataset.complete = "1";
   const images = [figure.querySelector("img"), figure.parentElement.querySelector(".truth img")].filter(Boolean);
-  if (!(await Promise.all(images.map(decoded))).every(Boolean)) return;
+  if (!(await Promise.all(images.map(ready))).every(Boolean)) return;
   const all = compared(figure), method = figure.dataset.method;
   const button = (mode, content, text) => {
     const one = make("button", { type: "button", "data-mode": mode, "aria-label": `Enlarge: ${mode} of ${method}` }, content);

@@ -16,6 +16,12 @@ function depthAt(corners, x, y) {
   return a[2] + u * (b[2] - a[2]) + v * (c[2] - a[2]);
 }
 
+function cornersOf(numbers) {
+  const corners = [];
+  for (let i = 4; i < numbers.length; i += 3) corners.push(numbers.slice(i, i + 3));
+  return corners;
+}
+
 // The layers at a texel, nearest first, and what is behind them; null where they are not what the truth shows.
 function layersAt(figure, all, x, y) {
   const group = figure.parentElement;
@@ -24,9 +30,7 @@ function layersAt(figure, all, x, y) {
   if (size[0] !== all.picture.width || size[1] !== all.picture.height) return null;
   const found = [];
   surfaces.forEach((numbers, order) => {
-    const corners = [];
-    for (let i = 4; i < numbers.length; i += 3) corners.push(numbers.slice(i, i + 3));
-    const depth = depthAt(corners, x + .5, y + .5);
+    const depth = depthAt(cornersOf(numbers), x + .5, y + .5);
     if (depth !== null) found.push({ order, depth, color: numbers.slice(0, 3), alpha: numbers[3] });
   });
   // Of two at the same depth the later one is in front.
@@ -51,8 +55,7 @@ function layersAt(figure, all, x, y) {
 // The number of fragments in front of what is opaque, over all texels.
 function fragments({ size, surfaces }) {
   const all = surfaces.map(numbers => {
-    const corners = [];
-    for (let i = 4; i < numbers.length; i += 3) corners.push(numbers.slice(i, i + 3));
+    const corners = cornersOf(numbers);
     return { corners, alpha: numbers[3], top: Math.min(...corners.map(c => c[1])), bottom: Math.max(...corners.map(c => c[1])) };
   });
   let count = 0;

@@ -2,22 +2,20 @@
 
 use crate::numbers::{percent, percent_of, thousands};
 use crate::run::grid::Grid;
+use crate::table::{Cell, Table};
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
-    let rows: Vec<(usize, Aspect, Vec<Figures<'_>>)> = grid
-        .areas
-        .iter()
-        .enumerate()
-        .flat_map(|(a, _)| {
-            figures(grid, a)
-                .into_iter()
-                .map(move |(aspect, figures)| (a, aspect, figures))
-        })
-        .collect();
+    let areas = (0..grid.areas.len()).flat_map(|area| {
+        let aspects = figures(grid, area).into_iter();
+        let rows =
+            aspects.flat_map(|(aspect, rows)| rows.into_iter().map(move |row| (aspect, row)));
+        rows.map(move |(aspect, row)| (grid.areas[area].name, aspect, row))
+    });
+    let rows: Vec<(&str, Aspect, Figures<'_>)> = areas.collect();
     html! {
         section id="asserted" {
             h2 { "What was asserted" }
@@ -30,25 +28,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
             @if rows.is_empty() {
                 p { "No frame was judged." }
             } @else {
-                div.wide { table.figures {
-                    caption.vh { "What was asserted of channels, by area and aspect" }
-                    thead {
-                        tr {
-                            th scope="col" rowspan="2" { "Area" } th scope="col" rowspan="2" { "Aspect" }
-                            th scope="col" rowspan="2" { "Adapters" } th scope="col" rowspan="2" { "Channels" }
-                            th.band scope="colgroup" colspan="3" { "Legal band" } th.band scope="colgroup" colspan="3" { "Yardstick" }
-                        }
-                        tr {
-                            th.band scope="col" { "asserted" } th scope="col" { "exact" } th scope="col" { "sharpness" }
-                            th.band scope="col" { "asserted" } th scope="col" { "exact" } th scope="col" { "sharpness" }
-                        }
-                    }
-                    tbody {
-                        @for (area, aspect, figures) in &rows {
-                            @for f in figures { (row(grid, *area, *aspect, f)) }
-                        }
-                    }
-                } }
+                (asserted(grid).page(rows))
                 (counters(grid))
             }
         }
@@ -71,25 +51,19 @@ fn counters(grid: &Grid<'_>) -> Markup {
             }
         }
     }
-    html! {
-        @if !rows.is_empty() {
-            div.wide { table.figures {
-                caption { "Counters, over all adapters" }
-                thead { tr { th scope="col" { "Area" } th scope="col" { "Counts" } th scope="col" { "Read back" } th scope="col" { "Asserted" } th scope="col" { "Exact" } } }
-                tbody {
-                    @for ((area, kind), [all, asserted, exact]) in &rows {
-                        tr {
-                            th scope="row" { (grid.areas[*area].name) }
-                            td { (kind.name()) }
-                            td.num { (thousands(*all)) }
-                            td.num { (percent_of(*asserted, *all)) }
-                            td.num { (percent_of(*exact, *all)) }
-                        }
-                    }
-                }
-            } }
-        }
-    }
+    let table = Table::new("figures")
+        .caption("Counters, over all adapters")
+        .head(
+            "Area",
+            |((area, _), _): &((usize, CounterKind), [u64; 3])| grid.areas[*area].name,
+        )
+        .text("Counts", |((_, kind), _)| kind.name())
+        .number("Read back", |(_, [all, ..])| thousands(*all))
+        .number("Asserted", |(_, [all, asserted, _])| {
+            percent_of(*asserted, *all)
+        })
+        .number("Exact", |(_, [all, _, exact])| percent_of(*exact, *all));
+    html! { @if !rows.is_empty() { (table.page(rows)) } }
 }
 
 /// Adapters with the same figures.
@@ -151,28 +125,30 @@ fn shown(sum: &Assertion) -> [String; 6] {
     ]
 }
 
-fn row(grid: &Grid<'_>, area: usize, aspect: Aspect, figures: &Figures<'_>) -> Markup {
-    let [least, most] = figures.channels;
-    html! {
-        tr {
-            th scope="row" { (grid.areas[area].name) }
-            td { (aspect.name()) }
-            td.names {
-                @if figures.adapters.len() == grid.adapters.len() && grid.adapters.len() > 1 {
-                    "all"
-                } @else {
-                    (figures.adapters.join(", "))
-                }
-            }
-            td.num {
-                (thousands(most))
-                @if least < most { small { " (" (thousands(least)) " at least)" } }
-            }
-            @for (i, text) in figures.shown.iter().enumerate() {
-                td.num.band[i % 3 == 0] { (text) }
-            }
-        }
+fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, (&'a str, Aspect, Figures<'a>)> {
+    let mut table = Table::<(&str, Aspect, Figures<'_>)>::new("figures")
+        .spoken("What was asserted of channels, by area and aspect")
+        .head("Area", |(area, ..)| *area)
+        .text("Aspect", |(_, aspect, _)| aspect.name())
+        .text("Adapters", |(.., f)| {
+            let all = f.adapters.len() == grid.adapters.len() && f.adapters.len() > 1;
+            let names = f.adapters.join(", ");
+            Cell::from(if all { "all".to_owned() } else { names }).class("names")
+        })
+        .number("Channels", |(.., f)| {
+            let [least, most] = f.channels;
+            html! { (thousands(most)) @if least < most { small { " (" (thousands(least)) " at least)" } } }
+        });
+    let names = ["asserted", "exact", "sharpness"];
+    let bands = ["Legal", "Yardstick"]
+        .into_iter()
+        .flat_map(|band| names.map(|name| (band, name)));
+    for (i, (band, name)) in bands.enumerate() {
+        let class = if i % 3 == 0 { "band" } else { "" };
+        let head = html! { (band) ": " br; (name) };
+        table = table.number(head, move |(.., f)| Cell::from(&f.shown[i]).class(class));
     }
+    table
 }
 
 fn sharpness(value: Option<f64>) -> String {

@@ -77,7 +77,24 @@ fn controls(grid: &Grid<'_>) -> Markup {
     let mut verdicts: Vec<Verdict> = tally.entries().map(|(v, _, _)| v).collect();
     verdicts.sort_by_key(|v| std::cmp::Reverse(v.severity()));
     verdicts.dedup();
+    let bad = [("bad".to_owned(), "any bad one".to_owned())];
+    let each = verdicts.into_iter().map(|v| {
+        (
+            v.name().to_owned(),
+            format!("{} {}", words::symbol(v), words::name(v)),
+        )
+    });
+    let none = [("none".to_owned(), "no record".to_owned())];
+    let verdicts = bad.into_iter().chain(each).chain(none).collect();
     let (odd, apart) = odd(grid);
+    let names = grid
+        .adapters
+        .iter()
+        .zip(&odd)
+        .map(|(name, n)| format!("{name} ({n})"));
+    let any = format!("any one adapter ({})", odd.iter().sum::<u64>());
+    let mut differs = vec![("any".to_owned(), any)];
+    differs.extend((0..).map(|i: usize| i.to_string()).zip(names));
     html! {
         form.filter id="filter" role="search" aria-labelledby="cases-title" hidden {
             div.search {
@@ -87,45 +104,34 @@ fn controls(grid: &Grid<'_>) -> Markup {
                 small id="f-q-help" { "The id contains all words; * matches anything." }
             }
             label.check { input id="f-messages" type="checkbox"; "search messages too" }
-            div {
-                label for="f-verdict" { "Verdict" }
-                select id="f-verdict" {
-                    option value="" { "any" }
-                    option value="bad" { "any bad one" }
-                    @for verdict in verdicts {
-                        option value=(verdict.name()) { (words::symbol(verdict)) " " (words::name(verdict)) }
-                    }
-                    option value="none" { "no record" }
-                }
-            }
-            div {
-                label for="f-on" { "On adapter" }
-                select id="f-on" {
-                    option value="" { "any" }
-                    @for (i, adapter) in grid.adapters.iter().enumerate() { option value=(i) { (adapter) } }
-                }
-            }
-            div {
-                label for="f-area" { "Area" }
-                select id="f-area" {
-                    option value="" { "any" }
-                    @for (i, area) in grid.areas.iter().enumerate() { option value=(i) { (area.name) } }
-                }
-            }
-            div {
-                label for="f-odd" { "Differs only on" }
-                select id="f-odd" {
-                    option value="" { "–" }
-                    option value="any" { "any one adapter (" (odd.iter().sum::<u64>()) ")" }
-                    @for (i, adapter) in grid.adapters.iter().enumerate() {
-                        option value=(i) { (adapter) " (" (odd[i]) ")" }
-                    }
-                }
-            }
+            (select("verdict", "Verdict", "any", verdicts))
+            (select("on", "On adapter", "any", numbered(&mut grid.adapters.iter().copied())))
+            (select("area", "Area", "any", numbered(&mut grid.areas.iter().map(|area| area.name))))
+            (select("odd", "Differs only on", "–", differs))
             label.check { input id="f-unexpected" type="checkbox"; "unexpected only (" (tally.unexpected) ")" }
             label.check { input id="f-disagree" type="checkbox"; "adapters disagree (" (count(apart, "case")) ")" }
             button type="button" id="f-clear" { "Clear filters" }
             button type="button" id="f-groups" aria-controls="case-table" { "Open all groups" }
+        }
+    }
+}
+
+fn numbered(names: &mut dyn Iterator<Item = &str>) -> Vec<(String, String)> {
+    let named = names.enumerate();
+    named
+        .map(|(i, name)| (i.to_string(), name.to_owned()))
+        .collect()
+}
+
+/// A control of the filter: options with their values, after one that filters nothing.
+fn select(id: &str, label: &str, nothing: &str, options: Vec<(String, String)>) -> Markup {
+    html! {
+        div {
+            label for={ "f-" (id) } { (label) }
+            select id={ "f-" (id) } {
+                option value="" { (nothing) }
+                @for (value, text) in options { option value=(value) { (text) } }
+            }
         }
     }
 }

@@ -115,11 +115,13 @@ impl Consensus {
                 (Votes::Split, text)
             }
         };
-        let odd = match most.len() > least.len() {
-            true => least.iter().map(|(column, _)| *column).collect(),
-            false => Vec::new(),
-        };
-        Self { votes, odd, text }
+        let decided = most.len() > least.len();
+        let odd = least.iter().filter(|_| decided).map(|(column, _)| *column);
+        Self {
+            votes,
+            odd: odd.collect(),
+            text,
+        }
     }
 
     /// The adapter's column that alone stands against all others that drew the case.

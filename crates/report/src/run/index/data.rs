@@ -7,6 +7,7 @@
 use super::consensus::Consensus;
 use super::facts::{self, LABELS};
 use super::findings::{Plan, kind};
+use crate::lists::Interner;
 use crate::mark::class;
 use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone};
@@ -200,37 +201,6 @@ fn escaped(text: &str) -> usize {
         c => c.len_utf8(),
     };
     text.chars().map(one).sum::<usize>() + 3
-}
-
-/// Values, each once, by place.
-struct Interner<T> {
-    places: HashMap<T, usize>,
-    values: Vec<T>,
-}
-
-impl<T> Default for Interner<T> {
-    fn default() -> Self {
-        Self {
-            places: HashMap::new(),
-            values: Vec::new(),
-        }
-    }
-}
-
-impl<T: std::hash::Hash + Eq + Clone> Interner<T> {
-    fn has(&self, value: &T) -> bool {
-        self.places.contains_key(value)
-    }
-
-    fn place(&mut self, value: T) -> usize {
-        if let Some(place) = self.places.get(&value) {
-            return *place;
-        }
-        let place = self.values.len();
-        self.places.insert(value.clone(), place);
-        self.values.push(value);
-        place
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::page::link;
 use crate::picture::{self, Strip};
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, judged_by, multisampled, operations, place,
-    process_end, repetitions, sentence, value_text,
+    sentence, value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, RecordError, Run};
@@ -54,19 +54,12 @@ pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) 
     let frame = path.zip(drawn.map(|drawn| &drawn.frame));
     html! {
         @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
-        @if let Some(expected) = &record.expected { p { b { "Expected: " } (expected.reason) } }
-        @if record.due_fail {
-            p { b { "Selftest: " } "the judge sees another scene than the driver, so this is due to fail." }
-        }
-        @if !record.message.is_empty() { pre { (facts::end(&record.message)) } }
-        (circumstances(record))
-        @if record.texels.total > 0 { p { (facts::counts(record)) } }
+        (facts::list(record))
         @match &frame {
             Some((_, Ok(_))) => (pictures(drawn.map_or(&[], |drawn| &drawn.strips), budget)),
             Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
             None => {},
         }
-        @if !record.counters.is_empty() { (counters(record)) }
         @if !record.wrong.is_empty() { (texels(record)) }
         @if let Some(story) = &record.story { (story_section(story, record)) }
         @if !record.wrong.is_empty() {
@@ -78,7 +71,6 @@ pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) 
         p.again {
             "Draw it again: "
             code { (command::run(&record.case, &record.adapter)) }
-            @if let Some((path, _)) = &frame { ", frame: " code { (path) } }
             span.all { ". " a href=(link::case(&record.case)) { "This case on all adapters" } "." }
         }
     }
@@ -88,64 +80,6 @@ fn about(frame: &FrameFile) -> Markup {
     html! {
         p.about { (frame.about) }
         @if !frame.spec.is_empty() { p.spec { "Specifications: " (frame.spec.join("; ")) } }
-    }
-}
-
-/// The end of the process, validation messages, and the verdicts of repetitions.
-fn circumstances(record: &Record) -> Markup {
-    html! {
-        @if let Some(process) = &record.process {
-            p { b { "Process: " } (process_end(process)) }
-            @if !process.stderr.is_empty() {
-                h5 { "Standard error" }
-                pre { (facts::end(&process.stderr)) }
-            }
-        }
-        @if !record.validation.is_empty() {
-            h5 { "Validation" }
-            @for message in &record.validation { pre { (facts::end(message)) } }
-        }
-        @if !record.repeats.is_empty() { p { b { "Repeated: " } (repetitions(&record.repeats)) } }
-        @if !record.after.is_empty() {
-            p { b { "Only when drawn after: " } }
-            ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
-        }
-        @if !record.blocked_by.is_empty() {
-            p { b { "Blocked by: " } }
-            ul { @for case in &record.blocked_by { li { a href=(link::case(case)) { code { (case) } } } } }
-        }
-    }
-}
-
-fn counters(record: &Record) -> Markup {
-    html! {
-        div.wide { table.figures {
-            caption { "Counters" }
-            thead { tr {
-                th scope="col" { "Counter" } th scope="col" { "Counts" } th scope="col" { "Legal" }
-                th scope="col" { "Came" } th scope="col" { "Verdict" }
-            } }
-            tbody {
-                @for counter in &record.counters {
-                    tr {
-                        th scope="row" { (counter.name) }
-                        td { (counter.kind.name()) }
-                        td.num { (counter.range().to_string()) }
-                        td.num { (counter.actual) }
-                        td {
-                            @match counter.band {
-                                Some(Band::Fail) => "✗ illegal",
-                                Some(Band::RequiredByCts) => "⊠ forbidden by the Khronos CTS",
-                                Some(Band::Disputed) => "? forbidden by a disputed reading",
-                                Some(Band::Imprecise) => "• outside the yardstick",
-                                None if counter.is_asserted() => "legal",
-                                None => "nothing is asserted",
-                            }
-                        }
-                    }
-                }
-            }
-        } }
     }
 }
 

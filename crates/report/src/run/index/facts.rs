@@ -1,9 +1,11 @@
 //! The facts of one record in a case's view, as labels and texts.
 
 use crate::numbers::{count, duration, percent};
+use crate::page::link;
 use crate::words;
-use etalon_frame::CounterOutcome;
+use etalon_frame::{Band, CounterOutcome};
 use etalon_record::{Assertion, Record};
+use maud::{Markup, html};
 
 /// The most characters of a message that the page keeps; the end of it, where the reason usually stands.
 const LONGEST: usize = 4000;
@@ -121,8 +123,29 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     facts
 }
 
+/// The facts that an entry under Findings has, as a list.
+pub(crate) fn list(record: &Record) -> Markup {
+    let facts = of(record)
+        .into_iter()
+        .map(|(label, text)| (LABELS[label as usize], text));
+    let facts: Vec<_> = facts.filter(|((.., in_body), _)| *in_body).collect();
+    html! {
+        @if !facts.is_empty() {
+            dl.facts { @for ((name, form, _), text) in &facts {
+                dt { (name) }
+                dd { @match *form {
+                    "pre" => pre { (text) },
+                    "code" => code { (text) },
+                    "case" => a href=(link::case(text)) { code { (text) } },
+                    _ => (text),
+                } }
+            } }
+        }
+    }
+}
+
 /// The counts of samples by outcome.
-pub(super) fn counts(record: &Record) -> String {
+fn counts(record: &Record) -> String {
     let t = &record.texels;
     format!(
         "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
@@ -148,15 +171,28 @@ fn asserted(a: &Assertion) -> String {
 }
 
 fn counted(c: &CounterOutcome) -> String {
-    let legal = match c.is_asserted() {
-        true => format!("legal {}", c.range()),
-        false => "nothing is asserted".to_owned(),
+    let outcome = match c.band {
+        Some(Band::Fail) => "✗ illegal: ",
+        Some(Band::RequiredByCts) => "⊠ forbidden by the Khronos CTS: ",
+        Some(Band::Disputed) => "? forbidden by a disputed reading: ",
+        Some(Band::Imprecise) => "• outside the yardstick: ",
+        None => "",
     };
-    format!("{} ({}): {}, {legal}", c.name, c.kind.name(), c.actual)
+    let legal = if c.is_asserted() {
+        format!("legal {}", c.range())
+    } else {
+        "nothing is asserted".to_owned()
+    };
+    format!(
+        "{outcome}{} ({}): {}, {legal}",
+        c.name,
+        c.kind.name(),
+        c.actual
+    )
 }
 
 /// The end of a text that is too long for the page.
-pub(crate) fn end(text: &str) -> String {
+fn end(text: &str) -> String {
     match text.char_indices().rev().nth(LONGEST) {
         None => text.to_owned(),
         Some((at, c)) => format!("… {}", &text[at + c.len_utf8()..]),

@@ -124,14 +124,14 @@ fn drawn(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> HashMap<usize, Drawn> {
 }
 
 pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
-    let mut budget = Budget::default();
-    let drawn = drawn(folder, grid, plan);
-    let areas: Vec<Markup> = grid
-        .areas
-        .iter()
-        .enumerate()
-        .map(|(a, area)| in_area(grid, plan, &drawn, &mut budget, (a, area)))
-        .collect();
+    let mut section = Section {
+        grid,
+        plan,
+        drawn: drawn(folder, grid, plan),
+        budget: Budget::default(),
+    };
+    let areas = grid.areas.iter().enumerate();
+    let areas: Vec<Markup> = areas.map(|(a, area)| section.area(a, area)).collect();
     html! {
         section id="findings" {
             h2 { "Findings" }
@@ -145,82 +145,82 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
                     " more have a line only. Their frames are under frames/."
                 }
             }
-            @if budget.cut > 0 {
-                p.note { (count(budget.cut, "frame")) " were left out to keep the page small." }
+            @if section.budget.cut > 0 {
+                p.note { (count(section.budget.cut, "frame")) " were left out to keep the page small." }
             }
             @for area in areas { (area) }
         }
     }
 }
 
-fn in_area(
-    grid: &Grid<'_>,
-    plan: &Plan,
-    drawn: &HashMap<usize, Drawn>,
-    budget: &mut Budget,
-    (a, area): (usize, &Area<'_>),
-) -> Markup {
-    html! {
-        h3 id={ "a" (a) } { (area.name) }
-        @for (column, adapter) in grid.adapters.iter().enumerate() {
-            @let tally = Tally::of(area.on(column).map(|i| grid.record(i)));
-            @if tally.total > 0 {
-                div.list id={ "l" (a) "-" (column) } {
-                    h4 {
-                        code { (adapter) }
-                        @for (verdict, tone, n) in tally.entries() {
-                            span class={ "chip " (class(verdict, tone)) } { (n) " " (mark(verdict, tone)) }
+/// The section in the making.
+struct Section<'a> {
+    grid: &'a Grid<'a>,
+    plan: &'a Plan,
+    drawn: HashMap<usize, Drawn>,
+    budget: Budget,
+}
+
+impl Section<'_> {
+    fn area(&mut self, a: usize, area: &Area<'_>) -> Markup {
+        let grid = self.grid;
+        html! {
+            h3 id={ "a" (a) } { (area.name) }
+            @for (column, adapter) in grid.adapters.iter().enumerate() {
+                @let tally = Tally::of(area.on(column).map(|i| grid.record(i)));
+                @if tally.total > 0 {
+                    div.list id={ "l" (a) "-" (column) } {
+                        h4 {
+                            code { (adapter) }
+                            @for (verdict, tone, n) in tally.entries() {
+                                span class={ "chip " (class(verdict, tone)) } { (n) " " (mark(verdict, tone)) }
+                            }
+                        }
+                        @for file in &area.files { (self.file(file, column)) }
+                        (not_supported(grid, area, column))
+                    }
+                }
+            }
+        }
+    }
+
+    fn file(&mut self, file: &CaseFile<'_>, column: usize) -> Markup {
+        let all = listed(self.grid, file, column);
+        let (shown, rest): (Vec<usize>, Vec<usize>) =
+            all.into_iter().partition(|i| self.plan.lists(*i));
+        html! {
+            @for index in shown {
+                @let record = self.grid.record(index);
+                @if self.plan.whole(index) {
+                    details.d {
+                        summary { (self.line(index, record, html! { code { (record.case) } })) }
+                        div.body id={ "r" (index) } {
+                            (detail::body(record, self.drawn.get(&index), &mut self.budget))
                         }
                     }
-                    @for file in &area.files { (in_file(grid, plan, drawn, budget, file, column)) }
-                    (not_supported(grid, area, column))
+                } @else {
+                    p.d id={ "r" (index) } {
+                        (self.line(index, record, html! { a href=(link::case(&record.case)) { code { (record.case) } } }))
+                    }
+                }
+            }
+            @if !rest.is_empty() {
+                p.d.more {
+                    "and " (rest.len()) " more of " code { (file.name) } ", under "
+                    a href=(link::filter(file.name, self.grid.adapters[column])) { "All cases" }
                 }
             }
         }
     }
-}
 
-fn in_file(
-    grid: &Grid<'_>,
-    plan: &Plan,
-    drawn: &HashMap<usize, Drawn>,
-    budget: &mut Budget,
-    file: &CaseFile<'_>,
-    column: usize,
-) -> Markup {
-    let all = listed(grid, file, column);
-    let rest = all.iter().filter(|i| !plan.lists(**i)).count();
-    html! {
-        @for index in all.into_iter().filter(|i| plan.lists(*i)) {
-            @let record = grid.record(index);
-            @if plan.whole(index) {
-                details.d {
-                    summary { (line(plan, index, record, html! { code { (record.case) } })) }
-                    div.body id={ "r" (index) } { (detail::body(record, drawn.get(&index), budget)) }
-                }
-            } @else {
-                p.d id={ "r" (index) } {
-                    (line(plan, index, record, html! { a href=(link::case(&record.case)) { code { (record.case) } } }))
-                }
-            }
+    fn line(&self, index: usize, record: &Record, id: Markup) -> Markup {
+        let tone = Tone::of(record);
+        html! {
+            span class={ "chip " (class(record.verdict, tone)) } { (mark(record.verdict, tone)) }
+            " " (id)
+            @if self.plan.odd.contains(&index) { " " span.chip.only { "differs only here" } }
+            span.h { (words::headline(record)) }
         }
-        @if rest > 0 {
-            p.d.more {
-                "and " (rest) " more of " code { (file.name) } ", under "
-                a href=(link::filter(file.name, grid.adapters[column])) { "All cases" }
-            }
-        }
-    }
-}
-
-fn line(plan: &Plan, index: usize, record: &Record, id: Markup) -> Markup {
-    html! {
-        span class={ "chip " (class(record.verdict, Tone::of(record))) } {
-            (mark(record.verdict, Tone::of(record)))
-        }
-        " " (id)
-        @if plan.odd.contains(&index) { " " span.chip.only { "differs only here" } }
-        span.h { (words::headline(record)) }
     }
 }
 

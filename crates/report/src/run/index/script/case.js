@@ -17,29 +17,28 @@ function symbolAndWord(cell) {
   return [make("i", { "aria-hidden": "true" }, cell.symbol), " " + cell.word];
 }
 
-function showCase(id) {
+// Shows a view of cases, with the address that leads on from it.
+function show(id, one, title, heading, ...content) {
   const view = $("case");
   current = id;
-  const number = numberOf.get(id);
-  const one = number === undefined ? null : cases[number];
-  view.className = "";
-  view.replaceChildren(neighbours(one), make("h1", { id: "case-title", tabindex: "-1" }, make("code", {}, id)));
-  if (one) {
-    view.append(
-      make("p", {}, make("b", {}, "Consensus: "), one.consensus.text + "."),
-      overview(one),
-      meant(id),
-      ...byWeight(one).map(i => onAdapter(one, i)).filter(Boolean));
-  } else {
-    view.append(
-      make("p", { class: "state bad", role: "alert" }, "This run has no case of this name."),
-      make("p", {}, make("a", { href: "#q=" + encoded(id) }, "Search for it"), " among all cases."));
-  }
-  document.title = id + " – etalon";
-  $("report").hidden = true;
-  view.hidden = false;
+  view.replaceChildren(neighbours(one), make("h1", { id: "case-title", tabindex: "-1" }, heading), ...content);
+  leave($("report"), view, title);
   scrollTo(0, 0);
   $("case-title").focus({ preventScroll: true });
+}
+
+function showCase(id) {
+  const one = cases[numberOf.get(id)];
+  const content = one ? [
+    make("p", {}, make("b", {}, "Consensus: "), one.consensus.text + "."),
+    overview(one),
+    meant(id),
+    ...byWeight(one).map(i => onAdapter(one, i)).filter(Boolean),
+  ] : [
+    make("p", { class: "state bad", role: "alert" }, "This run has no case of this name."),
+    make("p", {}, make("a", { href: "#q=" + encoded(id) }, "Search for it"), " among all cases."),
+  ];
+  show(id, one, id, make("code", {}, id), ...content);
 }
 
 // The way back, and to the cases before and after in what the filter left.
@@ -61,8 +60,7 @@ function byWeight(one) {
 }
 
 function overview(one) {
-  const body = make("tbody", {});
-  data.adapters.forEach((name, i) => {
+  const rows = data.adapters.map((name, i) => {
     const record = recordOf(one, i);
     const row = make("tr", {}, make("th", { scope: "row" }, make("code", {}, name)));
     if (record) {
@@ -75,12 +73,9 @@ function overview(one) {
     } else {
       row.append(make("td", { colspan: "4" }, "no record"));
     }
-    body.append(row);
+    return row;
   });
-  const heads = ["Adapter", "Verdict", "From the others", "Drawing", "Judging"];
-  return make("div", { class: "wide" }, make("table", { class: "figures on" },
-    make("caption", { class: "vh" }, "This case on each adapter"),
-    make("thead", {}, make("tr", {}, ...heads.map(head => make("th", { scope: "col" }, head)))), body));
+  return table("This case on each adapter", ["Adapter", "Verdict", "From the others", "Drawing", "Judging"], rows, { class: "figures on" });
 }
 
 function onAdapter(one, i) {
@@ -91,8 +86,8 @@ function onAdapter(one, i) {
       make("span", { class: "chip " + record.cell.class }, ...symbolAndWord(record.cell))));
   // An entry under Findings with pictures is shown as it is there.
   const found = record.body === undefined ? null : $("r" + record.body);
-  const facts = record.facts.filter(fact => !found || !fact.inBody);
-  if (facts.length) section.append(listed(facts));
+  const told = record.facts.filter(fact => !found || !fact.inBody);
+  if (told.length) section.append(facts(told.map(fact => [fact.label, shownFact(fact)])));
   if (found) {
     const body = found.cloneNode(true);
     body.removeAttribute("id");
@@ -105,18 +100,10 @@ function onAdapter(one, i) {
   return section;
 }
 
-function listed(facts) {
-  const list = make("dl", { class: "facts" });
-  let last = "";
-  for (const { label, form, text } of facts) {
-    if (label !== last) list.append(make("dt", {}, label));
-    last = label;
-    const inner = form === "pre" ? make("pre", {}, text)
-      : form === "code" ? make("code", {}, text)
-      : form === "case" ? make("a", { href: addressOf(text) }, make("code", {}, text))
-      : text;
-    list.append(make("dd", {}, inner));
-  }
-  return list;
+function shownFact({ form, text }) {
+  return form === "pre" ? make("pre", {}, text)
+    : form === "code" ? make("code", {}, text)
+    : form === "case" ? make("a", { href: addressOf(text) }, make("code", {}, text))
+    : text;
 }
 

@@ -1,17 +1,4 @@
-// The data of the page, unpacked. Texts of the run become text nodes and nothing else: no line of this
-// script makes HTML or an address out of one.
-const $ = id => document.getElementById(id);
-
-// An element; the names of elements and attributes are literals wherever this is called.
-function make(name, attributes, ...children) {
-  const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value !== false && value !== null) element.setAttribute(key, value === true ? "" : value);
-  }
-  element.append(...children);
-  return element;
-}
-
+// The data of the page, unpacked.
 const parsed = JSON.parse($("data").textContent);
 // Null where no case was run.
 const data = parsed && parsed.files.length ? parsed : null;
@@ -55,6 +42,4 @@ function recordOf(one, adapter) {
   const [draw, judge] = one.times.slice(2 * place, 2 * place + 2);
   return { cell, facts, draw, judge, body: bodies.get(one.number + " " + adapter) };
 }
-
-const whole = n => n.toLocaleString("en");
 

@@ -1,10 +1,6 @@
 // The handlers of the controls, the table and the keyboard.
-function typing(target) {
-  return target.closest("input:not([type=checkbox]), textarea, select");
-}
-
 function onKey(event) {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing || !data) return;
+  if (foreign(event) || !data) return;
   const target = event.target instanceof Element ? event.target : document.body;
   const handled = current !== null ? keyInCase(event.key) : keyInReport(event.key, target);
   if (handled) event.preventDefault();

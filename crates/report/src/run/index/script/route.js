@@ -4,16 +4,16 @@ let fromReport = false;
 let afterRoute = null;
 
 function route() {
-  const found = data ? parameters(location.hash) : new Map();
+  const found = data ? parameters() : new Map();
+  const view = data && viewOf({ case: showCase, gallery: showGallery });
   typed = false;
-  if (found.has("case")) {
+  if (view) {
     fromReport = routed && $("case").hidden;
-    showCase(found.get("case"));
-  } else if (found.has("gallery")) {
-    showGallery(found.get("gallery"));
+    view[0](view[1]);
   } else {
     const left = current;
-    showReport();
+    current = null;
+    comeBack($("report"), $("case"), REPORT_TITLE);
     // The address of the section stands for the whole table.
     if (data && (found.size || !location.hash || location.hash === "#cases")) {
       const before = hashOf(state);
@@ -34,13 +34,6 @@ function route() {
   afterRoute = null;
 }
 
-function showReport() {
-  current = null;
-  $("case").hidden = true;
-  $("report").hidden = false;
-  document.title = REPORT_TITLE;
-}
-
 // The row of a case, or of the closed group that holds it; -1 where the filter leaves neither.
 function placeOf(id) {
   const one = cases[numberOf.get(id)];
@@ -51,13 +44,6 @@ function placeOf(id) {
 function leaveCase() {
   if (fromReport) history.back();
   else location.hash = hashOf(state);
-}
-
-// A link to an entry opens the groups that hold it; browsers that do so by themselves lose nothing.
-function reveal(id) {
-  const target = id && $(id);
-  for (let e = target; e; e = e.parentElement) if (e.tagName === "DETAILS") e.open = true;
-  if (target) target.scrollIntoView();
 }
 
 if (data) {

@@ -1,27 +1,5 @@
 // Cases as they are meant: texts, scene, JSON, shaders and picture, from one script per area beside the page.
-const areas = new Map();
-const waiting = new Map();
-
-// The scripts beside the page call this with what they hold.
-Object.defineProperty(window, "etalonArea", { value: (name, held) => { areas.set(name, held); } });
-
-// Calls back with what is known of an area's cases; null where nothing is.
-function withArea(name, done) {
-  const script = data.scripts.find(([area]) => area === name);
-  if (areas.has(name) || !script) return done(areas.get(name) || null);
-  if (waiting.has(name)) return waiting.get(name).push(done);
-  waiting.set(name, [done]);
-  const element = document.createElement("script");
-  const tell = () => {
-    const all = waiting.get(name);
-    waiting.delete(name);
-    for (const one of all) one(areas.get(name) || null);
-  };
-  element.addEventListener("load", tell);
-  element.addEventListener("error", tell);
-  element.src = script[1];
-  document.head.append(element);
-}
+const withArea = beside("etalonArea", name => data && data.scripts.find(([area]) => area === name)?.[1]);
 
 const areaOf = id => id.split("/")[0];
 
@@ -62,14 +40,12 @@ function picture(held, place, id, width) {
   return make("img", { src: held.pictures[place], alt: "Reference picture of " + id, width, loading: "lazy", class: "texels" });
 }
 
-function folded(title, text) {
-  return make("details", {}, make("summary", {}, title), make("pre", {}, text));
-}
+const foldedText = (title, content) => make("details", {}, make("summary", {}, title), make("pre", {}, content));
 
 // What a case is meant to draw; filled when its area's script has come.
 function meant(id) {
   const section = make("section", { id: "meant", hidden: true });
-  withArea(areaOf(id), held => {
+  withArea(areaOf(id)).then(held => {
     const one = cases[numberOf.get(id)];
     const found = heldCase(held, one);
     if (!found) return;
@@ -84,9 +60,9 @@ function meant(id) {
     section.append(make("pre", { class: "scene" }, held.scenes[scene].map(line => held.lines[line]).join("\n")));
     if (template) {
       const json = { [template.key]: expanded(template.scene, valuesOf(template, id)) };
-      section.append(folded("JSON of " + template.key, readable(json)));
+      section.append(foldedText("JSON of " + template.key, readable(json)));
     }
-    for (const name of held.used[used]) section.append(folded("shaders/" + name + ".wgsl", held.shaders[name]));
+    for (const name of held.used[used]) section.append(foldedText("shaders/" + name + ".wgsl", held.shaders[name]));
     section.hidden = false;
   });
   return section;
@@ -96,24 +72,21 @@ function meant(id) {
 const THUMBNAILS = 400;
 
 function showGallery(area) {
-  current = "";
-  const view = $("case");
   const grid = make("div", { class: "gallery" });
-  const title = make("h1", { id: "case-title", tabindex: "-1" }, "Gallery: " + area);
   const note = make("p", { class: "soft", role: "status" }, "Loading …");
-  view.replaceChildren(neighbours(null), title, note, grid);
-  withArea(area, held => {
-    const all = held ? cases.filter(one => heldCase(held, one)) : [];
-    note.textContent = held ? whole(all.length) + (all.length === 1 ? " case" : " cases") : "This folder has no pictures of this area.";
+  const title = "Gallery: " + area;
+  show("", null, title, title, note, grid);
+  withArea(area).then(held => {
+    const found = held ? cases.filter(one => heldCase(held, one)) : [];
+    note.textContent = held ? counted(found.length, "case") : "This folder has no pictures of this area.";
     const more = from => {
-      for (const one of all.slice(from, from + THUMBNAILS)) {
+      for (const one of found.slice(from, from + THUMBNAILS)) {
         const place = heldCase(held, one)[1];
-        const link = make("a", { href: addressOf(one.id) });
-        link.append(place >= 0 ? picture(held, place, one.id, 64) : make("span", { class: "none" }, "no picture"),
-          make("code", {}, one.id.slice(area.length + 1)));
-        grid.append(link);
+        grid.append(make("a", { href: addressOf(one.id) },
+          place >= 0 ? picture(held, place, one.id, 64) : make("span", { class: "none" }, "no picture"),
+          make("code", {}, one.id.slice(area.length + 1))));
       }
-      if (from + THUMBNAILS < all.length) {
+      if (from + THUMBNAILS < found.length) {
         const button = make("button", { type: "button" }, "Show more");
         button.addEventListener("click", () => { button.remove(); more(from + THUMBNAILS); });
         grid.append(button);
@@ -121,10 +94,5 @@ function showGallery(area) {
     };
     more(0);
   });
-  document.title = "Gallery: " + area + " – etalon";
-  $("report").hidden = true;
-  view.hidden = false;
-  scrollTo(0, 0);
-  title.focus({ preventScroll: true });
 }
 

@@ -5,33 +5,6 @@ const INITIAL = {
 };
 let state = { ...INITIAL };
 
-function decoded(text) {
-  try {
-    return decodeURIComponent(text);
-  } catch {
-    return text;
-  }
-}
-
-// Ids stay readable in addresses.
-function encoded(text) {
-  return encodeURIComponent(text).replace(/%(2F|3A|3D|2C)/g, decodeURIComponent);
-}
-
-function addressOf(id) {
-  return "#case=" + encoded(id);
-}
-
-// The parameters behind `#`; none for the address of an element, which has no `=`.
-function parameters(hash) {
-  const found = new Map();
-  for (const part of hash.slice(1).split("&")) {
-    const at = part.indexOf("=");
-    if (at > 0) found.set(part.slice(0, at), decoded(part.slice(at + 1)));
-  }
-  return found;
-}
-
 function stateOf(found) {
   const place = (list, name) => {
     const at = list.indexOf(name);
@@ -76,17 +49,7 @@ function filtered(state) {
 
 // True if a case's id, or its facts, contain all words of a search.
 function searcher(q, messages) {
-  const tests = q.toLowerCase().split(/\s+/).filter(Boolean).map(word => {
-    const pieces = word.split("*");
-    const occurs = text => {
-      let at = 0;
-      for (const piece of pieces) {
-        const found = text.indexOf(piece, at);
-        if (found < 0) return false;
-        at = found + piece.length;
-      }
-      return true;
-    };
+  const tests = wordsOf(q).map(occurs => {
     if (!messages) return one => occurs(one.low);
     const texts = data.texts.map(text => occurs(text.toLowerCase()));
     const facts = data.facts.map(list => list.some((text, i) => i % 2 === 1 && texts[text]));

@@ -64,8 +64,7 @@ function draw() {
     const order = state.sort === key ? "ascending" : state.sort === "-" + key ? "descending" : "none";
     button.closest("th").setAttribute("aria-sort", order);
   }
-  const all = whole(cases.length);
-  let text = whole(shown.length) + " of " + all + (cases.length === 1 ? " case" : " cases");
+  let text = whole(shown.length) + " of " + counted(cases.length, "case");
   if (!shown.length) text += ": no case fits the filters";
   if ($("count").textContent !== text) $("count").textContent = text;
   $("pages").hidden = pages() === 1;
@@ -91,8 +90,7 @@ function groupRow({ group, members }, again) {
   const button = again ? make("span", {}, group.name + " (continued)") :
     make("button", { type: "button", "aria-expanded": String(open), "data-key": key, tabindex: key === cursor ? "0" : "-1" },
       make("i", { "aria-hidden": "true" }, open ? "▾ " : "▸ "), group.name);
-  const number = members.length === 1 ? "1 case" : whole(members.length) + " cases";
-  const words = make("div", {}, button, " ", make("small", {}, number), ...chips);
+  const words = make("div", {}, button, " ", make("small", {}, counted(members.length, "case")), ...chips);
   return make("tr", { class: "group" },
     make("th", { scope: "rowgroup", colspan: data.adapters.length + 2 }, words));
 }

@@ -1,0 +1,61 @@
+//! Lists in the order in which their items are first met.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+
+/// The values, each once.
+pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut all = Vec::new();
+    for value in values {
+        if !all.contains(&value) {
+            all.push(value);
+        }
+    }
+    all
+}
+
+/// The values by key; keys in the order in which they are first met.
+pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
+    values: impl IntoIterator<Item = (K, V)>,
+) -> Vec<(K, Vec<V>)> {
+    let mut keys = Interner::default();
+    let mut groups: Vec<Vec<V>> = Vec::new();
+    for (key, value) in values {
+        let place = keys.place(key);
+        groups.resize_with(keys.values.len(), Vec::new);
+        groups[place].push(value);
+    }
+    keys.values.into_iter().zip(groups).collect()
+}
+
+/// Values, each once, by the place at which they were first met.
+pub(crate) struct Interner<T> {
+    places: HashMap<T, usize>,
+    pub(crate) values: Vec<T>,
+}
+
+impl<T> Default for Interner<T> {
+    fn default() -> Self {
+        Self {
+            places: HashMap::new(),
+            values: Vec::new(),
+        }
+    }
+}
+
+impl<T: Hash + Eq + Clone> Interner<T> {
+    /// True if the value has a place.
+    pub(crate) fn has(&self, value: &T) -> bool {
+        self.places.contains_key(value)
+    }
+
+    /// The place of a value.
+    pub(crate) fn place(&mut self, value: T) -> usize {
+        if let Some(place) = self.places.get(&value) {
+            return *place;
+        }
+        self.places.insert(value.clone(), self.values.len());
+        self.values.push(value);
+        self.values.len() - 1
+    }
+}

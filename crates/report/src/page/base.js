@@ -1,0 +1,135 @@
+// What the scripts of all pages share. Texts of records become text nodes and nothing else: nothing here makes HTML
+// out of one.
+const $ = id => document.getElementById(id);
+
+// An element; the names of elements and attributes are literals wherever this is called.
+const make = (name, attributes, ...children) => filled(document.createElement(name), attributes, children);
+
+function filled(element, attributes, children) {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value !== false && value !== null) element.setAttribute(key, value === true ? "" : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+const whole = n => n.toLocaleString("en");
+const counted = (n, noun) => whole(n) + " " + noun + (n === 1 ? "" : "s");
+
+function table(caption, heads, rows, look = {}) {
+  const head = make("tr", {}, ...heads.map(text => make("th", { scope: "col" }, text)));
+  return make("div", { class: "wide" }, make("table", look,
+    make("caption", look.class ? { class: "vh" } : {}, caption), make("thead", {}, head), make("tbody", {}, ...rows)));
+}
+
+function cells(first, ...others) {
+  return make("tr", {}, make("th", { scope: "row" }, ...[first].flat()), ...others.map(one => make("td", {}, ...[one].flat())));
+}
+
+// Facts as pairs of name and content; a name that is the one before stands once.
+function facts(pairs) {
+  const names = pairs.map(([name], i) => i && pairs[i - 1][0] === name ? [] : [make("dt", {}, name)]);
+  return make("dl", { class: "facts" }, ...pairs.flatMap(([, content], i) => [...names[i], make("dd", {}, content)]));
+}
+
+// A list that is made when it is opened.
+function folded(summary, fill) {
+  const details = make("details", {}, make("summary", {}, summary));
+  details.addEventListener("toggle", () => {
+    if (details.open && details.children.length === 1) details.append(...[fill()].flat());
+  });
+  return details;
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
+// Ids stay readable in addresses.
+function encoded(text) {
+  return encodeURIComponent(text.toWellFormed()).replace(/%(2F|3A|3D|2C)/g, decodeURIComponent);
+}
+
+const addressOf = id => "#case=" + encoded(id);
+
+// The parameters behind `#`; none for the address of an element, which has no `=`.
+function parameters() {
+  const found = new Map();
+  for (const part of location.hash.slice(1).split("&")) {
+    const at = part.indexOf("=");
+    if (at > 0) found.set(part.slice(0, at), decoded(part.slice(at + 1)));
+  }
+  return found;
+}
+
+// The view that the address names, and the text behind its name; null for the page itself.
+function viewOf(views) {
+  const [[name, text]] = [...parameters(), [location.hash.slice(1), ""]];
+  return Object.hasOwn(views, name) ? [views[name], text] : null;
+}
+
+// For each word of a search, a function that is true of a text in lower case that contains it; `*` matches anything.
+function wordsOf(search) {
+  return search.toLowerCase().split(/\s+/).filter(Boolean).map(word => text => {
+    let at = 0;
+    for (const piece of word.split("*")) {
+      const found = text.indexOf(piece, at);
+      if (found < 0) return false;
+      at = found + piece.length;
+    }
+    return true;
+  });
+}
+
+// A link to an entry opens the groups that hold it; browsers that do so by themselves lose nothing.
+function reveal(id) {
+  const target = id && $(id);
+  for (let e = target; e; e = e.parentElement) if (e.tagName === "DETAILS") e.open = true;
+  if (target) target.scrollIntoView();
+}
+
+// Shows a view instead of the page that all views lead back to.
+function leave(home, view, title) {
+  document.title = title + " – etalon";
+  home.hidden = true;
+  view.hidden = false;
+}
+
+function comeBack(home, view, title) {
+  document.title = title;
+  view.hidden = true;
+  home.hidden = false;
+}
+
+// True of a key that belongs to the browser.
+const foreign = event => event.ctrlKey || event.metaKey || event.altKey || event.isComposing;
+const typing = target => target.closest("input:not([type=checkbox]), textarea, select");
+
+// Scripts beside the page, loaded when something in them is to be seen: each calls the function `global` with its name
+// and what it holds. The result is a function from a name to what its script holds; null where it cannot be loaded.
+function beside(global, address) {
+  const [held, waiting] = [new Map(), new Map()];
+  Object.defineProperty(window, global, { value: (name, value) => { held.set(name, value); } });
+  const load = name => new Promise(done => {
+    const element = make("script", {});
+    const tell = () => {
+      waiting.delete(name);
+      element.remove();
+      done(held.get(name) ?? null);
+    };
+    element.addEventListener("load", tell);
+    element.addEventListener("error", tell);
+    element.src = address(name);
+    document.head.append(element);
+  });
+  return name => {
+    if (held.has(name) || !address(name)) return Promise.resolve(held.get(name) ?? null);
+    if (!waiting.has(name)) waiting.set(name, load(name));
+    return waiting.get(name);
+  };
+}
+
