@@ -353,6 +353,10 @@ fn the_schema_takes_every_case_file_and_no_broken_one() {
     assert!(broken("[true, false]", "[null]"));
     assert!(broken("\"rgba8unorm\"", "\"rgba8\""));
     assert!(broken("\"kind\": \"full\"", "\"kind\": \"fuller\""));
+    let each = |values: &str| format!("\"each\": {{ \"z\": {values} }}, \"mesh\"");
+    assert!(!broken("\"mesh\"", &each("[0, 1]")));
+    assert!(broken("\"mesh\"", &each("[]")));
+    assert!(broken("\"color\": {", "\"color\": { \"each\": 1,"));
 }
 
 #[test]
