@@ -3,8 +3,9 @@
 //! A scene is checked with all values in their places, so an error leads to a key of the scene. The fault is the
 //! axis value's where `"$name"` stands there, or where the same scene builds with every other value tried.
 
-use crate::error::{At, Step};
+use crate::error::At;
 use crate::file::CaseRef;
+use crate::place::Step;
 
 /// The most other values of an axis that are tried.
 const TRIED: usize = 6;

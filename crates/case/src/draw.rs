@@ -1,8 +1,9 @@
 //! Draws: defaults, names to indices, impossible states refused.
 
 use crate::attachment::{MAX_SIZE, find};
-use crate::error::{At, Step};
+use crate::error::At;
 use crate::fetch::fetch;
+use crate::place::Step;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{

@@ -3,13 +3,10 @@
 //! They are unrolled as soon as a file is read, so everything made from it counts the unrolled items.
 
 use crate::error::At;
-use crate::file::is_word;
-use crate::values::{replace, typed};
+use crate::place::EACH;
+use crate::values::{is_word, replace, typed};
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// The key of the values.
-pub(crate) const EACH: &str = "each";
 
 /// The most items that those of a file may stand for.
 const MOST: usize = 1 << 16;

@@ -1,6 +1,6 @@
 //! Errors in case files, with file, line and key.
 
-use crate::place::Place;
+use crate::place::{Place, Step};
 use etalon_frame::shortened;
 use std::fmt;
 use thiserror::Error;
@@ -30,13 +30,6 @@ impl fmt::Display for CaseError {
         }
         f.write_str(&shortened(&self.message))
     }
-}
-
-/// A step of a path into a JSON document.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
-    Key(String),
-    Index(usize),
 }
 
 /// A path into a JSON document, and what is wrong there.

@@ -3,7 +3,7 @@
 use crate::each::unroll;
 use crate::error::{At, CaseError};
 use crate::pairwise::{self, Cover};
-use crate::values::typed;
+use crate::values::{is_word, typed};
 use crate::wire::{AxisValue, FileWire, QuickWire};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
@@ -263,11 +263,4 @@ impl CaseRef<'_> {
         }
         values
     }
-}
-
-pub(crate) fn is_word(text: &str) -> bool {
-    !text.is_empty()
-        && text
-            .bytes()
-            .all(|b| b.is_ascii_alphanumeric() || b"-_.+".contains(&b))
 }

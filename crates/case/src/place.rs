@@ -3,11 +3,19 @@
 //! A path counts unrolled items of lists ([`crate::each`]), and so leads to the item that stands for them, or to the
 //! value in its `each` that is wrong.
 
-use crate::each::EACH;
-use crate::error::Step;
 use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+
+/// The key of the values.
+pub(crate) const EACH: &str = "each";
+
+/// A step of a path into a JSON document.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    Key(String),
+    Index(usize),
+}
 
 /// A place in a file.
 pub(crate) struct Place {

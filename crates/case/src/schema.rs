@@ -1,6 +1,6 @@
 //! The JSON schema of case files.
 
-use crate::each::EACH;
+use crate::place::EACH;
 use crate::wire::FileWire;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;

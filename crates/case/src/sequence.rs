@@ -125,7 +125,7 @@ fn rename(pass: &mut Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Step;
+    use crate::place::Step;
     use crate::resolve::parse_scene;
     use crate::values::typed;
     use etalon_scene::{CompareFunction, Pass, Scene};

@@ -5,6 +5,13 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
+pub(crate) fn is_word(text: &str) -> bool {
+    !text.is_empty()
+        && text
+            .bytes()
+            .all(|b| b.is_ascii_alphanumeric() || b"-_.+".contains(&b))
+}
+
 /// Parses a value.
 pub(crate) fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
     serde_path_to_error::deserialize(value).map_err(At::from_typed)

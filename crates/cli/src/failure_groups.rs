@@ -1,7 +1,7 @@
 //! The search's failing scenes: reduced on their driver, grouped, and written as case files.
 
 use crate::failure::Failure;
-use crate::group_text::match_sentence;
+use crate::match_text::match_sentence;
 use crate::reduction::{Reducer, Shown, confirm, file_name};
 use etalon_case::Case;
 use etalon_diagnose::{Groups, Key, KnownBugs, Symptom};

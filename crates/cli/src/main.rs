@@ -27,6 +27,7 @@ mod flags;
 mod group_text;
 mod history_file;
 mod interruption;
+mod match_text;
 mod near;
 mod news;
 mod out_folder;

@@ -14,8 +14,8 @@ use std::sync::LazyLock;
 const DRAWS: usize = 24;
 /// The most characters of a value.
 const LONGEST: usize = 160;
-/// Fields that are told apart from the others, in words.
-const TOLD: [&str; 5] = ["mesh", "shader", "viewport", "params", "targets"];
+/// Fields that have lines of their own.
+const LISTED_APART: [&str; 5] = ["mesh", "shader", "viewport", "params", "targets"];
 
 /// Returns the lines, indented by two spaces a level.
 pub(crate) fn lines(scene: &Scene) -> Vec<String> {
@@ -142,13 +142,11 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
     own.mesh = NO_MESH;
     own.targets.clear();
     own.textures.clear();
-    let own = serde_json::to_value(own).unwrap_or_default();
-    for line in differences(&own, &PLAIN) {
-        let told = |word: &&str| line.starts_with(&format!("{word} "));
-        if !TOLD.iter().any(told) {
-            add(line);
-        }
+    let mut own = serde_json::to_value(own).unwrap_or_default();
+    for field in LISTED_APART {
+        own[field] = PLAIN[field].clone();
     }
+    differences(&own, &PLAIN).into_iter().for_each(add);
     lines
 }
 

@@ -741,7 +741,7 @@ mod tests {
     #[test]
     fn a_relation_is_one_whatever_its_pictures_hold() {
         let relation = Step::Relation("repeat".to_owned());
-        let mut events = vec![event(Origin::Scene, relation, Effect::None)];
+        let mut events = vec![event(Origin::Pass(0), relation, Effect::None)];
         events.push(store(0, "c"));
         assert_eq!(
             Symptom::of(&record(3, events)).to_string(),

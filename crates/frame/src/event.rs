@@ -5,7 +5,6 @@
 
 use crate::contents::{Codes, Contents, ValueRange};
 use crate::format::Aspect;
-use crate::story::Ruling;
 use serde::{Deserialize, Serialize};
 
 /// One operation on one sample.
@@ -95,8 +94,6 @@ pub enum Origin {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         world: Option<[usize; 2]>,
     },
-    /// A whole scene.
-    Scene,
     /// Two pictures that must be the same.
     Sides([Side; 2]),
 }
@@ -441,8 +438,6 @@ pub enum Step {
     },
     /// Two pictures must be the same, by the name of the invariance.
     Relation(String),
-    /// The ruling on one of two pictures alone.
-    Alone(Box<Ruling>),
 }
 
 /// The way from the samples of a texel to one value.

@@ -76,8 +76,6 @@ state_enum! {
         ReadBack = "read back",
         /// Two pictures must be the same.
         Relation = "relation",
-        /// The ruling on one of two pictures.
-        Alone = "alone",
     }
 }
 
@@ -124,7 +122,6 @@ impl Event {
             Step::GiveUp { .. } => Operation::GiveUp,
             Step::ReadBack { .. } => Operation::ReadBack,
             Step::Relation(_) => Operation::Relation,
-            Step::Alone(_) => Operation::Alone,
         }
     }
 }

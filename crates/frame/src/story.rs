@@ -6,7 +6,7 @@
 use crate::band::Band;
 use crate::compare::ChannelMismatch;
 use crate::contents::Contents;
-use crate::event::{Event, Side};
+use crate::event::{Event, SceneName, Side};
 use crate::format::Aspect;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -16,6 +16,9 @@ pub struct Story {
     /// The ruling, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruling: Option<Ruling>,
+    /// The rulings on each of several scenes alone, in a story about two pictures that must be the same.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alone: Vec<(SceneName, Ruling)>,
     /// The operations.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<Event>,
@@ -52,6 +55,8 @@ impl<'de> Deserialize<'de> for Story {
         struct Fields {
             ruling: Option<Ruling>,
             #[serde(default)]
+            alone: Vec<(SceneName, Ruling)>,
+            #[serde(default)]
             events: Vec<Event>,
             #[serde(default)]
             cut: bool,
@@ -78,12 +83,14 @@ impl<'de> Deserialize<'de> for Story {
                 let fields = serde::de::value::MapAccessDeserializer::new(map);
                 let Fields {
                     ruling,
+                    alone,
                     events,
                     cut,
                     told,
                 } = Fields::deserialize(fields)?;
                 Ok(Story {
                     ruling,
+                    alone,
                     events,
                     cut,
                     told,

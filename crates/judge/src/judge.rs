@@ -261,8 +261,11 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     let (mut kept, other) = if takes_second {
         let mut second = second;
         let name = case.variants.get(index - 1).map_or("", |v| v.name.as_str());
-        let message = format!("variant {name}: {}", second.record.message);
-        second.record.message = message.trim_end_matches([':', ' ']).to_owned();
+        second.record.message = if second.record.message.is_empty() {
+            format!("variant {name}")
+        } else {
+            format!("variant {name}: {}", second.record.message)
+        };
         (second, first)
     } else {
         (first, second)

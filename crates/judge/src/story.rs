@@ -92,13 +92,6 @@ fn of_differences(
         None => Side::Scene(scene_name(case, side.scene)),
     });
     let samples = compared[0].samples;
-    let event = |scene, origin, step| Event {
-        scene,
-        origin,
-        step,
-        effect: Effect::None,
-        citation: None,
-    };
     let invariance = Step::Relation(relation.invariance.name().to_owned());
     let mut story = Story {
         ruling: Some(Ruling {
@@ -115,7 +108,13 @@ fn of_differences(
             after: Vec::new(),
             band: permission.value(),
         }),
-        events: vec![event(None, Origin::Sides(sides), invariance)],
+        events: vec![Event {
+            scene: None,
+            origin: Origin::Sides(sides),
+            step: invariance,
+            effect: Effect::None,
+            citation: None,
+        }],
         ..Story::default()
     };
     let mut seen = Vec::new();
@@ -134,10 +133,8 @@ fn of_differences(
         let scene = judged_scene(case, side.scene);
         let alone = explain(scene, limits, &rules, at, frames.get(side.scene));
         let name = scene_name(case, side.scene);
-        story.events.extend(alone.ruling.map(|ruling| {
-            let step = Step::Alone(Box::new(ruling));
-            event(Some(name.clone()), Origin::Scene, step)
-        }));
+        let ruling = alone.ruling.map(|ruling| (name.clone(), ruling));
+        story.alone.extend(ruling);
         let events = alone.events.into_iter();
         story.events.extend(events.map(|event| Event {
             scene: Some(name.clone()),

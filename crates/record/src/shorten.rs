@@ -31,8 +31,14 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
         }
         line = write(&short)?;
     }
-    while line.len() > MAX_LINE && !short.message.is_empty() {
-        cut(&mut short.message);
+    let mut rest = short.message.clone();
+    while line.len() > MAX_LINE && !rest.is_empty() {
+        cut(&mut rest);
+        short.message = if rest.is_empty() {
+            String::new()
+        } else {
+            format!("[cut] {rest}")
+        };
         line = write(&short)?;
     }
     if line.len() > MAX_LINE {
@@ -47,16 +53,9 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
 
 /// Removes the first quarter of a message: the cause of a crash usually stands at the end.
 fn cut(message: &mut String) {
-    const MARK: &str = "[cut] ";
-    let text = message.strip_prefix(MARK).unwrap_or(message);
-    let mut from = text.len() / 4 + 1;
-    while from < text.len() && !text.is_char_boundary(from) {
+    let mut from = message.len() / 4 + 1;
+    while from < message.len() && !message.is_char_boundary(from) {
         from += 1;
     }
-    let rest = text.get(from..).unwrap_or_default();
-    *message = if rest.is_empty() {
-        String::new()
-    } else {
-        format!("{MARK}{rest}")
-    };
+    message.drain(..from.min(message.len()));
 }

@@ -18,6 +18,7 @@ mod depth_resolve;
 mod distance;
 mod fit;
 mod fragment;
+mod fragment_notes;
 mod interval;
 mod judging;
 mod known_sets;

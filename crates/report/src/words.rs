@@ -5,6 +5,7 @@ mod header;
 mod plain;
 mod record;
 mod story;
+mod subject;
 mod texel;
 mod value;
 mod verdict;

@@ -90,6 +90,7 @@ prop_compose! {
         };
         Story {
             ruling: None,
+            alone: Vec::new(),
             events: events.into_iter().map(event).collect(),
             cut,
             told: lines.into_iter().map(line).collect(),
@@ -386,6 +387,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
     let samples = [
         (1, include_str!("../../../report/tests/data/methods.jsonl")),
         (2, include_str!("../data/format-2.jsonl")),
+        (3, include_str!("../data/format-3.jsonl")),
     ];
     assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
     for (format, text) in samples {
@@ -397,8 +399,13 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         assert!(!run.truncated);
         for adapter in &run.header.adapters {
             let unknown = etalon_frame::ApiVersion::default();
-            assert_eq!(adapter.limits.version, unknown, "it is not known");
+            assert_eq!(adapter.limits.version == unknown, format < 3);
         }
+        for story in run.records.iter().filter_map(|r| r.story.as_ref()) {
+            assert!(story.events.is_empty() && !story.told.is_empty());
+        }
+        let stories = run.records.iter().filter(|r| r.story.is_some()).count();
+        assert!(format < 3 || stories > 0, "a story as sentences");
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
         // Records of this format may not follow a header of another.
         let mut now = run.header.clone();

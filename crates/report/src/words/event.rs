@@ -1,6 +1,6 @@
 //! Events of stories in words: a place, an operation, and its inputs and outcome.
 
-use super::story::{list, ruling_sentence, scene_name, side_name};
+use super::subject::{list, scene_name, side_name};
 use super::value::{codes_list, range, values_list};
 use etalon_frame::{
     Aspect, BlendedChannel, Contents, Coverage, DepthTest, Effect, Event, Origin, Rejection,
@@ -35,10 +35,9 @@ impl From<&ToldLine> for EventLine {
 pub(crate) fn event_line(event: &Event) -> EventLine {
     let at = place(&event.origin);
     EventLine {
-        at: match (&event.scene, &event.origin) {
-            (Some(scene), Origin::Scene) => scene_name(scene),
-            (Some(scene), _) => format!("{}: {at}", scene_name(scene)),
-            (None, _) => at,
+        at: match &event.scene {
+            Some(scene) => format!("{}: {at}", scene_name(scene)),
+            None => at,
         },
         operation: event.operation().name().to_owned(),
         detail: detail_of(event),
@@ -75,7 +74,6 @@ fn place(origin: &Origin) -> String {
             format!("pass {pass}, draw {draw}, primitive {primitive}{world}")
         }
         Origin::End { world } => format!("at the end{}", world_name(*world)),
-        Origin::Scene => "the scene".to_owned(),
         Origin::Sides(sides) => {
             let [first, second] = sides.each_ref().map(side_name);
             format!("{first} and {second}")
@@ -338,7 +336,6 @@ pub(super) fn detail_of(event: &Event) -> String {
             format!("{attachment} holds {}{how}", aspects(contents))
         }
         Step::Relation(name) => name.clone(),
-        Step::Alone(ruling) => ruling_sentence(ruling),
     }
 }
 

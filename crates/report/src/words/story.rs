@@ -1,6 +1,7 @@
 //! Stories in words: the ruling in one sentence, then the operations line by line.
 
 use super::event::{EventLine, detail_of, draw_name, event_line, rejection_predicate};
+use super::subject::{list, scene_name, side_name, texel_name};
 use super::value::{codes_list, color_name};
 use etalon_frame::{
     Allowed, Aspect, Band, ChannelMismatch, CodeInterval, Codes, Contents, Demand, Effect, Event,
@@ -30,7 +31,21 @@ pub fn judged_by(story: &Story) -> Option<String> {
 pub fn operations(story: &Story) -> Vec<EventLine> {
     let told = &story.told[usize::from(told_verdict(story).is_some())..];
     let mut lines: Vec<EventLine> = told.iter().map(EventLine::from).collect();
-    lines.extend(story.events.iter().map(event_line));
+    let mut alone = story.alone.iter().peekable();
+    for event in &story.events {
+        // The ruling on a scene alone leads its events.
+        if let Some((scene, ruling)) =
+            alone.next_if(|(scene, _)| event.scene.as_ref() == Some(scene))
+        {
+            lines.push(EventLine {
+                at: scene_name(scene),
+                operation: "alone".to_owned(),
+                detail: ruling_sentence(ruling),
+                citation: None,
+            });
+        }
+        lines.push(event_line(event));
+    }
     if story.cut {
         lines.push(EventLine {
             at: "end of the record".to_owned(),
@@ -80,7 +95,7 @@ fn told_verdict(story: &Story) -> Option<&ToldLine> {
 }
 
 /// Returns a ruling in one sentence.
-pub(crate) fn ruling_sentence(ruling: &Ruling) -> String {
+fn ruling_sentence(ruling: &Ruling) -> String {
     let subject = texel_name(ruling.texel, &ruling.samples);
     let subject = match &ruling.variant {
         Some(variant) => format!("in variant {variant}, {subject}"),
@@ -146,34 +161,6 @@ fn ruling_judged_by(ruling: &Ruling) -> String {
         let _ = write!(text, "; {grade}");
     }
     text
-}
-
-/// Returns the name of a texel or of its samples: `samples 0, 1 and 3 of texel 1,1`.
-fn texel_name([x, y]: [u32; 2], samples: &[u32]) -> String {
-    match samples {
-        [] => format!("texel {x},{y}"),
-        [sample] => format!("sample {sample} of texel {x},{y}"),
-        several => {
-            let numbers: Vec<String> = several.iter().map(u32::to_string).collect();
-            format!("samples {} of texel {x},{y}", list(&numbers, "and"))
-        }
-    }
-}
-
-/// Returns the name of a scene of a case.
-pub(super) fn scene_name(scene: &SceneName) -> String {
-    match scene {
-        SceneName::Own => "in the scene".to_owned(),
-        SceneName::Variant(name) => format!("in variant {name}"),
-    }
-}
-
-/// Returns the name of one of two pictures.
-pub(super) fn side_name(side: &Side) -> String {
-    match side {
-        Side::Scene(scene) => scene_name(scene),
-        Side::Attachment(name) => format!("in attachment {name}"),
-    }
 }
 
 /// Returns the values on both sides: `red is 51 in the scene and 52 in variant twice`.
@@ -388,16 +375,5 @@ fn place(contents: &Contents, several_colors: bool) -> String {
         format!(" in {}", contents.attachment)
     } else {
         String::new()
-    }
-}
-
-/// Returns `a, b and c`.
-pub(super) fn list(parts: &[String], word: &str) -> String {
-    match parts.split_last() {
-        Some((last, before)) if !before.is_empty() => {
-            format!("{} {word} {last}", before.join(", "))
-        }
-        Some((last, _)) => last.clone(),
-        None => String::new(),
     }
 }

@@ -1,0 +1,32 @@
+//! Matches of failures with findings, in words.
+
+use etalon_diagnose::Match;
+
+/// Returns the reason for which a finding was named.
+pub(crate) fn why(found: &Match) -> String {
+    let Match { case, states, .. } = found;
+    let Some(beyond) = &found.beyond else {
+        return format!("{case}, reduced, leaves the same states and violation");
+    };
+    let mut text = format!("has what is left of {case} ({states})");
+    if let Some(violation) = &beyond.violation {
+        text.push_str(&format!(", which violates {violation}"));
+    }
+    if !beyond.states.is_empty() {
+        text.push_str(&format!("; also {}", beyond.states));
+    } else if beyond.violation.is_none() {
+        text.push_str(", with other values");
+    }
+    text
+}
+
+/// Returns what the description of a case file says of a finding.
+pub(crate) fn match_sentence(found: &Match) -> String {
+    let Match { finding, title, .. } = found;
+    let word = if found.is_exact() {
+        "Known"
+    } else {
+        "Looks like"
+    };
+    format!("{word}: {finding} ({title}): {}.", why(found))
+}
