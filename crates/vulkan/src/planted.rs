@@ -449,16 +449,14 @@ impl Planted {
             Some(CallFault::LoadColorIgnored) => colors.iter_mut().for_each(load),
             Some(CallFault::LoadDepthIgnored) => depth.iter_mut().for_each(load),
             Some(CallFault::LoadStencilIgnored) => stencil.iter_mut().for_each(load),
-            Some(CallFault::StencilWithDepth) => {
+            Some(CallFault::StencilWithDepth)
                 if depth
                     .iter()
-                    .any(|depth| depth.load_op == vk::AttachmentLoadOp::CLEAR)
-                {
-                    let kept = |stencil: &&mut Attachment<'_>| {
-                        stencil.load_op != vk::AttachmentLoadOp::CLEAR
-                    };
-                    stencil.iter_mut().filter(kept).for_each(clear);
-                }
+                    .any(|depth| depth.load_op == vk::AttachmentLoadOp::CLEAR) =>
+            {
+                let kept =
+                    |stencil: &&mut Attachment<'_>| stencil.load_op != vk::AttachmentLoadOp::CLEAR;
+                stencil.iter_mut().filter(kept).for_each(clear);
             }
             Some(CallFault::ResolveFirst) => colors.iter_mut().skip(1).for_each(drop_resolve),
             Some(CallFault::ResolveSecondDropped) => {
