@@ -5,6 +5,11 @@
 //! ([`Frame`]), what an adapter can do ([`Limits`], [`Feature`]), what the rules allow
 //! ([`LegalSet`]) and how the last two are held against each other ([`compare()`]).
 
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
 mod accuracy;
 mod api;
 mod band;

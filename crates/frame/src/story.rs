@@ -214,7 +214,7 @@ pub enum Reason {
         /// The store.
         store: Event,
         /// The output of the shader, of a stored colour.
-        shade: Option<Event>,
+        shade: Option<Box<Event>>,
         /// True if the colour is blended.
         blended: bool,
     },

@@ -298,7 +298,7 @@ impl Known<'_> {
         let mut steps = of_fragment().map(|e| &e.step);
         Reason::Stored {
             store: store.clone(),
-            shade: shade.cloned(),
+            shade: shade.cloned().map(Box::new),
             blended: steps.any(|s| matches!(s, Step::Blend(_) | Step::AdvancedBlend { .. })),
         }
     }

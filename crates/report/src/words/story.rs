@@ -5,8 +5,7 @@ use super::subject::{list, scene_name, side_name, texel_name};
 use super::value::{codes_list, color_name};
 use etalon_frame::{
     Allowed, Aspect, Band, ChannelMismatch, CodeInterval, Codes, Contents, Demand, Effect, Event,
-    Initial, Reason, Rejection, Returned, Ruling, SceneName, Side, Source, Step, Story, Target,
-    ToldLine, Values,
+    Initial, Reason, Rejection, Returned, Ruling, Source, Step, Story, Target, ToldLine, Values,
 };
 use std::fmt::Write as _;
 
