@@ -27,13 +27,13 @@ pub(crate) struct Texel {
     /// The place in words.
     pub(crate) place: String,
     /// The channels.
-    pub(crate) channels: Vec<Channel>,
+    pub(crate) channels: Vec<CheckedChannel>,
     /// The permitted outcomes: the least and the greatest number of each channel.
     pub(crate) allowed: Vec<Vec<[f64; 2]>>,
 }
 
 /// A channel that is checked.
-pub(crate) struct Channel {
+pub(crate) struct CheckedChannel {
     /// The name.
     pub(crate) name: String,
     /// The number of the memory.
@@ -102,7 +102,7 @@ fn place(
     recording: &Recording,
     texel: &DueTexel,
     channel: &DueChannel,
-) -> Result<Channel, BundleError> {
+) -> Result<CheckedChannel, BundleError> {
     let of = |i: &&etalon_backend::RecordedImage| {
         i.attachment == channel.attachment && i.aspect == channel.aspect
     };
@@ -132,7 +132,7 @@ fn place(
         (Form::Code, ChannelEncoding::Float32) => (Order::Single, 32),
         (Form::Code, encoding) => (Order::Unsigned, encoding.bits()),
     };
-    Ok(Channel {
+    Ok(CheckedChannel {
         name: channel.name(),
         output: plane.output,
         at,

@@ -18,7 +18,7 @@ const LOCK: &str = include_str!("../../../Cargo.lock");
 
 /// A program that was built and run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Run {
+pub(crate) struct ProgramRun {
     /// The exit status; `None` if a signal or its time ended it.
     pub(crate) status: Option<i32>,
     /// Its end, in words.
@@ -35,7 +35,7 @@ pub(crate) fn built_and_run(
     program: &Program,
     launch: &Launch,
     timeout: Duration,
-) -> Result<Option<Run>, Failure> {
+) -> Result<Option<ProgramRun>, Failure> {
     if launch.launcher.is_some() {
         say!("the program is not run here: a launcher starts the driver");
         return Ok(None);
@@ -50,7 +50,7 @@ pub(crate) fn built_and_run(
     match made {
         Ok(made) => {
             let ran = run(folder, launch, timeout).map_err(failed)?;
-            Ok(Some(Run { made, ..ran }))
+            Ok(Some(ProgramRun { made, ..ran }))
         }
         Err(Unbuilt::Here(why)) => {
             say!("the program is not built here: {why}");
@@ -160,7 +160,7 @@ fn place() -> Option<PathBuf> {
 }
 
 /// Runs the program of a folder in the environment of a driver.
-fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<Run> {
+fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<ProgramRun> {
     let out = folder.join("out");
     let mut command = Command::new(folder.join("repro"));
     for (name, value) in &launch.environment {
@@ -189,7 +189,7 @@ fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<Run> {
     };
     let text = fs::read(&out)?;
     let text = String::from_utf8_lossy(&text);
-    Ok(Run {
+    Ok(ProgramRun {
         status: ended.and_then(|status| status.code()),
         ending: ended.map_or_else(
             || format!("no end within {} s", timeout.as_secs_f64()),

@@ -27,7 +27,7 @@ pub(crate) struct CheckedCase {
     /// What the legal set and the yardstick assert, per aspect; empty where the case is measured, not judged.
     pub(crate) assertions: Vec<Assertion>,
     /// The channels that are read back and of which nothing is asserted, with all that are read back.
-    pub(crate) channels: BTreeMap<Channel, bool>,
+    pub(crate) channels: BTreeMap<AttachmentChannel, bool>,
     /// True if anything is asserted: of a texel, of a counter, or by a relation.
     pub(crate) asserts: bool,
     /// The edge of a mesh that leaves it open which texels it covers.
@@ -38,7 +38,7 @@ pub(crate) struct CheckedCase {
 
 /// A channel of an attachment.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Channel {
+pub(crate) struct AttachmentChannel {
     pub(crate) attachment: String,
     pub(crate) aspect: Aspect,
     pub(crate) channel: usize,
@@ -211,7 +211,7 @@ fn assertions(judgement: &Judgement) -> Vec<Assertion> {
 }
 
 /// Notes of each channel that is read back if something is asserted of it.
-fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<Channel, bool>) {
+fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<AttachmentChannel, bool>) {
     for image in &legal.images {
         let sets = legal.groups[image.group].distinct();
         for (channel, encoding) in image.channels.iter().enumerate() {
@@ -219,7 +219,7 @@ fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<Channel, bool>) {
             let asserted = sets.iter().any(|(set, times)| {
                 *times > 0 && !set.is_open() && set.count(image.first_channel + channel) < all
             });
-            let key = Channel {
+            let key = AttachmentChannel {
                 attachment: image.attachment.clone(),
                 aspect: image.aspect,
                 channel,
@@ -245,7 +245,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
             ),
         ));
     }
-    let mut channels: BTreeMap<&Channel, bool> = BTreeMap::new();
+    let mut channels: BTreeMap<&AttachmentChannel, bool> = BTreeMap::new();
     for (channel, asserted) in cases.iter().flat_map(|c| &c.channels) {
         *channels.entry(channel).or_default() |= asserted;
     }
@@ -291,7 +291,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
     all
 }
 
-impl std::fmt::Display for Channel {
+impl std::fmt::Display for AttachmentChannel {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let name = self.aspect.channel(self.channel);
         write!(f, "{name} of `{}`", self.attachment)

@@ -132,11 +132,11 @@ pub(crate) fn steady(
 ) -> Result<(Worker, Record, Symptom), Failure> {
     let name = &launch.adapter;
     match repeat(launch, worker, case, timeout)? {
-        Outcome::Steady(steady) => Ok(*steady),
-        Outcome::Passes(verdict) => Err(Failure::nothing(format!(
+        Repetitions::Steady(steady) => Ok(*steady),
+        Repetitions::Passes(verdict) => Err(Failure::nothing(format!(
             "{id} does not fail on {name}, drawn alone: {verdict}; there is nothing to reduce"
         ))),
-        Outcome::Flaky(message) => Err(Failure {
+        Repetitions::Flaky(message) => Err(Failure {
             code: UNEXPECTED,
             message: format!(
                 "{id} is flaky on {name}: {message}; only a steady failure can be reduced"
@@ -166,7 +166,7 @@ pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
 }
 
 /// The outcome of repeated drawings of a case.
-enum Outcome {
+enum Repetitions {
     /// It fails in the same way every time.
     Steady(Box<(Worker, Record, Symptom)>),
     /// It never fails.
@@ -181,7 +181,7 @@ fn repeat(
     first: Worker,
     case: &Case,
     timeout: Duration,
-) -> Result<Outcome, Failure> {
+) -> Result<Repetitions, Failure> {
     let mut records: Vec<Record> = Vec::new();
     let mut worker = Some(first);
     let mut warm = None;
@@ -221,18 +221,18 @@ fn repeat(
         return Err(Failure::incomplete("nothing was drawn"));
     };
     Ok(match ways.first() {
-        None => Outcome::Passes(match record.message.as_str() {
+        None => Repetitions::Passes(match record.message.as_str() {
             "" => record.verdict.to_string(),
             message => format!("{}, {message}", record.verdict),
         }),
         Some(way) if ways.len() == drawings => {
             let same = |other: &&Symptom| way.covers(other) && other.covers(way);
             match ways.iter().find(|other| !same(other)) {
-                None => Outcome::Steady(Box::new((worker, record, way.clone()))),
-                Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
+                None => Repetitions::Steady(Box::new((worker, record, way.clone()))),
+                Some(other) => Repetitions::Flaky(format!("it fails by {way} and by {other}")),
             }
         }
-        Some(_) => Outcome::Flaky(format!(
+        Some(_) => Repetitions::Flaky(format!(
             "it fails in {} of {drawings} drawings, in {processes} processes",
             ways.len()
         )),

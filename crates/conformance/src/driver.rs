@@ -4,7 +4,7 @@ use crate::checks::{CHECKS, Check};
 use crate::child::in_child;
 use crate::known::{Known, WHOLE};
 use crate::prediction::{Prediction, predict};
-use crate::subject::{Outcome, Subject};
+use crate::subject::{CheckResult, Subject};
 use etalon_backend::Backend;
 use etalon_frame::Requirement;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -80,8 +80,8 @@ impl Driver<'_> {
             return;
         }
         let (ran, missing) = match check.run(subject) {
-            Outcome::Passed(missing) => (true, missing),
-            Outcome::Skipped(missing) => (false, missing),
+            CheckResult::Passed(missing) => (true, missing),
+            CheckResult::Skipped(missing) => (false, missing),
         };
         let names: Vec<String> = missing.iter().map(Requirement::to_string).collect();
         match (ran, names.is_empty()) {

@@ -32,4 +32,4 @@ pub use lacks::{Lacks, Names};
 pub use library::{Share, draw_area, draw_library};
 pub use scenes::{scene, with};
 pub use serde_json::{Value, json};
-pub use subject::{Missing, Outcome, Subject};
+pub use subject::{CheckResult, Missing, Subject};

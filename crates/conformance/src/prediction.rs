@@ -6,7 +6,7 @@
 
 use crate::checks::Check;
 use crate::known::Known;
-use crate::subject::Outcome;
+use crate::subject::CheckResult;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
@@ -42,8 +42,8 @@ pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
     let subject = known.subject(&backend, &[]);
     let outcome = catch_unwind(AssertUnwindSafe(|| check.run(&subject)));
     Some(match outcome {
-        Ok(Outcome::Passed(_)) => Prediction::OnlyLooks,
-        Ok(Outcome::Skipped(_)) => Prediction::Skips,
+        Ok(CheckResult::Passed(_)) => Prediction::OnlyLooks,
+        Ok(CheckResult::Skipped(_)) => Prediction::Skips,
         Err(payload) if payload.is::<WouldDraw>() => Prediction::Draws,
         Err(payload) => resume_unwind(payload),
     })

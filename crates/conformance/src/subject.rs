@@ -15,7 +15,7 @@ pub struct Missing(pub Requirement);
 
 /// The result of a check that did not fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum CheckResult {
     /// Everything was drawn but the scenes that need one of these.
     Passed(BTreeSet<Requirement>),
     /// Nothing was drawn, since all scenes need one of these.
@@ -86,12 +86,12 @@ impl<'a> Subject<'a> {
     }
 
     /// The outcome of everything that was drawn since the last call.
-    pub(crate) fn outcome(&self) -> Outcome {
+    pub(crate) fn outcome(&self) -> CheckResult {
         let missing = self.missing.take();
         if self.drawn.take() || missing.is_empty() {
-            Outcome::Passed(missing)
+            CheckResult::Passed(missing)
         } else {
-            Outcome::Skipped(missing)
+            CheckResult::Skipped(missing)
         }
     }
 

@@ -50,11 +50,11 @@ pub(crate) struct SpanState<'a, S> {
 struct Face {
     face: StencilFace,
     front: bool,
-    written: Option<Written>,
+    written: Option<WrittenReferences>,
 }
 
 /// The references that a shader wrote, and what of them it added for the sample.
-type Written = ([i32; LANES], i32);
+type WrittenReferences = ([i32; LANES], i32);
 
 impl Face {
     /// Returns the state of one texel, for the stencil test or the update on a path.
@@ -396,7 +396,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span: &Span<'_>,
         sample: usize,
         depth: Real,
-        references: Option<Written>,
+        references: Option<WrittenReferences>,
         mask: Mask,
     ) -> Mask {
         let bounded = self.depth_bounds(span, sample, depth, mask);

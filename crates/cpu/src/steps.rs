@@ -73,7 +73,7 @@ pub struct Tests {
 
 /// The texels that a span writes.
 #[derive(Clone, Copy, Debug)]
-pub struct Written {
+pub struct WrittenTexels {
     /// The texels whose colour is written.
     pub color: Mask,
     /// The texels whose depth is written.
@@ -224,10 +224,10 @@ pub trait Steps {
 
     /// Returns the texels whose colour and depth are written.
     #[inline(always)]
-    fn written(&self, tests: &Tests) -> Written {
+    fn written(&self, tests: &Tests) -> WrittenTexels {
         let all: Mask =
             std::array::from_fn(|i| tests.covered[i] & tests.stencil[i] & tests.depth[i]);
-        Written {
+        WrittenTexels {
             color: all,
             depth: all,
         }

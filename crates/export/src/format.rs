@@ -2,7 +2,7 @@
 
 use crate::error::ExportError;
 use crate::selection::Selection;
-use crate::written::Written;
+use crate::written::ExportSize;
 use crate::{folder, latest, openmetrics, otava, tables};
 use etalon_history::History;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub fn export(
     format: Format,
     selection: &Selection,
     dir: &Path,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let runs = selection.runs(history);
     if runs.is_empty() {
         return Err(ExportError::NoRuns {

@@ -2,7 +2,7 @@
 
 use crate::error::ExportError;
 use crate::tables::machine_text;
-use crate::written::Written;
+use crate::written::ExportSize;
 use etalon_dashboards::{ACTION_FILE, BENCHER_FILE, Benchmark, Figure, action, bencher};
 use etalon_history::{AdapterRun, History, RunId, RunInfo, SeriesKey, TimePoint};
 use etalon_record::Time;
@@ -15,7 +15,7 @@ pub(crate) fn write_bencher(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let all = benchmarks(history, runs)?;
     write(dir, BENCHER_FILE, all.len(), bencher(&all))
 }
@@ -25,7 +25,7 @@ pub(crate) fn write_action(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let mut all = benchmarks(history, runs)?;
     all.retain(|benchmark| benchmark.times.contains_key(&Time::Wall));
     write(dir, ACTION_FILE, all.len(), action(&all))
@@ -89,14 +89,14 @@ fn write(
     name: &str,
     rows: usize,
     bytes: serde_json::Result<Vec<u8>>,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let path = dir.join(name);
     let bytes = bytes.map_err(|source| ExportError::Json {
         path: path.clone(),
         source,
     })?;
     fs::write(&path, bytes).map_err(ExportError::io(&path))?;
-    Ok(Written {
+    Ok(ExportSize {
         files: 1,
         rows: rows as u64,
     })

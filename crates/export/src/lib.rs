@@ -22,4 +22,4 @@ mod written;
 pub use error::ExportError;
 pub use format::{Format, export};
 pub use selection::Selection;
-pub use written::Written;
+pub use written::ExportSize;

@@ -2,7 +2,7 @@
 
 use crate::error::ExportError;
 use crate::tables::machine_text;
-use crate::written::Written;
+use crate::written::ExportSize;
 use etalon_history::{FrameTimes, History, Kind, MachineId, RunId, SeriesKey};
 use etalon_record::Time;
 use std::collections::{BTreeMap, HashSet};
@@ -27,7 +27,7 @@ pub(crate) fn write(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let path = dir.join("history.om");
     let wrong = ExportError::io(&path);
     let mut out = BufWriter::new(File::create(&path).map_err(&wrong)?);
@@ -100,7 +100,7 @@ pub(crate) fn write(
     }
     writeln!(out, "# EOF").map_err(&wrong)?;
     out.flush().map_err(&wrong)?;
-    Ok(Written { files: 1, rows })
+    Ok(ExportSize { files: 1, rows })
 }
 
 /// The samples of one metric in one series, by their labels. Times beside different rulers do not compare, so that the

@@ -3,7 +3,7 @@
 use crate::error::ExportError;
 use crate::folder::part;
 use crate::tables::machine_text;
-use crate::written::Written;
+use crate::written::ExportSize;
 use etalon_history::{History, RunId, SeriesKey, TimePoint, format_time};
 use etalon_record::Time;
 use serde_json::json;
@@ -24,8 +24,8 @@ pub(crate) fn write(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
-) -> Result<Written, ExportError> {
-    let mut written = Written::default();
+) -> Result<ExportSize, ExportError> {
+    let mut written = ExportSize::default();
     let mut tests = serde_json::Map::new();
     let mut place = 0;
     for key in history.series_keys()? {

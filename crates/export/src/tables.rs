@@ -6,7 +6,7 @@
 use crate::error::ExportError;
 use crate::folder::part;
 use crate::table::{Column, Table};
-use crate::written::Written;
+use crate::written::ExportSize;
 use etalon_history::{AdapterRun, History, RunId, RunInfo};
 use etalon_record::{Machine, Time};
 use parquet::data_type::ByteArray;
@@ -61,13 +61,13 @@ pub(crate) fn write(
     history: &History,
     runs: &HashSet<RunId>,
     dir: &Path,
-) -> Result<Written, ExportError> {
+) -> Result<ExportSize, ExportError> {
     let places: BTreeMap<Rc<str>, usize> = history.timelines().into_iter().zip(0..).collect();
     let folder = |timeline: &str| {
         let place = places.get(timeline).copied().unwrap_or(0);
         format!("adapter={}", part(timeline, place))
     };
-    let mut written = Written::default();
+    let mut written = ExportSize::default();
     for run in history.runs().iter().filter(|run| runs.contains(&run.id)) {
         let date = run.day();
         for adapter in history.adapters(run.id).iter().filter(|a| a.records > 0) {
@@ -200,7 +200,7 @@ fn frame_times(
     runs: &HashSet<RunId>,
     dir: &Path,
     folder: &impl Fn(&str) -> String,
-    written: &mut Written,
+    written: &mut ExportSize,
 ) -> Result<(), ExportError> {
     let mut keys = history.series_keys()?;
     // Stable: the cases of an adapter stay sorted.

@@ -2,7 +2,7 @@
 
 /// The size of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Written {
+pub struct ExportSize {
     /// Files.
     pub files: u64,
     /// Rows or samples in them.

@@ -50,11 +50,11 @@ impl Accuracy {
 /// Sums up the distances of one group's samples.
 #[derive(Debug)]
 pub(crate) struct Distances<'a> {
-    channels: Vec<Channel<'a>>,
+    channels: Vec<MeasuredChannel<'a>>,
 }
 
 #[derive(Debug)]
-struct Channel<'a> {
+struct MeasuredChannel<'a> {
     info: &'a ImageInfo,
     encoding: ChannelEncoding,
     all: CodeInterval,
@@ -67,7 +67,7 @@ impl<'a> Distances<'a> {
     /// Nothing yet, of the images of one group in the order of their channels.
     pub(crate) fn new(images: &[(usize, &'a ImageInfo)]) -> Self {
         let of = |info: &'a ImageInfo| {
-            info.channels.iter().map(move |encoding| Channel {
+            info.channels.iter().map(move |encoding| MeasuredChannel {
                 info,
                 encoding: *encoding,
                 all: CodeInterval::new(encoding.min_order(), encoding.max_order()),

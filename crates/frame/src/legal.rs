@@ -173,12 +173,12 @@ pub struct SampleGroup {
     pub channels: Vec<ChannelEncoding>,
     palette: Vec<TexelSet>,
     /// The samples row by row and texel by texel, as runs of samples that have the same set.
-    runs: Vec<Run>,
+    runs: Vec<SampleRun>,
 }
 
 /// Samples that follow each other and have the same set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Run {
+struct SampleRun {
     /// The number of the first sample that does not belong to it.
     end: usize,
     /// The set's number in the palette.
@@ -202,7 +202,7 @@ impl SampleGroup {
     /// The runs of samples that have the same set, in order: the number of the first sample beyond it, and
     /// the set.
     pub fn runs(&self) -> impl Iterator<Item = (usize, &TexelSet)> {
-        let set = |run: &Run| &self.palette[run.set as usize];
+        let set = |run: &SampleRun| &self.palette[run.set as usize];
         self.runs.iter().map(move |run| (run.end, set(run)))
     }
 
@@ -302,7 +302,7 @@ impl LegalSet {
         self.groups
             .iter()
             .map(|g| {
-                g.runs.len() * size_of::<Run>()
+                g.runs.len() * size_of::<SampleRun>()
                     + g.palette
                         .iter()
                         .map(|t| 32 + t.worlds.len() * 128)
@@ -391,7 +391,7 @@ impl LegalSetBuilder {
         match group.runs.last_mut() {
             _ if count == 0 => {}
             Some(last) if last.set == set => last.end = end,
-            _ => group.runs.push(Run { end, set }),
+            _ => group.runs.push(SampleRun { end, set }),
         }
     }
 

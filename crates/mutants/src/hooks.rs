@@ -2,7 +2,7 @@
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{
-    Codes, Exported, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written,
+    Codes, Exported, Faithful, LANES, Mask, Path, Real, Steps, Tests, WrittenTexels,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{Kept, SampleMask};
@@ -200,13 +200,13 @@ impl Steps for &Hooks {
         }
     }
 
-    fn written(&self, tests: &Tests) -> Written {
+    fn written(&self, tests: &Tests) -> WrittenTexels {
         let Some(bug) = &self.written else {
             return Faithful.written(tests);
         };
         let both: [[bool; 2]; LANES] =
             std::array::from_fn(|i| bug([tests.covered[i], tests.stencil[i], tests.depth[i]]));
-        Written {
+        WrittenTexels {
             color: both.map(|[color, _]| color),
             depth: both.map(|[_, depth]| depth),
         }

@@ -53,7 +53,7 @@ pub struct Entry {
 /// A list of entries as it is written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct WrittenList {
     entries: Vec<Entry>,
 }
 
@@ -303,7 +303,7 @@ impl Expectations {
         let parsed = if value.is_array() {
             serde_json::from_str(text)
         } else {
-            serde_json::from_str(text).map(|written: Written| written.entries)
+            serde_json::from_str(text).map(|written: WrittenList| written.entries)
         };
         let entries: Vec<Entry> = parsed.map_err(|e| RecordError::Parse {
             path: path.to_owned(),
@@ -485,7 +485,7 @@ impl Expectations {
     /// # Errors
     /// When an entry has no JSON form.
     pub fn to_text(entries: &[Entry]) -> Result<String, RecordError> {
-        let written = Written {
+        let written = WrittenList {
             entries: entries.to_vec(),
         };
         let mut text = serde_json::to_string_pretty(&written)

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// What a texel is resolved to; `None` leaves an aspect.
-type Outcome = (Option<CodeInterval>, Option<u8>);
+type Resolved = (Option<CodeInterval>, Option<u8>);
 
 impl Walk<'_> {
     /// Resolves depth and stencil at the end of a pass, at a sample of any attachment; `None` if the sample
@@ -75,7 +75,7 @@ impl Walk<'_> {
         source: usize,
         resolve: &DepthStencilResolve,
         each: &[Rc<Worlds>],
-    ) -> BTreeSet<Outcome> {
+    ) -> BTreeSet<Resolved> {
         let first = |mode| mode == ResolveMode::SampleZero;
         let cells = each.first().into_iter().flat_map(|worlds| worlds.iter());
         let cells = cells.map(|world| world.cells[source]);

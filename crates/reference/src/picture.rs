@@ -6,7 +6,7 @@
 use crate::bins::Segments;
 use crate::notes::Notes;
 use crate::sample::{Sample, Shape};
-use crate::signature::{Inputs, Signature};
+use crate::signature::{Inputs, SampleKey};
 use crate::states::{OPEN, State, States};
 use crate::texels::Lattice;
 use crate::walk::{Walk, resolved};
@@ -181,7 +181,7 @@ impl Walk<'_> {
             size,
             samples,
             known: Known::default(),
-            ends: [Signature::default(), Signature::default()],
+            ends: [SampleKey::default(), SampleKey::default()],
             spare: Vec::new(),
         };
         let lattice = self.texels.lattice(size);
@@ -391,9 +391,9 @@ struct Brush<'b, 'a> {
     samples: u32,
     known: Known,
     /// The signatures of the first and the last texel of a run.
-    ends: [Signature; 2],
+    ends: [SampleKey; 2],
     /// Signatures whose room is used again.
-    spare: Vec<Signature>,
+    spare: Vec<SampleKey>,
 }
 
 impl Brush<'_, '_> {
@@ -407,7 +407,7 @@ impl Brush<'_, '_> {
         }
     }
 
-    fn sign(&self, at: Sample, members: &[u32], signature: &mut Signature) {
+    fn sign(&self, at: Sample, members: &[u32], signature: &mut SampleKey) {
         let setup = &self.walk.setups[self.pass];
         let members = members.iter().map(|number| setup.member(*number));
         self.walk
@@ -462,7 +462,7 @@ impl Brush<'_, '_> {
         picture: &mut [State],
         [left, right]: [u32; 2],
         (y, sample): (u32, u32),
-        [first, last]: [&Signature; 2],
+        [first, last]: [&SampleKey; 2],
         members: &[u32],
     ) {
         if right - left < 2 {
@@ -508,7 +508,7 @@ impl Brush<'_, '_> {
     }
 
     /// Draws over one sample.
-    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &Signature, members: &[u32]) {
+    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &SampleKey, members: &[u32]) {
         let own = at.place();
         let mut state = picture[own];
         for (i, part) in signature.parts.iter().enumerate() {

@@ -51,7 +51,7 @@ pub(crate) struct Part {
 
 /// The signature of a sample over all draws of a pass that may touch it.
 #[derive(Debug, Default)]
-pub(crate) struct Signature {
+pub(crate) struct SampleKey {
     pub(crate) words: Vec<u64>,
     /// The draws that touch the sample, in order.
     pub(crate) parts: Vec<Part>,
@@ -62,7 +62,7 @@ pub(crate) struct Signature {
     constant: bool,
 }
 
-impl Signature {
+impl SampleKey {
     /// Returns the words of one of its draws.
     pub(crate) fn words_of(&self, part: usize) -> &[u64] {
         let end = self.parts.get(part + 1).map(|next| next.start as usize);
@@ -159,7 +159,7 @@ impl Walk<'_> {
         inputs: &[Inputs],
         at: Sample,
         members: impl Iterator<Item = (u32, u32)>,
-        signature: &mut Signature,
+        signature: &mut SampleKey,
     ) {
         signature.words.clear();
         signature.parts.clear();
@@ -205,7 +205,7 @@ impl Walk<'_> {
     }
 
     /// Adds the words that all primitives of a draw share.
-    fn sign_draw(&self, inputs: &Inputs, at: Sample, signature: &mut Signature) {
+    fn sign_draw(&self, inputs: &Inputs, at: Sample, signature: &mut SampleKey) {
         if inputs.sample {
             signature.words.push(u64::from(at.sample));
         }
@@ -233,7 +233,7 @@ impl Walk<'_> {
         hit: Hit,
         kind: u32,
         inputs: &Inputs,
-        signature: &mut Signature,
+        signature: &mut SampleKey,
     ) {
         let primitive = place.primitive;
         let flags = u64::from(hit.in_viewport)

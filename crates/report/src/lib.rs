@@ -51,7 +51,7 @@ pub use matrix::matrix_table;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
 pub use run::{
-    RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run, write_run_with_news,
+    RUN_FILES, RUN_FOLDERS, RunReports, dead_lines, table, write, write_run, write_run_with_news,
 };
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;

@@ -4,7 +4,7 @@ use super::code::{Code, Structure, list};
 use super::literals::{number, string};
 use crate::due::Due;
 use crate::error::BundleError;
-use crate::table::{self, Channel, Order, Texel};
+use crate::table::{self, CheckedChannel, Order, Texel};
 use crate::wrap::wrapped;
 use etalon_backend::Recording;
 
@@ -227,7 +227,7 @@ fn texel(texel: &Texel) -> Code {
         .end()
 }
 
-fn channel(channel: &Channel) -> Code {
+fn channel(channel: &CheckedChannel) -> Code {
     let (rust, script) = match channel.order {
         Order::Unsigned => ("Order::Unsigned", "\"unsigned\""),
         Order::Signed => ("Order::Signed", "\"signed\""),

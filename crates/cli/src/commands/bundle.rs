@@ -1,7 +1,7 @@
 //! `etalon bundle`.
 
 use crate::adapters::{Query, discover, releases_of};
-use crate::built_program::{Run, built_and_run};
+use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
@@ -137,8 +137,8 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
 /// or if none is run here.
 fn shortest(
     program: impl Fn(Trim) -> Result<Program, Failure>,
-    run: impl Fn(&Program) -> Result<Option<Run>, Failure>,
-) -> Result<(Program, Option<Run>), Failure> {
+    run: impl Fn(&Program) -> Result<Option<ProgramRun>, Failure>,
+) -> Result<(Program, Option<ProgramRun>), Failure> {
     let whole = program(Trim::Nothing)?;
     for trim in Trim::ALL {
         let shorter = program(trim)?;
@@ -240,7 +240,7 @@ impl Reduced<'_> {
     }
 
     /// Returns the program with its run, if it is run here, in which it must show the bug.
-    fn program(&self, evidence: &Evidence) -> Result<(Program, Option<Run>), Failure> {
+    fn program(&self, evidence: &Evidence) -> Result<(Program, Option<ProgramRun>), Failure> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
             sentence: self.shown(evidence).sentence(),

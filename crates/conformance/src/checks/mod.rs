@@ -24,7 +24,7 @@ mod stencil;
 mod targets;
 mod uploads;
 
-use crate::subject::{Missing, Outcome, Subject};
+use crate::subject::{CheckResult, Missing, Subject};
 
 /// A check ends early where the limits deny a scene.
 type Checked = Result<(), Missing>;
@@ -43,7 +43,7 @@ impl Check {
     ///
     /// # Panics
     /// When the backend fails the check.
-    pub fn run(&self, subject: &Subject<'_>) -> Outcome {
+    pub fn run(&self, subject: &Subject<'_>) -> CheckResult {
         // The subject has noted the scene that was denied.
         let _ = (self.body)(subject);
         subject.outcome()

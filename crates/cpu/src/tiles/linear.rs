@@ -25,7 +25,7 @@ pub(crate) struct Linear {
 
 /// A linear function of one channel.
 #[derive(Clone, Copy, Debug, Default)]
-struct Channel {
+struct ChannelFunction {
     invert: bool,
     factor: u16,
     plus: u16,
@@ -37,15 +37,15 @@ impl Linear {
     /// results' growth from the first code to the last.
     #[inline(always)]
     pub(crate) fn fitted(tables: &[[u8; CODES]; 4], slopes: [f32; 4]) -> Option<Self> {
-        let mut found = [Channel::default(); 4];
+        let mut found = [ChannelFunction::default(); 4];
         for c in 0..4 {
             let known = (0..c).find(|k| tables[*k] == tables[c] && slopes[*k] == slopes[c]);
             found[c] = match known {
                 Some(known) => found[known],
-                None => Channel::fitted(&tables[c], slopes[c])?,
+                None => ChannelFunction::fitted(&tables[c], slopes[c])?,
             };
         }
-        let part = |part: fn(&Channel) -> u16| std::array::from_fn(|i| part(&found[i % 4]));
+        let part = |part: fn(&ChannelFunction) -> u16| std::array::from_fn(|i| part(&found[i % 4]));
         Some(Self {
             invert: std::array::from_fn(|i| if found[i % 4].invert { 0xff } else { 0 }),
             upper: part(|c| c.factor >> 8),
@@ -76,7 +76,7 @@ impl Linear {
     }
 }
 
-impl Channel {
+impl ChannelFunction {
     /// Returns the function that is equal to a table in all codes, if there is one near a slope.
     #[inline(always)]
     fn fitted(table: &[u8; CODES], slope: f32) -> Option<Self> {

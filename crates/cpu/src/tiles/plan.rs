@@ -72,12 +72,12 @@ pub(crate) struct DrawPlan {
     pub(crate) rejects: bool,
     /// The runs of vertices or indices of which every three are a triangle whose first vertex is flat over it; `None` if
     /// they are none.
-    pub(crate) runs: Option<Vec<Run>>,
+    pub(crate) runs: Option<Vec<PrimitiveRun>>,
 }
 
 /// Neighbouring primitives of a list, which a restart ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Run {
+pub(crate) struct PrimitiveRun {
     /// The number of its first primitive.
     pub(crate) first: usize,
     /// The number of primitives.
@@ -86,7 +86,7 @@ pub(crate) struct Run {
     pub(crate) at: usize,
 }
 
-impl Run {
+impl PrimitiveRun {
     /// Returns the runs of a list.
     fn all(mesh: &Mesh) -> Vec<Self> {
         let Some(indices) = &mesh.indices else {
@@ -300,7 +300,7 @@ impl DrawPlan {
             depth: draw.depth.filter(|_| pass.depth.is_some()),
             stencil: draw.stencil,
             rejects,
-            runs: listed.then(|| Run::all(&draw.mesh)),
+            runs: listed.then(|| PrimitiveRun::all(&draw.mesh)),
         })
     }
 }

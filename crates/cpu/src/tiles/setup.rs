@@ -5,7 +5,7 @@ use super::edges::{Edges, Touch};
 use super::image::Image;
 use super::opaque::NARROW;
 use super::paint::Paint;
-use super::plan::{Behind, DrawPlan, PassPlan, Run, Shading};
+use super::plan::{Behind, DrawPlan, PassPlan, PrimitiveRun, Shading};
 use super::texels::Texels;
 use super::texture::Texture;
 use super::triangle::{Placed, Rare, Shape, Triangle, point};
@@ -122,7 +122,7 @@ impl<'a> Input<'a> {
 
     /// Returns vertices and provoking vertex of a primitive in its run.
     #[inline(always)]
-    fn primitive(&self, run: &Run, number: usize) -> ([usize; 3], usize) {
+    fn primitive(&self, run: &PrimitiveRun, number: usize) -> ([usize; 3], usize) {
         if self.plan.runs.is_none() {
             return self.primitives[number];
         }
@@ -188,7 +188,7 @@ impl Part {
             let mut draw = SetUp::new(simd, pass, input, number, self);
             let (start, end) = (start - input.first, end - input.first);
             // Primitives that are not listed are one run.
-            let whole = [Run {
+            let whole = [PrimitiveRun {
                 first: 0,
                 count: input.count,
                 at: 0,

@@ -115,13 +115,13 @@ struct Drawing<'t, 'a> {
 
 /// What the tests of all texels of a triangle come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
+enum TestResult {
     StencilFails,
     DepthFails,
     Passes,
 }
 
-impl Outcome {
+impl TestResult {
     /// Returns what two answers come to, if it is one.
     fn of(stencil: Option<Decided>, depth: Option<Decided>) -> Option<Self> {
         match (stencil?, depth) {
@@ -214,11 +214,11 @@ impl Drawing<'_, '_> {
             Some(face) => stencil_decided(face, self.stencils),
             None => Some(Decided::Pass),
         };
-        let outcome = Outcome::of(stencil, answer);
+        let outcome = TestResult::of(stencil, answer);
         // Stencil state that passes and changes nothing is none.
         let face = face.filter(|face| match outcome {
             // Those behind a triangle that covers a part may have another answer.
-            Some(outcome) if whole || outcome == Outcome::StencilFails => {
+            Some(outcome) if whole || outcome == TestResult::StencilFails => {
                 !keeps(face, outcome.operation(face))
             }
             _ => {
@@ -226,7 +226,10 @@ impl Drawing<'_, '_> {
                 !(pass && keeps(face, face.depth_fail_op) && keeps(face, face.pass_op))
             }
         });
-        let fails = matches!(outcome, Some(Outcome::StencilFails | Outcome::DepthFails));
+        let fails = matches!(
+            outcome,
+            Some(TestResult::StencilFails | TestResult::DepthFails)
+        );
         if (fails && face.is_none()) || paint.samples == 0 {
             return None;
         }
@@ -267,7 +270,7 @@ impl Drawing<'_, '_> {
         self.samples(simd, &work, whole, outcome);
         let all = all && work.is_constant();
         if !fails {
-            self.widen(triangle, plan, all && outcome == Some(Outcome::Passes));
+            self.widen(triangle, plan, all && outcome == Some(TestResult::Passes));
         }
         if let Some(face) = face {
             self.widen_stencils(face, all, outcome);
@@ -313,15 +316,19 @@ impl Drawing<'_, '_> {
 
     /// Keeps the range of stencil values around what a face may have made of all or some of them.
     #[inline(always)]
-    fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<Outcome>) {
+    fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<TestResult>) {
         let old = self.stencils;
-        let of = |outcome: Outcome| operated(face, outcome.operation(face), old);
+        let of = |outcome: TestResult| operated(face, outcome.operation(face), old);
         self.stencils = match outcome {
             Some(outcome) if all => of(outcome),
             Some(outcome) => hull(old, of(outcome)),
-            None => [Outcome::StencilFails, Outcome::DepthFails, Outcome::Passes]
-                .into_iter()
-                .fold(old, |range, outcome| hull(range, of(outcome))),
+            None => [
+                TestResult::StencilFails,
+                TestResult::DepthFails,
+                TestResult::Passes,
+            ]
+            .into_iter()
+            .fold(old, |range, outcome| hull(range, of(outcome))),
         };
     }
 
@@ -344,7 +351,7 @@ impl Drawing<'_, '_> {
         simd: S,
         work: &Work<'_>,
         whole: bool,
-        outcome: Option<Outcome>,
+        outcome: Option<TestResult>,
     ) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
@@ -366,7 +373,7 @@ impl Drawing<'_, '_> {
 
     /// Draws all texels of a sample, whose tests come to the same.
     #[inline(always)]
-    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, outcome: Outcome) {
+    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, outcome: TestResult) {
         let [left, top, right, bottom] = self.texels;
         let start = sample * AREA;
         let range = start..start + (bottom - top) as usize * TILE;
@@ -374,7 +381,7 @@ impl Drawing<'_, '_> {
             let values = &mut self.tile.stencil.planes[range.clone()];
             operate(face, outcome.operation(face), values);
         }
-        if outcome != Outcome::Passes {
+        if outcome != TestResult::Passes {
             return;
         }
         if work.plan.depth.is_some_and(|d| d.write) {

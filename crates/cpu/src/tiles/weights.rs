@@ -17,7 +17,7 @@ const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
 #[derive(Debug)]
 pub(crate) struct Weights {
     /// Channel by channel.
-    channels: [Channel; 4],
+    channels: [ChannelWeights; 4],
     /// A summand and a factor of the stored alpha: 1 and 0 if the format has none.
     alpha: [f32; 2],
     /// The bits that are not written.
@@ -26,7 +26,7 @@ pub(crate) struct Weights {
 
 /// The function of one channel: the source times its factor, and the destination times its factor.
 #[derive(Clone, Copy, Debug)]
-struct Channel {
+struct ChannelWeights {
     source: f32,
     of_source: Weight,
     of_destination: Weight,
@@ -79,7 +79,7 @@ impl Weights {
                 BlendOperation::Min | BlendOperation::Max => return None,
             };
             let weight = |factor, sign| Weight::new(factor, &constants, c, sign);
-            *channel = Some(Channel {
+            *channel = Some(ChannelWeights {
                 source: constants.source[c],
                 of_source: weight(component.src_factor, source),
                 of_destination: weight(component.dst_factor, destination),
@@ -156,7 +156,7 @@ fn join(words: &mut Codes, codes: &Codes, bit: u32) {
     }
 }
 
-impl Channel {
+impl ChannelWeights {
     /// Returns the codes of one channel from the stored values of it and of alpha.
     #[inline(always)]
     fn codes(&self, own: &Real, alpha: &Real) -> Codes {

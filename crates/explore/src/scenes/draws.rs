@@ -1,6 +1,6 @@
 //! Draws of random scenes: shader, state, and what changes from one draw to the next.
 
-use super::meshes::Written;
+use super::meshes::VertexDepth;
 use super::{Maker, Pass};
 use etalon_frame::Feature;
 use etalon_scene::Shader;
@@ -38,10 +38,10 @@ impl Maker<'_> {
         let early = self.early_tests(shader);
         draw["early_tests"] = json!(early);
         let written = match (shader.depth_from_vertex_color(), early) {
-            (false, _) => Written::Nothing,
-            (true, "greater-equal") => Written::Always(1.0),
-            (true, "less-equal") => Written::Always(0.0),
-            (true, _) => Written::Red,
+            (false, _) => VertexDepth::Nothing,
+            (true, "greater-equal") => VertexDepth::Always(1.0),
+            (true, "less-equal") => VertexDepth::Always(0.0),
+            (true, _) => VertexDepth::Red,
         };
         self.textures_of(pass, shader, &mut draw);
         let area = self.viewport(shader, &mut draw);

@@ -19,7 +19,7 @@ struct Form {
 
 /// The depth that the vertex colours of a mesh hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Written {
+pub(super) enum VertexDepth {
     /// None: they are colours.
     Nothing,
     /// Any.
@@ -34,7 +34,7 @@ impl Maker<'_> {
         &mut self,
         pass: &Pass,
         shader: Shader,
-        written: Written,
+        written: VertexDepth,
         [w, h]: [u32; 2],
         draw: &mut Value,
     ) {
@@ -52,7 +52,7 @@ impl Maker<'_> {
         if pass.provoking.is_some() && shader == Shader::FlatColor {
             kinds.extend(["vertices", "fan", "polyline"].repeat(3));
         }
-        if written == Written::Nothing && self.extra("slopes") {
+        if written == VertexDepth::Nothing && self.extra("slopes") {
             kinds = vec!["slope"];
         }
         if !several {
@@ -142,7 +142,7 @@ impl Maker<'_> {
         self.fetch(indexed, draw);
         // What is no list needs indices for the end of an instance.
         let list = draw.get("topology").is_none_or(|t| t == "triangle-list");
-        if written == Written::Nothing && (list || indexed) && self.extra("instances") {
+        if written == VertexDepth::Nothing && (list || indexed) && self.extra("instances") {
             let count = self.choices.range(1, 3);
             let colors: Vec<Value> = (0..count).map(|_| self.color()).collect();
             let first = if self.space.has(Feature::FirstInstance) {
@@ -162,16 +162,16 @@ impl Maker<'_> {
     }
 
     /// The value of a vertex: a colour or a depth.
-    fn value(&mut self, written: Written) -> Value {
+    fn value(&mut self, written: VertexDepth) -> Value {
         match written {
-            Written::Nothing => self.color(),
-            Written::Red => json!(self.depth()),
-            Written::Always(depth) => json!(depth),
+            VertexDepth::Nothing => self.color(),
+            VertexDepth::Red => json!(self.depth()),
+            VertexDepth::Always(depth) => json!(depth),
         }
     }
 
     /// Bands across or down, with depths and windings of their own.
-    fn bands(&mut self, kind: &str, most: u32, written: Written) -> Value {
+    fn bands(&mut self, kind: &str, most: u32, written: VertexDepth) -> Value {
         let count = self.choices.range(1, most);
         let values: Vec<Value> = (0..count).map(|_| self.value(written)).collect();
         let z: Vec<f64> = (0..count).map(|_| self.vertex_depth()).collect();
@@ -207,7 +207,7 @@ impl Maker<'_> {
     }
 
     /// Triangles anywhere, with edges through samples among them. Most are of one depth.
-    fn vertices(&mut self, [w, h]: [u32; 2], form: Form, written: Written) -> Value {
+    fn vertices(&mut self, [w, h]: [u32; 2], form: Form, written: VertexDepth) -> Value {
         let Form {
             list,
             restarts,
@@ -221,7 +221,7 @@ impl Maker<'_> {
         };
         let colors = if apart { count } else { 1 };
         let values: Vec<Value> = (0..colors).map(|_| self.value(written)).collect();
-        let sloped = written == Written::Nothing && self.choices.once_in(6);
+        let sloped = written == VertexDepth::Nothing && self.choices.once_in(6);
         let mut z = 0.0;
         let positions: Vec<Value> = (0..count)
             .map(|i| {

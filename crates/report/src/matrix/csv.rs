@@ -1,6 +1,6 @@
 //! The matrix as CSV (RFC 4180): a line per cell and adapter.
 
-use super::data::{Matrix, Outcome, unit};
+use super::data::{CellOutcome, Matrix, unit};
 use crate::words::plain;
 use etalon_record::CellRate;
 
@@ -49,12 +49,12 @@ fn figures(times: Option<&CellRate>) -> [String; 7] {
 }
 
 /// The state of a cell in a word, and a message.
-pub(super) fn state(outcome: &Outcome) -> (String, String) {
+pub(super) fn state(outcome: &CellOutcome) -> (String, String) {
     match outcome {
-        Outcome::Rate(_) => ("measured".to_owned(), String::new()),
-        Outcome::Below(_) => ("below-resolution".to_owned(), String::new()),
-        Outcome::Untimed(verdict, message) => (verdict.to_string(), message.clone()),
-        Outcome::Incomplete => ("incomplete".to_owned(), String::new()),
+        CellOutcome::Rate(_) => ("measured".to_owned(), String::new()),
+        CellOutcome::Below(_) => ("below-resolution".to_owned(), String::new()),
+        CellOutcome::Untimed(verdict, message) => (verdict.to_string(), message.clone()),
+        CellOutcome::Incomplete => ("incomplete".to_owned(), String::new()),
     }
 }
 

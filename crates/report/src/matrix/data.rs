@@ -30,7 +30,7 @@ pub(crate) struct Cell {
 
 /// A cell on one adapter.
 pub(crate) struct Entry {
-    pub(crate) outcome: Outcome,
+    pub(crate) outcome: CellOutcome,
     /// Its rate as a share of the base cell's, where both count texels.
     pub(crate) of_base: Option<f64>,
     /// Its rate as a share of the rate of clearing.
@@ -38,7 +38,7 @@ pub(crate) struct Entry {
 }
 
 /// The rate of a cell on an adapter, or why it has none.
-pub(crate) enum Outcome {
+pub(crate) enum CellOutcome {
     /// It was measured.
     Rate(CellRate),
     /// The work takes less time than times scatter.
@@ -49,7 +49,7 @@ pub(crate) enum Outcome {
     Incomplete,
 }
 
-impl Outcome {
+impl CellOutcome {
     /// The rate in units per second.
     pub(crate) fn rate(&self) -> Option<f64> {
         match self {
@@ -135,7 +135,7 @@ impl Cell {
         let results = grouped(records.into_iter().map(|r| (r.picture.adapter.as_str(), r)));
         let results = results.into_iter().map(|(adapter, records)| {
             let entry = Entry {
-                outcome: Outcome::new(&records, software(bench.header.adapter(adapter))),
+                outcome: CellOutcome::new(&records, software(bench.header.adapter(adapter))),
                 of_base: None,
                 of_clear: None,
             };

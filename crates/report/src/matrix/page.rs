@@ -4,7 +4,7 @@
 //! by place. Without it the page lacks that comparison and nothing else.
 
 use super::csv::state;
-use super::data::{Cell, Entry, Matrix, Outcome, unit};
+use super::data::{Cell, CellOutcome, Entry, Matrix, unit};
 use super::heat::Heat;
 use super::table::half_width;
 use crate::numbers::{count, digits, duration, percent, round_duration};
@@ -61,7 +61,7 @@ fn head(matrix: &Matrix<'_>) -> Markup {
     let h = &matrix.bench.header;
     let entries = || matrix.cells.iter().flat_map(|c| c.results.values());
     let below = entries()
-        .filter(|e| matches!(e.outcome, Outcome::Below(_)))
+        .filter(|e| matches!(e.outcome, CellOutcome::Below(_)))
         .count() as u64;
     let missing = matrix.bench.missing();
     html! {
@@ -216,8 +216,8 @@ fn share_of(share: f64) -> String {
 
 fn value(entry: &Entry) -> String {
     match (&entry.outcome, entry.outcome.rate()) {
-        (Outcome::Rate(times), Some(rate)) => digits(rate / unit(times.measure).1, 3),
-        (Outcome::Below(_), _) => "below".to_owned(),
+        (CellOutcome::Rate(times), Some(rate)) => digits(rate / unit(times.measure).1, 3),
+        (CellOutcome::Below(_), _) => "below".to_owned(),
         (outcome, _) => state(outcome).0,
     }
 }

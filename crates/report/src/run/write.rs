@@ -25,7 +25,7 @@ const SUMMARY: &str = "summary.md";
 
 /// The reports that [`write()`] made.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub struct RunReports {
     /// The page.
     pub html: PathBuf,
     /// The page of methods, where the run has any.
@@ -40,7 +40,7 @@ pub struct Written {
     pub results: Vec<PathBuf>,
 }
 
-impl Written {
+impl RunReports {
     /// Every file, the page for people first.
     pub fn all(&self) -> impl Iterator<Item = &Path> {
         let single = [
@@ -59,7 +59,7 @@ impl Written {
 ///
 /// # Errors
 /// Returns an error if the folder holds no readable run, or cannot be written to.
-pub fn write(folder: &Path) -> Result<Written, ReportError> {
+pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
     write_run(folder, &Run::read(folder)?)
 }
 
@@ -70,7 +70,7 @@ pub fn write(folder: &Path) -> Result<Written, ReportError> {
 /// # Errors
 /// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame file
 /// that is missing or damaged is no error: the page names it.
-pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
+pub fn write_run(folder: &Path, run: &Run) -> Result<RunReports, ReportError> {
     write_run_with_news(folder, run, None)
 }
 
@@ -83,7 +83,7 @@ pub fn write_run_with_news(
     folder: &Path,
     run: &Run,
     news: Option<&News>,
-) -> Result<Written, ReportError> {
+) -> Result<RunReports, ReportError> {
     let found = Methods::of(run);
     let dead = Dead::read(folder)?;
     // The page reads frames and takes as long as all others together.
@@ -96,7 +96,7 @@ pub fn write_run_with_news(
         let html = html.join().unwrap_or_else(|panic| resume_unwind(panic));
         (html, others)
     });
-    Ok(Written {
+    Ok(RunReports {
         html: html?,
         ..others?
     })
@@ -108,7 +108,7 @@ fn others(
     run: &Run,
     found: Option<&Methods<'_>>,
     news: Option<&News>,
-) -> Result<Written, ReportError> {
+) -> Result<RunReports, ReportError> {
     let methods = match found {
         Some(found) => {
             let page = methods::page(folder, run, found);
@@ -121,7 +121,7 @@ fn others(
     let ctrf = replace(folder, CTRF, &ctrf::json(run, &grid)?)?;
     let summary = replace(folder, SUMMARY, markdown::summary(run, news).as_bytes())?;
     let results = lists(folder, run, &grid)?;
-    Ok(Written {
+    Ok(RunReports {
         html: folder.join(HTML),
         methods,
         junit,

@@ -8,7 +8,7 @@ use etalon_frame::{Api, Aspect};
 use etalon_record::{
     Assertion, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
 };
-use etalon_report::{Written, write};
+use etalon_report::{RunReports, write};
 use pulldown_cmark::{Event, Parser};
 use serde_json::Value;
 use std::fs;
@@ -95,7 +95,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-fn ctrf(written: &Written) -> Value {
+fn ctrf(written: &RunReports) -> Value {
     serde_json::from_slice(&fs::read(&written.ctrf).unwrap()).unwrap()
 }
 

@@ -3,14 +3,14 @@
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, ToldLine};
 use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
-use etalon_report::{TableOptions, Written, table, write};
+use etalon_report::{RunReports, TableOptions, table, write};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
 use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 
-fn read(written: &Written) -> (String, String) {
+fn read(written: &RunReports) -> (String, String) {
     (
         fs::read_to_string(&written.html).unwrap(),
         fs::read_to_string(&written.junit).unwrap(),
