@@ -262,7 +262,7 @@ impl Reduced<'_> {
         Ok((program, ran))
     }
 
-    /// Returns the files beside the program: the case, the test for piglit, and the pictures.
+    /// Returns the files beside the program: the case and the pictures.
     fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
         let Arguments { case, adapter, .. } = self.arguments;
         let origin = format!("Reduced from {case} on {adapter}.");
