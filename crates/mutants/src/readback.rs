@@ -200,8 +200,12 @@ fn places(list: &mut List, aspect: Aspect) {
         ("one-texel-up", |[x, y], _| [x, y + 1]),
         ("upside-down", upside_down),
         ("mirrored", |[x, y], [w, _]| [w - 1 - x, y]),
-        ("last-row-repeated", |[x, y], [_, h]| [x, y.min(h - 2)]),
-        ("last-column-repeated", |[x, y], [w, _]| [x.min(w - 2), y]),
+        ("last-row-repeated", |[x, y], [_, h]| {
+            [x, y.min(h.saturating_sub(2))]
+        }),
+        ("last-column-repeated", |[x, y], [w, _]| {
+            [x.min(w.saturating_sub(2)), y]
+        }),
     ];
     for (bug, from) in moves {
         let words = bug.replace('-', " ").replace("last", "with the last");
