@@ -17,9 +17,12 @@ pub struct Contents {
     pub codes: Vec<Codes>,
 }
 
-/// The codes that a channel can hold.
+/// The codes that a channel can hold. Written as `[encoding, low, high]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    from = "(ChannelEncoding, i64, i64)",
+    into = "(ChannelEncoding, i64, i64)"
+)]
 pub struct Codes {
     /// The encoding.
     pub encoding: ChannelEncoding,
@@ -27,6 +30,22 @@ pub struct Codes {
     pub low: i64,
     /// The order of the highest code.
     pub high: i64,
+}
+
+impl From<(ChannelEncoding, i64, i64)> for Codes {
+    fn from((encoding, low, high): (ChannelEncoding, i64, i64)) -> Self {
+        Self {
+            encoding,
+            low,
+            high,
+        }
+    }
+}
+
+impl From<Codes> for (ChannelEncoding, i64, i64) {
+    fn from(codes: Codes) -> Self {
+        (codes.encoding, codes.low, codes.high)
+    }
 }
 
 impl Codes {
@@ -55,26 +74,38 @@ impl Codes {
 }
 
 /// A closed range of values; an end can be infinite or NaN.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+///
+/// Written as text, `0.5` or `0.5..0.75`, and read back bit for bit: JSON has no infinities, and its readers can be off
+/// by a unit in the last place.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// The lowest value.
-    #[serde(serialize_with = "write", deserialize_with = "read")]
     pub low: f64,
     /// The highest value.
-    #[serde(serialize_with = "write", deserialize_with = "read")]
     pub high: f64,
 }
 
-/// Writes a number so that it is read back bit for bit: JSON has no infinities, and its readers can be off by a unit in
-/// the last place.
-fn write<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(value)
+impl Serialize for ValueRange {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { low, high } = self;
+        if low.to_bits() == high.to_bits() {
+            serializer.collect_str(low)
+        } else {
+            serializer.collect_str(&format_args!("{low}..{high}"))
+        }
+    }
 }
 
-fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let text = std::borrow::Cow::<'_, str>::deserialize(deserializer)?;
-    text.parse().map_err(serde::de::Error::custom)
+impl<'de> Deserialize<'de> for ValueRange {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = std::borrow::Cow::<'_, str>::deserialize(deserializer)?;
+        let (low, high) = text.split_once("..").unwrap_or((&text, &text));
+        let end = |text: &str| text.parse().map_err(serde::de::Error::custom);
+        Ok(Self {
+            low: end(low)?,
+            high: end(high)?,
+        })
+    }
 }
 
 #[cfg(test)]
@@ -87,6 +118,8 @@ mod tests {
             (f64::NEG_INFINITY, f64::INFINITY),
             (f64::from(0.1_f32), 0.1),
             (-0.0, f64::MIN_POSITIVE),
+            (-0.5, -0.5),
+            (f64::NAN, f64::NAN),
         ] {
             let range = ValueRange { low, high };
             let text = serde_json::to_string(&range).unwrap();
