@@ -187,6 +187,25 @@ fn what_is_wrong_with_a_file_is_said() {
 }
 
 #[test]
+fn a_planted_fault_of_another_backend_is_no_adapter() {
+    for name in [
+        "gl:fault=abort",
+        "gl:slower=5%",
+        "gl:softpipe:slower=5%",
+        "cpu:call-fault=clear-skipped",
+        "wgpu:vulkan:lavapipe:call-fault=clear-skipped",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = etalon(&["run", CASE, "--adapter", name, "--out"]);
+        let message = stderr(&run.arg(folder.path().join("out")).assert().code(64));
+        assert!(
+            message.contains(&format!("no adapter `{name}`")),
+            "{message}"
+        );
+    }
+}
+
+#[test]
 fn what_is_not_asked_for_need_not_be_there() {
     let (_folder, path) = file(
         r#"[{ "name": "a", "backend": "gl", "egl": "/none/libEGL.so" },
