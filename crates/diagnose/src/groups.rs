@@ -7,15 +7,16 @@
 use crate::matching::Match;
 use crate::signature::Signature;
 use crate::symptom::Symptom;
-use crate::traits::Traits;
+use crate::traits::{Traits, Violation};
 use etalon_record::Verdict;
 use serde_json::Value;
 
 /// The traits that tell a group from others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// The violation, and why the scene was not reduced.
-    way: String,
+    way: Violation,
+    /// The reason why the scene was not reduced.
+    unreduced: Option<String>,
     /// The states that are left; `None` if the scene was not reduced.
     states: Option<Signature>,
 }
@@ -25,16 +26,17 @@ impl Key {
     pub fn reduced(document: &Value, symptom: &Symptom) -> Self {
         let Traits { way, states, .. } = Traits::of(document, symptom);
         Self {
-            way: way.to_string(),
+            way,
+            unreduced: None,
             states: Some(states),
         }
     }
 
     /// Returns the key of a scene that was not reduced, with the reason.
     pub fn whole(document: &Value, symptom: &Symptom, why: &str) -> Self {
-        let way = Traits::of(document, symptom).way;
         Self {
-            way: format!("{way}, {why}"),
+            way: Traits::of(document, symptom).way,
+            unreduced: Some(why.to_owned()),
             states: None,
         }
     }
@@ -81,8 +83,12 @@ impl<S> Group<S> {
     }
 
     /// The violation in words, and why the scene was not reduced.
-    pub fn way(&self) -> &str {
-        &self.key.way
+    pub fn way(&self) -> String {
+        let Key { way, unreduced, .. } = &self.key;
+        match unreduced {
+            Some(why) => format!("{way}, {why}"),
+            None => way.to_string(),
+        }
     }
 
     /// True if all that is left of its first scene belongs to the failure: nearly everything is left of a scene that was

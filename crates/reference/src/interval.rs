@@ -1,7 +1,6 @@
 //! Closed intervals of real numbers.
 
 use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange};
-use std::fmt;
 
 /// The real numbers from `low` to `high`, both included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,30 +174,7 @@ impl From<Interval> for ValueRange {
     }
 }
 
-impl fmt::Display for Interval {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.low == self.high {
-            write!(f, "{}", Short(self.low))
-        } else {
-            write!(f, "{}..{}", Short(self.low), Short(self.high))
-        }
-    }
-}
-
 /// Returns an end with an amount added, unless it is infinite.
 fn widened(end: f64, amount: f64) -> f64 {
     if end.is_infinite() { end } else { end + amount }
-}
-
-/// Returns a number in the digits that a story shows.
-struct Short(f64);
-
-impl fmt::Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 == f64::from(self.0 as f32) {
-            write!(f, "{}", self.0 as f32)
-        } else {
-            write!(f, "{:.7}", self.0)
-        }
-    }
 }

@@ -149,7 +149,7 @@ fn check_window_position([x, y, z]: [f32; 3], viewport: Viewport) -> Result<(), 
         for axis in 0..3 {
             prop_assert!(
                 judged[axis].float.contains(f64::from(plain[axis][0])),
-                "{}, axis {axis}: {} is not in {}",
+                "{}, axis {axis}: {} is not in {:?}",
                 rules.name,
                 plain[axis][0],
                 judged[axis].float
@@ -296,12 +296,12 @@ proptest! {
             ] {
                 let range = range.hull();
                 let held = if plain.is_nan() { range.may_be_nan() } else { range.contains(f64::from(plain)) };
-                prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range}", rules.name);
+                prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range:?}", rules.name);
             }
             // An exact argument leaves no more than the error that a text grants.
             if below == 0.0 && above == 0.0 && (-20.0..=20.0).contains(&value) {
                 let power = a.exp2(judged).hull();
-                prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power}");
+                prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power:?}");
             }
         }
     }

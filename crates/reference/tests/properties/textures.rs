@@ -162,7 +162,7 @@ proptest! {
                 for (what, range, value) in pairs(&plain, &judged) {
                     prop_assert!(
                         holds(range, value),
-                        "{}, {}, {what}: {value:?} is not in {}", shader.name(), rules.name, range.hull()
+                        "{}, {}, {what}: {value:?} is not in {:?}", shader.name(), rules.name, range.hull()
                     );
                 }
             }
