@@ -203,6 +203,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
                 grade: Grade::Unread,
                 clause: String::new(),
                 evidence: Evidence::Text(format!("{}: {}", record.case, first.evidence)),
+                read: None,
                 link: None,
                 expires: None,
             },

@@ -3,6 +3,7 @@
 //! They come from two kinds of files, a list of entries and a finding per bug, and are looked up in one form, [`Known`].
 
 use crate::adapter::AdapterRecord;
+use crate::date::check_date;
 use crate::driver_version::version_of;
 use crate::error::RecordError;
 use crate::findings::{self, Finding};
@@ -357,14 +358,8 @@ impl Expectations {
                 fail(range, message)
             })?),
         };
-        if let Some(date) = &known.expires
-            && !is_date(date)
-        {
-            let message = format!(
-                "\"expires\": {:?} is no day; days are written as \"2027-01-31\"",
-                shortened(date)
-            );
-            return Err(fail(date, message));
+        if let Some(date) = &known.expires {
+            check_date("expires", date).map_err(|message| fail(date, message))?;
         }
         let each = |key: &str, globs: &[String]| {
             let each = globs.iter().map(|glob| build(key, glob));
@@ -542,19 +537,6 @@ fn text_of(path: &Path) -> Result<String, RecordError> {
         .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
         .map_err(RecordError::io("read", path))?;
     Ok(text)
-}
-
-/// True if a text has the form of a day: `2027-01-31`.
-fn is_date(text: &str) -> bool {
-    let form = |(i, c): (usize, char)| match i {
-        4 | 7 => c == '-',
-        _ => c.is_ascii_digit(),
-    };
-    let number = |range| text.get(range).and_then(|t: &str| t.parse::<u32>().ok());
-    text.len() == 10
-        && text.char_indices().all(form)
-        && number(5..7).is_some_and(|m| (1..=12).contains(&m))
-        && number(8..10).is_some_and(|d| (1..=31).contains(&d))
 }
 
 /// The line that first holds a string value, as near as a message needs it.

@@ -4,10 +4,13 @@
 //! the accusation is known. It excuses what it explains: its verdict, and, since one bug shows on weaker evidence in
 //! some cases, every violation of a weaker grade.
 
+use crate::date::check_date;
 use crate::error::RecordError;
 use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -39,12 +42,42 @@ pub struct Finding {
     pub clause: String,
     /// What was seen.
     pub evidence: Evidence,
+    /// The audit of the accusation; absent until somebody other than its author has read it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub read: Option<Reading>,
     /// The bug report's address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub link: Option<String>,
     /// The last day on which the finding excuses anything, as `2027-01-31`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expires: Option<String>,
+}
+
+/// The audit of a finding, by somebody who did not write it: the accusation held against the text that binds the
+/// adapter, and against the permissions of that text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    /// The day, as `2027-01-31`.
+    pub date: String,
+    /// The sections that were read, by document, version and number.
+    pub clause: String,
+    /// The result.
+    pub verdict: ReadingVerdict,
+    /// The must of the text, and the permissions that were looked for and do not excuse the driver.
+    pub reason: String,
+}
+
+state_enum! {
+    /// The result of an audit. The finding has the grade that the audit left it with.
+    ReadingVerdict: array {
+        /// The grade stands.
+        Upheld = "upheld",
+        /// The grade was too strong.
+        Lowered = "lowered",
+        /// The grade was too weak.
+        Raised = "raised",
+    }
 }
 
 /// The evidence of a finding: an array of values that were seen, or a text.
@@ -144,11 +177,22 @@ impl Finding {
             ("clause", finding.clause.trim().is_empty() && !unread),
             ("evidence", finding.evidence.is_empty()),
         ];
+        let line_of = |key: &str| {
+            let at = text.find(&format!("\"{key}\"")).unwrap_or(0);
+            text[..at].matches('\n').count() + 1
+        };
         for (key, empty) in parts {
             if empty {
-                let at = text.find(&format!("\"{key}\"")).unwrap_or(0);
-                let line = text[..at].matches('\n').count() + 1;
-                return Err(fail(line, format!("\"{key}\" must say something")));
+                return Err(fail(line_of(key), format!("\"{key}\" must say something")));
+            }
+        }
+        if let Some(reading) = &finding.read {
+            check_date("date", &reading.date).map_err(|message| fail(line_of("date"), message))?;
+            for (key, text) in [("clause", &reading.clause), ("reason", &reading.reason)] {
+                if text.trim().is_empty() {
+                    let message = format!("\"{key}\" of \"read\" must say something");
+                    return Err(fail(line_of("read"), message));
+                }
             }
         }
         Ok(finding)
@@ -179,7 +223,9 @@ mod tests {
   "clause": "OpenGL 4.6: 17.3.6.5",
   "evidence": [
     { "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" }
-  ]
+  ],
+  "read": { "date": "2027-01-31", "clause": "OpenGL 4.6: 17.3.6.5 Blend Color", "verdict": "lowered",
+    "reason": "No text says when it is read." }
 }"#;
 
     #[test]
@@ -192,6 +238,8 @@ mod tests {
         assert_eq!((seen[0].texel, seen[0].sample), ([1, 2], 0));
         let again = Finding::parse(&finding.to_text().unwrap(), Path::new("f.json")).unwrap();
         assert_eq!(again, finding);
+        let reading = finding.read.as_ref().unwrap();
+        assert_eq!(reading.verdict, ReadingVerdict::Lowered);
         let text = TEXT.replace("[\n    {", "\"").replace("}\n  ]", "\"");
         let text = text.replace(
             r#"" "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" ""#,
@@ -218,6 +266,10 @@ mod tests {
             ("OpenGL 4.6: 17.3.6.5", " ", 7, "\"clause\""),
             ("\"texel\": [1, 2]", "\"texels\": [1, 2]", 9, "texels"),
             ("The blend constant stays.", "", 2, "\"title\""),
+            ("2027-01-31", "2027-13-01", 11, "no day"),
+            ("OpenGL 4.6: 17.3.6.5 Blend Color", "", 11, "\"clause\""),
+            ("lowered", "fine", 11, "upheld"),
+            ("No text says when it is read.", "", 11, "\"reason\""),
         ] {
             let told = error(from, to);
             let start = format!("ci/findings/f.json:{line}: ");

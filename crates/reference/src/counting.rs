@@ -50,7 +50,18 @@ impl<'a> Tally<'a> {
                 .flat_map(|pass| {
                     let samples = scene.pass_samples(pass);
                     let draws = pass.draws.iter();
-                    draws.map(move |draw| draw.multisample.least_runs(samples))
+                    draws.map(move |draw| {
+                        let asked = draw.multisample.least_runs(samples);
+                        // The shader itself asks for a run for each sample, or the share does.
+                        if asked > 1
+                            && !draw.shader.runs_per_sample()
+                            && !rules.runs_by_share.value()
+                        {
+                            1
+                        } else {
+                            asked
+                        }
+                    })
                 })
                 .collect(),
         }

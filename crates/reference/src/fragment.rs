@@ -45,7 +45,12 @@ impl Walk<'_> {
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
-        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+        let drawn = self.by_sample_coverage(place, world, notes).into_iter();
+        let read = drawn.flat_map(|(world, drawn)| {
+            let worlds = self.by_reading(place, world).into_iter();
+            worlds.map(move |world| (world, drawn))
+        });
+        for (world, drawn) in read {
             if outline && !self.rules.outlines_face_as_polygons.value() {
                 self.shade(place, world.clone(), !front, drawn, result, notes);
             }
@@ -126,7 +131,11 @@ impl Walk<'_> {
                     result.push(outcome);
                 }
             }
-            return;
+            let writes = output.depth.is_some() || draw.shader.writes_reference();
+            if !writes || self.rules.early_ignores_written.value() {
+                return;
+            }
+            // The shader may have come first after all.
         }
         // A fragment that contributes nothing asks for a run only where the rules say so.
         let asks = !masked && self.counts_runs(place) && self.rules.runs_for_discarded.value();
@@ -363,15 +372,23 @@ impl Walk<'_> {
         let mut updated = passed.clone();
         self.write_depth(place, &mut updated, incoming, notes);
         result.push(updated);
-        let may_not_happen =
-            |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
-        if may_not_happen(!covered.kept.must(), self.rules.early_updates.value())
-            || may_not_happen(!covered.masked.must(), self.rules.early_mask.value())
-            || may_not_happen(!covered.coverage.must(), self.rules.early_coverage.value())
-        {
+        let losses = [
+            (covered.kept, &self.rules.early_updates),
+            (covered.masked, &self.rules.early_mask),
+            (covered.coverage, &self.rules.early_coverage),
+        ];
+        let of_lost = losses.map(|(kept, rule)| (!kept.must()).then(|| rule.value()));
+        let allows = |updates: EarlyUpdates| of_lost.contains(&Some(updates));
+        if allows(EarlyUpdates::Either) || allows(EarlyUpdates::Each) {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
-            untouched.events = passed.events;
+            untouched.events.clone_from(&passed.events);
+            if allows(EarlyUpdates::Each) {
+                let mut only_depth = untouched.clone();
+                self.write_depth(place, &mut only_depth, incoming, notes);
+                result.push(only_depth);
+                result.push(passed);
+            }
             result.push(untouched);
         }
     }

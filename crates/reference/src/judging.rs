@@ -1,7 +1,7 @@
 //! The judging number system: intervals that hold every value the rules allow.
 
 use crate::interval::Interval;
-use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules, SignedClamp};
+use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats};
 use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
@@ -40,11 +40,6 @@ impl Range {
         }
     }
 
-    /// Returns the values of either range, way by way.
-    pub(crate) fn joined(self, other: Self) -> Self {
-        self.zip(other, Interval::hull)
-    }
-
     /// Returns the values of both ways.
     pub fn hull(self) -> Interval {
         self.float.hull(self.coarse)
@@ -65,6 +60,9 @@ pub struct Judging<'r> {
     pub rules: &'r Rules,
     /// True if blends are advanced, which may be done at the precision of 16-bit floats.
     advanced: bool,
+    /// True if what is blended into signed formats is clamped to -1 to 1, false if to 0 to 1; without it the rules
+    /// say, or it is either.
+    pub(crate) signed_operands: Option<bool>,
 }
 
 /// A code position that is an integer but for the rounding of 64-bit floats counts as one. No 32-bit
@@ -77,6 +75,7 @@ impl<'r> Judging<'r> {
         Self {
             rules,
             advanced: false,
+            signed_operands: None,
         }
     }
 
@@ -85,6 +84,7 @@ impl<'r> Judging<'r> {
         Self {
             rules,
             advanced: true,
+            signed_operands: None,
         }
     }
 
@@ -218,7 +218,12 @@ impl<'r> Judging<'r> {
         if low >= 0.0 {
             return whole;
         }
-        match self.rules.signed_clamp.value() {
+        let clamp = match self.signed_operands {
+            Some(true) => SignedClamp::Signed,
+            Some(false) => SignedClamp::Unit,
+            None => self.rules.signed_clamp.value(),
+        };
+        match clamp {
             SignedClamp::Signed => whole,
             SignedClamp::Unit => value.clamp(0.0, 1.0),
             SignedClamp::Either => whole.hull(value.clamp(0.0, 1.0)),
@@ -264,6 +269,14 @@ impl<'r> Judging<'r> {
         }
         if encoding == ChannelEncoding::Float32 {
             return CodeInterval::new(order_below(value.low), order_above(value.high));
+        }
+        if matches!(encoding, ChannelEncoding::Ufloat(_))
+            && self.rules.small_floats.value() == SmallFloats::NearestOrTowardsZero
+        {
+            return CodeInterval::new(
+                towards_zero(encoding, value.low),
+                nearest(encoding, value.high),
+            );
         }
         let limit = encoding.value_of_order(encoding.max_order());
         let beyond = value.high > limit || value.low < -limit;
@@ -325,6 +338,34 @@ fn to_half(value: Interval) -> Interval {
     Interval {
         low: half.value_of_order(low).min(value.low),
         high: half.value_of_order(high).max(value.high),
+    }
+}
+
+/// Returns the order of the largest float without a sign not above a value: finite for a finite one.
+fn towards_zero(encoding: ChannelEncoding, value: f64) -> i64 {
+    let most = encoding.max_order();
+    if value == f64::INFINITY {
+        most + 1
+    } else if value <= 0.0 {
+        0
+    } else if value >= encoding.value_of_order(most) {
+        most
+    } else {
+        encoding.order_below(value)
+    }
+}
+
+/// Returns the order of the nearest float without a sign, of two the larger one: finite for a finite value.
+fn nearest(encoding: ChannelEncoding, value: f64) -> i64 {
+    let below = towards_zero(encoding, value);
+    if below >= encoding.max_order() || value <= 0.0 {
+        return below;
+    }
+    let [low, high] = [below, below + 1].map(|order| encoding.value_of_order(order));
+    if value - low < high - value {
+        below
+    } else {
+        below + 1
     }
 }
 

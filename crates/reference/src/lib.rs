@@ -29,6 +29,7 @@ mod picture;
 mod possible;
 mod primitive;
 mod read_back;
+mod readings;
 mod rejections;
 pub mod rules;
 mod ruling;

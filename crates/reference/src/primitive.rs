@@ -288,25 +288,37 @@ fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
     (u32::from(x.1 && y.1), u32::from(x.0 && y.0))
 }
 
-/// A line that runs along an axis covers, between its end texels, the texels it runs through; at
-/// the ends and beside slanted lines the rules (diamond exit, rectangle) differ, so that anything
-/// is legal there.
+/// A line that runs along an axis covers, away from its ends, the texels it runs through; near the ends and beside
+/// slanted lines the rules (diamond exit, rectangle) differ, so that anything is legal there.
 fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let [a, b] = ends;
-    let reach = units * 3 / 2;
     let all = a.hull(b);
-    let near = at.x >= all.low.x - reach
-        && at.x <= all.high.x + reach
-        && at.y >= all.low.y - reach
-        && at.y <= all.high.y + reach;
-    let distance = edge_value(a.low, b.low, at).unsigned_abs() as f64;
-    let length = ((b.low.x - a.low.x) as f64).hypot((b.low.y - a.low.y) as f64);
-    // Legal snapping moves either end by no more than a texel's sixteenth, far less than the half
-    // texel that the reach leaves over.
-    if !near || (length > 0.0 && distance > length * reach as f64) {
+    let unit = units as f64;
+    let (dx, dy) = ((b.low.x - a.low.x) as f64, (b.low.y - a.low.y) as f64);
+    let length = dx.hypot(dy);
+    // Half a texel for the diamond, and one along each axis by which a fragment may be off.
+    let along_axes = if length > 0.0 {
+        (dx.abs() + dy.abs()) / length
+    } else {
+        2.0
+    };
+    let reach = unit * (0.5 + along_axes);
+    let far = (2.5 * unit) as i64;
+    let near = at.x >= all.low.x - far
+        && at.x <= all.high.x + far
+        && at.y >= all.low.y - far
+        && at.y <= all.high.y + far;
+    let distance = |p: Point, q: Point| edge_value(p, q, at).unsigned_abs() as f64;
+    let nearest = distance(a.low, b.low).min(distance(a.high, b.high));
+    // Snapping moves either end by no more than the box is wide.
+    let slack = (width(a).max(width(b)) * 2) as f64;
+    if !near || (length > 0.0 && nearest > length * (reach + slack)) {
         return (0, 0);
     }
-    let along = |low: i64, high: i64, at: i64| at - units > low && at + units < high;
+    // Certain are texels past half a texel for the diamond at the end, one for a fragment that is off, and one for a
+    // fragment that is missing.
+    let along =
+        |low: i64, high: i64, at: i64| at - units * 5 / 2 > low && at + units * 5 / 2 < high;
     // True if a line between two positions runs neither through the sample's texel nor through one beside it.
     let misses = |low: i64, high: i64, at: i64| !touches(low - units, high + units, at, units);
     let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
@@ -329,6 +341,11 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
         || (vertical && misses(all.low.x, all.high.x, at.x));
     (u32::from(must), u32::from(!beside))
+}
+
+/// Returns the width of a box, in sub-texel units.
+fn width(ends: SnapBox) -> i64 {
+    (ends.high.x - ends.low.x).max(ends.high.y - ends.low.y)
 }
 
 /// True if a line between two positions can run through a sample's texel.

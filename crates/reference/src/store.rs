@@ -1,11 +1,13 @@
 //! Stores: depth and colours of a fragment that passed, with masks, blending and logic operations.
 
 use crate::fragment::Incoming;
+use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::notes::Notes;
-use crate::rules::{SignedClamp, SrgbLogic};
+use crate::readings::Contested;
+use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
-use crate::world::World;
+use crate::world::{Decision, World};
 use etalon_frame::{
     Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat,
     ValueRange,
@@ -57,29 +59,46 @@ impl Walk<'_> {
         judging: &mut Judging<'_>,
         encoding: ChannelEncoding,
         value: Range,
+        world: &World,
     ) -> CodeInterval {
-        let whole = judging.encode(encoding, value);
-        if !matches!(encoding, ChannelEncoding::Snorm(_)) {
-            return whole;
-        }
-        let clamped = Range {
-            float: value.float.clamp(0.0, 1.0),
-            coarse: value.coarse.clamp(0.0, 1.0),
+        let reading = world.decided(Decision::Reading(Contested::SignedResults));
+        let is_signed = !matches!(encoding, ChannelEncoding::Snorm(_))
+            || reading.unwrap_or_else(|| self.rules.signed_result.value() != SignedClamp::Unit);
+        let value = if is_signed {
+            value
+        } else {
+            Range {
+                float: value.float.clamp(0.0, 1.0),
+                coarse: value.coarse.clamp(0.0, 1.0),
+            }
         };
-        match self.rules.signed_result.value() {
-            SignedClamp::Signed => whole,
-            SignedClamp::Unit => judging.encode(encoding, clamped),
-            SignedClamp::Either => whole.hull(judging.encode(encoding, clamped)),
-        }
+        judging.encode(encoding, value)
     }
 
-    /// Returns whether logic operations apply to a format.
-    fn logic_on(&self, format: TextureFormat) -> SrgbLogic {
-        match format {
-            _ if takes_logic(format) => SrgbLogic::Applies,
-            TextureFormat::Rgba8UnormSrgb => self.rules.srgb_logic.value(),
-            _ => SrgbLogic::PassesThrough,
-        }
+    /// True if logic operations apply to a format.
+    fn has_logic(&self, format: TextureFormat, world: &World) -> bool {
+        takes_logic(format)
+            || format == TextureFormat::Rgba8UnormSrgb
+                && world
+                    .decided(Decision::Reading(Contested::SrgbLogic))
+                    .unwrap_or_else(|| self.rules.srgb_logic.value() == SrgbLogic::Applies)
+    }
+
+    /// Returns the blend constant of a draw.
+    fn blend_constant(
+        &self,
+        place: Place<'_>,
+        world: &World,
+        judging: &mut Judging<'_>,
+    ) -> [Range; 4] {
+        place.draw.blend_constant.map(|v| {
+            let clamped = v.clamp(0.0, 1.0);
+            let is_clamped = clamped != v
+                && world
+                    .decided(Decision::Reading(Contested::ClampedConstant))
+                    .unwrap_or_else(|| self.rules.constant_clamp.value() == ConstantClamp::Always);
+            judging.constant(if is_clamped { clamped } else { v })
+        })
     }
 
     /// Returns the colour of an advanced blend of source and destination.
@@ -92,7 +111,14 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> [Range; 4] {
         let mut judging = Judging::of_advanced_blends(self.rules);
-        let value = advanced_blend(&mut judging, mode, encodings, src, dst);
+        let is_negative = |color: [Range; 4]| color[3].hull().low < 0.0;
+        let is_undefined =
+            (is_negative(src) || is_negative(dst)) && !self.rules.blends_negative_alpha.value();
+        let value = if is_undefined {
+            [Range::same(Interval::EVERYTHING); 4]
+        } else {
+            advanced_blend(&mut judging, mode, encodings, src, dst)
+        };
         notes.add(
             || place.origin(),
             || Step::AdvancedBlend {
@@ -114,18 +140,22 @@ impl Walk<'_> {
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
     ) {
+        let reading = |text: Contested| world.decided(Decision::Reading(text));
         let mut judging = Judging::new(self.rules);
+        judging.signed_operands = reading(Contested::SignedOperands);
+        let one_for_all = reading(Contested::OneForAll).unwrap_or(true);
         let pass = &self.scene.passes[place.pass];
         let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
-        if place.draw.alpha_to_one() {
+        if place.draw.alpha_to_one() && one_for_all {
             second[3] = Range::exact(1.0);
         }
+        let constant = self.blend_constant(place, world, &mut judging);
         for (location, index) in pass.color.iter().enumerate() {
             let Some(target) = place.draw.targets.get(location) else {
                 continue;
             };
             let mut color = output.at_location(location);
-            if place.draw.alpha_to_one() {
+            if place.draw.alpha_to_one() && (location == 0 || one_for_all) {
                 color[3] = Range::exact(1.0);
             }
             let attachment = &self.scene.attachments[*index];
@@ -133,11 +163,11 @@ impl Walk<'_> {
             let all: [ChannelEncoding; 4] =
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
             let missing = missing_channels(encodings.len());
-            let cell = &mut world.cells[*index];
+            let stored = world.cells[*index].channels;
             let mut dst = || {
                 std::array::from_fn(|c| match missing[c] {
                     Some(value) => Range::exact(value),
-                    None => judging.decode(all[c], cell.channels[c]),
+                    None => judging.decode(all[c], stored[c]),
                 })
             };
             let value = match (&target.blend, target.advanced) {
@@ -145,15 +175,6 @@ impl Walk<'_> {
                 (None, Some(mode)) => self.advanced(place, mode, all, [color, dst()], notes),
                 (Some(state), _) => {
                     let dst = dst();
-                    let constant = place.draw.blend_constant.map(|v| {
-                        let plain = judging.constant(v);
-                        let clamped = v.clamp(0.0, 1.0);
-                        if clamped != v && self.rules.clamps_constant.value() {
-                            plain.joined(judging.constant(clamped))
-                        } else {
-                            plain
-                        }
-                    });
                     let input = BlendInput {
                         src: color,
                         src1: second,
@@ -182,9 +203,10 @@ impl Walk<'_> {
                     value
                 }
             };
-            let works = self.logic_on(attachment.format) != SrgbLogic::PassesThrough;
-            if let Some(operation) = place.draw.logic.filter(|_| works) {
-                let before = *cell;
+            let has_logic = self.has_logic(attachment.format, world);
+            let logic = place.draw.logic.filter(|_| has_logic);
+            if let Some(operation) = logic {
+                let before = world.cells[*index];
                 notes.add(
                     || place.origin(),
                     || Step::Logic {
@@ -196,22 +218,19 @@ impl Walk<'_> {
             }
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    let codes = self.store_color(&mut judging, *encoding, value[c]);
-                    let (stored, logic) = (cell.channels[c], place.draw.logic);
+                    let codes = self.store_color(&mut judging, *encoding, value[c], world);
                     // On sRGB attachments the operation works on the codes, which are those of 8 bits.
                     let bits = match encoding {
                         ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
                         other => *other,
                     };
-                    let mut worked = |operation| judging.logic(bits, operation, codes, stored);
-                    cell.channels[c] = match (logic, self.logic_on(attachment.format)) {
-                        (Some(operation), SrgbLogic::Applies) => worked(operation),
-                        (Some(operation), SrgbLogic::Either) => codes.hull(worked(operation)),
-                        _ => codes,
+                    world.cells[*index].channels[c] = match logic {
+                        Some(operation) => judging.logic(bits, operation, codes, stored[c]),
+                        None => codes,
                     };
                 }
             }
-            let cell = *cell;
+            let cell = world.cells[*index];
             let target_of = || self.target(*index, Aspect::Color);
             let contents = || self.contents(*index, Aspect::Color, &cell);
             let write_mask = target.write_mask;

@@ -1,6 +1,7 @@
 //! Worlds: the consistent stories of one sample.
 
 use crate::primitive::VertexId;
+use crate::readings::Contested;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 use std::hash::{Hash, Hasher};
@@ -68,12 +69,14 @@ pub(crate) enum Decision {
     /// True if a value of sample coverage, given by its bits, covers the sample: the same for all draws
     /// of a pass.
     SampleCoverage { value: u32 },
+    /// The reading of a contested text: the same for all draws of a pass.
+    Reading(Contested),
 }
 
 impl Decision {
     /// True if later draws of the pass may refer to the choice.
     pub(crate) fn outlives_its_draw(self) -> bool {
-        matches!(self, Self::SampleCoverage { .. })
+        matches!(self, Self::SampleCoverage { .. } | Self::Reading(_))
     }
 }
 

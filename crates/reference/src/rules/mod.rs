@@ -16,9 +16,9 @@ mod webgpu;
 mod yardstick;
 
 pub use permission::{
-    AlphaToCoverage, AskedValues, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules,
-    SameDepth, SamplesCounted, SharedEdge, SignedClamp, Snap, SrgbLogic,
+    AlphaToCoverage, AskedValues, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder,
+    DepthRange, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};

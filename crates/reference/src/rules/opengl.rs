@@ -1,9 +1,10 @@
 //! OpenGL's permissions, by version of the core profile: 3.3, 4.5 and 4.6 are read.
 
 use super::permission::{
-    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules, SameDepth,
-    SamplesCounted, SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
+    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules,
+    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
+    permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -145,7 +146,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 Grade::Disputed,
                 "OpenGL 4.5, 4.6: 17.3.6 Blending, 2.3.5.2: signed buffers hold [-1,1]; 17.3.7 sRGB Conversion clamps every fixed-point result to [0,1]",
             ) },
-        clamps_constant: if old { permit(true, "OpenGL 3.3: 4.1.7 Blend Color: the constant is a clampf") } else { permit(false, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is") },
+        constant_clamp: if old { narrowed(
+                ConstantClamp::Always,
+                ConstantClamp::Either,
+                Grade::Disputed,
+                "OpenGL 3.3: 4.1.7 Blend Color, table 2.2: the constant is a clampf; later versions store it as it is",
+            ) } else { permit(ConstantClamp::Never, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is") },
+        one_is_first_output: permit(true, "OpenGL: 17.3.1 Alpha To Coverage (3.3: 4.1.3): all alpha values of the section are those of colour number zero, index zero"),
+        blends_negative_alpha: permit(true, "OpenGL with KHR_blend_equation_advanced: no exception for negative alphas"),
         masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
@@ -233,16 +241,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
             ]),
         ),
-        early_updates: permit(
-            EarlyUpdates::Either,
+        early_updates: narrowed(
+            EarlyUpdates::Happen,
+            EarlyUpdates::Each,
+            Grade::Disputed,
             text.cite([
-                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
-                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
-                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
             ]),
         ),
         early_coverage: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             text.cite([
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
                 "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
@@ -250,11 +260,19 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         early_mask: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             text.cite([
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
                 "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+            ]),
+        ),
+        early_ignores_written: permit(
+            true,
+            text.cite([
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
             ]),
         ),
         mask_of_one: narrowed(
@@ -334,9 +352,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         flushes_small_floats: permit(
             true,
             text.cite([
-                "OpenGL 3.3: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
-                "OpenGL 4.5: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
-                "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL 3.3: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL 4.5: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+            ]),
+        ),
+        small_floats: permit(
+            SmallFloats::NearestOrTowardsZero,
+            text.cite([
+                "OpenGL 3.3: 2.1.3, 2.1.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
+                "OpenGL 4.5: 2.3.4.3, 2.3.4.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
+                "OpenGL 4.6: 2.3.4.3, 2.3.4.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
             ]),
         ),
         runs_for_discarded: run_rule(
@@ -358,6 +384,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             text,
             "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample",
             "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
+        ),
+        runs_by_share: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: at least max(ceil(share x samples), 1) sets of inputs; 7.13.1: 1 to N runs where the shader itself does not ask for samples",
+                "OpenGL 4.5: 14.3.1.1 Sample Shading: at least max(ceil(share x samples), 1) sets of inputs; 7.12.1: 1 to N runs where the shader itself does not ask for samples",
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: at least max(ceil(share x samples), 1) sets of inputs; 7.13.1: 1 to N runs where the shader itself does not ask for samples",
+            ]),
         ),
         alpha_to_coverage: if old { permit(
                 AlphaToCoverage::Any,

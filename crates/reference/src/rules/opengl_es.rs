@@ -1,9 +1,9 @@
 //! OpenGL ES's permissions, by version: 3.0, 3.1 and 3.2.
 
 use super::permission::{
-    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
-    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
+    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
+    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -113,11 +113,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SignedClamp::Signed,
             "OpenGL ES: EXT_render_snorm, which makes signed formats renderable, 15.1.5 Blending: clamped to [-1,1] for signed buffers",
         ),
-        signed_result: permit(
+        signed_result: narrowed(
             SignedClamp::Signed,
-            "OpenGL ES: EXT_render_snorm: clamped to [-1,1] for signed buffers",
+            SignedClamp::Either,
+            Grade::Disputed,
+            "OpenGL ES: EXT_render_snorm: clamped to [-1,1] for signed buffers; 15.1.6 sRGB Conversion (3.0: 4.1.8), which it leaves, clamps every fixed-point result to [0,1]",
         ),
-        clamps_constant: permit(false, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
+        constant_clamp: permit(ConstantClamp::Never, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
+        one_is_first_output: permit(true, "OpenGL ES: 15.1.1 Alpha To Coverage (3.0: 4.1.3): all alpha values of the section are those of colour number zero"),
+        blends_negative_alpha: permit(true, "OpenGL ES: 15.1.5.2 Advanced Blend Equations: no exception for negative alphas"),
         masks_reference: permit(true, "OpenGL ES: 15.1.2 Stencil Test (3.0: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
@@ -193,16 +197,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES 3.1: has no polygon modes",
             "OpenGL ES 3.2: has no polygon modes",
         ])),
-        early_updates: permit(
-            EarlyUpdates::Either,
+        early_updates: narrowed(
+            EarlyUpdates::Happen,
+            EarlyUpdates::Each,
+            Grade::Disputed,
             text.cite([
-                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
-                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
-                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though its discard is said to update nothing",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though its discard is said to update nothing",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though its discard is said to update nothing",
             ]),
         ),
         early_coverage: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             text.cite([
                 "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
                 "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
@@ -210,11 +216,19 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         early_mask: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             text.cite([
                 "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
                 "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
                 "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+            ]),
+        ),
+        early_ignores_written: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
             ]),
         ),
         mask_of_one: narrowed(
@@ -288,9 +302,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         flushes_small_floats: permit(
             true,
             text.cite([
-                "OpenGL ES 3.0: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
-                "OpenGL ES 3.1: 2.3.3 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
-                "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL ES 3.0: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL ES 3.1: 2.3.3 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+            ]),
+        ),
+        small_floats: permit(
+            SmallFloats::NearestOrTowardsZero,
+            text.cite([
+                "OpenGL ES 3.0: 2.1.3, 2.1.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
+                "OpenGL ES 3.1: 2.3.3.3, 2.3.3.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
+                "OpenGL ES 3.2: 2.3.4.3, 2.3.4.4 Unsigned 11-Bit and 10-Bit Floating-Point Numbers: the closest finite value, or always towards zero",
             ]),
         ),
         runs_for_discarded: narrowed(
@@ -325,6 +347,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
                 "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
                 "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
+            ]),
+        ),
+        runs_by_share: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL ES 3.1 with GL_OES_sample_shading: at least max(ceil(share x samples), 1) sets of inputs; 7.11.1: 1 to N runs where the shader itself does not ask for samples",
+                "OpenGL ES 3.1 with GL_OES_sample_shading: at least max(ceil(share x samples), 1) sets of inputs; 7.11.1: 1 to N runs where the shader itself does not ask for samples",
+                "OpenGL ES 3.2: 13.4.1 Sample Shading: at least max(ceil(share x samples), 1) sets of inputs; 7.11.1: 1 to N runs where the shader itself does not ask for samples",
             ]),
         ),
         alpha_to_coverage: narrowed(

@@ -185,6 +185,26 @@ impl BiasUnit {
     }
 }
 
+/// Conversion of a finite value to a float of 11 or 10 bits without a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SmallFloats {
+    /// To either neighbour; past the largest value to that or to infinity.
+    EitherNeighbour,
+    /// To the nearest, or always towards zero; past the largest value to that. Subnormal values are kept.
+    NearestOrTowardsZero,
+}
+
+/// Clamping of the blend constant to 0 to 1, whatever the format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstantClamp {
+    /// None.
+    Never,
+    /// When it is set.
+    Always,
+    /// Either.
+    Either,
+}
+
 /// Clamping of blend factors to the range of a normalized format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorClamp {
@@ -279,6 +299,8 @@ pub enum EarlyUpdates {
     Happen,
     /// They happen or not.
     Either,
+    /// That of depth happens or not, and that of stencil.
+    Each,
 }
 
 /// The increment of a precise occlusion query for a fragment of several samples.
@@ -391,8 +413,12 @@ rules! {
     signed_clamp: SignedClamp,
     /// Clamping of what a shader or a blend stores into signed normalized formats.
     signed_result: SignedClamp,
-    /// True if a blend constant may be clamped to 0 to 1 whatever the format.
-    clamps_constant: bool,
+    /// Clamping of the blend constant.
+    constant_clamp: ConstantClamp,
+    /// True if alpha to one may leave all alphas but that of the first output as they are.
+    one_is_first_output: bool,
+    /// True if an advanced blend of a negative alpha has a result; otherwise it is undefined.
+    blends_negative_alpha: bool,
     /// True if the stencil read mask also masks the reference; otherwise it may.
     masks_reference: bool,
     /// Codes of colours read back by a copy.
@@ -422,6 +448,9 @@ rules! {
     early_coverage: EarlyUpdates,
     /// Updates of depth and stencil by samples that the shader's own mask removes after forced early tests.
     early_mask: EarlyUpdates,
+    /// True if forced early tests ignore the depth and the stencil reference that the shader writes; otherwise
+    /// they may.
+    early_ignores_written: bool,
     /// The sample mask that a shader writes for a single sample.
     mask_of_one: MaskOfOne,
     /// True if without a fragment shader fragments go on as they were rasterized; otherwise they may be
@@ -442,8 +471,11 @@ rules! {
     /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
     /// anything.
     half_overflows: bool,
-    /// True if subnormal floats may be stored as zero.
+    /// True if subnormal floats of 16 bits, and of 11 and 10 where [`Rules::small_floats`] leaves them open, may be
+    /// stored as zero.
     flushes_small_floats: bool,
+    /// Floats of 11 and 10 bits.
+    small_floats: SmallFloats,
     /// True if a shader that counts in storage runs for a fragment that never contributes to the
     /// attachments; otherwise it may.
     runs_for_discarded: bool,
@@ -454,6 +486,9 @@ rules! {
     /// True if it runs at most once per fragment, or per covered sample of several; otherwise as often as
     /// the implementation likes.
     runs_once: bool,
+    /// True if the least share of sample shading sets the least number of runs; otherwise one run may serve all
+    /// samples.
+    runs_by_share: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
     /// Sample coverage, as alpha to coverage. The same value covers the same samples again, and its

@@ -1,11 +1,11 @@
 //! Vulkan's permissions, by version and by the properties that change them.
 
 use super::permission::{
-    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
-    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
+    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
+    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
-use etalon_frame::{Grade, Limits, Property};
+use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
 /// Returns the text that binds a version.
 fn text(limits: &Limits) -> &'static str {
@@ -84,10 +84,27 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SignedClamp::Signed,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: clamped to [-1,1] for signed formats",
         ),
-        clamps_constant: permit(
-            false,
+        constant_clamp: permit(
+            ConstantClamp::Never,
             "Vulkan: Blend Factors: the constant is clamped for normalized attachments alone",
         ),
+        one_is_first_output: permit(
+            true,
+            "Vulkan: Multisample Coverage: all alpha values of the section are those of the output at location 0, index 0",
+        ),
+        blends_negative_alpha: if limits.version >= ApiVersion::new(1, 4) {
+            permit(
+                false,
+                "Vulkan 1.4: Advanced Blend Operations, since 1.4.334: all components are undefined if an alpha is negative",
+            )
+        } else {
+            narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "Vulkan: Advanced Blend Operations: no exception for negative alphas; 1.4.334 makes the result undefined",
+            )
+        },
         masks_reference: permit(
             true,
             "Vulkan: Stencil Test: reference and stored value are both masked",
@@ -162,6 +179,19 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.samplemask_early_fragment_tests_depth_samples_* demands the updates",
             )
         },
+        early_ignores_written: if coverage_last {
+            permit(
+                true,
+                "Vulkan: Fragment Operations, earlyFragmentMultisampleCoverageAfterSampleCounting is true: with EarlyFragmentTests shading follows the tests",
+            )
+        } else {
+            narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "Vulkan: Fragment Operations: up to 1.3.216 shading is performed after sample counting with EarlyFragmentTests; later it should be, and may precede the tests",
+            )
+        },
         mask_of_one: permit(
             MaskOfOne::Acts,
             "Vulkan: Multisample Coverage: the coverage mask is ANDed with SampleMask, whatever the number of samples",
@@ -208,6 +238,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             false,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
         ),
+        small_floats: permit(
+            SmallFloats::EitherNeighbour,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: either neighbour; past the largest value that or infinity",
+        ),
         runs_for_discarded: permit(
             true,
             "Vulkan: Fragment Shading: at least one run for every fragment that no operation before shading discards, where the shader writes storage",
@@ -232,6 +266,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         runs_once: permit(
             false,
             "Vulkan: Fragment Shading: more runs than one for implementation-dependent reasons",
+        ),
+        runs_by_share: permit(
+            true,
+            "Vulkan: Sample Shading: at least ceil(minSampleShading x rasterizationSamples) runs per fragment",
         ),
         alpha_to_coverage: narrowed(
             AlphaToCoverage::Ends,

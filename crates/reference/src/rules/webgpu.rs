@@ -1,9 +1,9 @@
 //! WebGPU's permissions, by the text of 2026-11. Where it is silent, what the APIs under it permit.
 
 use super::permission::{
-    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
-    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
+    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
+    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::Grade;
 
@@ -58,9 +58,17 @@ pub(super) fn rules() -> Rules {
             SignedClamp::Signed,
             "WebGPU: silent on stores to signed formats; Vulkan clamps to [-1,1]",
         ),
-        clamps_constant: permit(
-            false,
+        constant_clamp: permit(
+            ConstantClamp::Never,
             "WebGPU: 23.2.7 Output Merging: the constant is the one that was set",
+        ),
+        one_is_first_output: permit(
+            true,
+            "WebGPU: has no alpha to one; Vulkan: the first output's alpha alone",
+        ),
+        blends_negative_alpha: permit(
+            false,
+            "WebGPU: has no advanced blending; Vulkan 1.4: undefined for negative alphas",
         ),
         masks_reference: narrowed(
             true,
@@ -118,16 +126,20 @@ pub(super) fn rules() -> Rules {
         ),
         outlines_face_as_polygons: permit(false, "WebGPU: has no polygon modes"),
         early_updates: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
         ),
         early_coverage: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
         ),
         early_mask: permit(
-            EarlyUpdates::Either,
+            EarlyUpdates::Each,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        ),
+        early_ignores_written: permit(
+            false,
+            "WebGPU: has no forced early tests; Vulkan: shading may precede them",
         ),
         mask_of_one: permit(
             MaskOfOne::Acts,
@@ -169,13 +181,17 @@ pub(super) fn rules() -> Rules {
             true,
             "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
         ),
+        small_floats: permit(
+            SmallFloats::EitherNeighbour,
+            "WebGPU: silent on conversion to small floats; Vulkan: either neighbour",
+        ),
         runs_for_discarded: permit(
             true,
             "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding",
         ),
         runs_for_overwritten: permit(
-            false,
-            "WebGPU: 23.2.6 Fragment Processing: silent on fragments that later ones overwrite; OpenGL ES: they may go without a run",
+            true,
+            "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding, overwritten or not",
         ),
         skips_rejected: permit(
             false,
@@ -185,6 +201,7 @@ pub(super) fn rules() -> Rules {
             false,
             "WebGPU: silent on additional runs; Vulkan permits them",
         ),
+        runs_by_share: permit(false, "WebGPU: has no least share of sample shading"),
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",

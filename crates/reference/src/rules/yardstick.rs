@@ -58,8 +58,16 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.signed_result.value,
             "Yardstick: as the API's text says",
         ),
-        clamps_constant: permit(
-            text.clamps_constant.value,
+        constant_clamp: permit(
+            text.constant_clamp.value,
+            "Yardstick: as the API's text says",
+        ),
+        one_is_first_output: permit(
+            text.one_is_first_output.value,
+            "Yardstick: as the API's text says",
+        ),
+        blends_negative_alpha: permit(
+            text.blends_negative_alpha.value,
             "Yardstick: as the API's text says",
         ),
         masks_reference: permit(true, "Yardstick: as Direct3D 11.3 has it (17.12)"),
@@ -111,6 +119,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
         ),
+        early_ignores_written: permit(
+            text.early_ignores_written.value,
+            "Yardstick: as the API's text says",
+        ),
         mask_of_one: permit(text.mask_of_one.value, "Yardstick: as the API's text says"),
         goes_on_unshaded: permit(true, "Yardstick: without a shader, as it was rasterized"),
         mask_acts_first: permit(true, "Yardstick: the sample mask comes before all tests"),
@@ -133,10 +145,15 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         filters_to_codes: permit(false, "Yardstick: in floats"),
         half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
+        small_floats: permit(text.small_floats.value, "Yardstick: as the API's text says"),
         runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
         runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),
         skips_rejected: permit(true, "Yardstick: one run for every fragment"),
         runs_once: permit(text.runs_once.value, "Yardstick: as the API's text says"),
+        runs_by_share: permit(
+            text.runs_by_share.value,
+            "Yardstick: as the API's text says",
+        ),
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",

@@ -1,0 +1,80 @@
+//! Texts with two readings. A driver follows one of them: what lies between the results of both is not legal.
+
+use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
+use crate::walk::{Place, Walk};
+use crate::world::{Decision, World, Worlds};
+use etalon_frame::{ChannelEncoding, TextureFormat};
+use smallvec::{SmallVec, smallvec};
+
+/// A text about stores of colours with two readings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Contested {
+    /// True: what is blended into signed formats is clamped to -1 to 1; false: to 0 to 1.
+    SignedOperands,
+    /// True: what is stored in signed formats is clamped to -1 to 1; false: to 0 to 1.
+    SignedResults,
+    /// True: logic operations apply to sRGB attachments.
+    SrgbLogic,
+    /// True: the blend constant is clamped to 0 to 1.
+    ClampedConstant,
+    /// True: alpha to one replaces the alpha of every output; false: of the first one.
+    OneForAll,
+}
+
+impl Walk<'_> {
+    /// Splits a world by the readings that matter to a draw and that it has not taken yet.
+    pub(crate) fn by_reading(&self, place: Place<'_>, world: World) -> Worlds {
+        let mut worlds: Worlds = smallvec![world];
+        for contested in self.contested(place) {
+            let decision = Decision::Reading(contested);
+            let split = |world: World| -> Worlds {
+                if world.decided(decision).is_some() {
+                    return smallvec![world];
+                }
+                let readings = [true, false].map(|reading| world.with(decision, reading));
+                readings.into_iter().collect()
+            };
+            worlds = worlds.into_iter().flat_map(split).collect();
+        }
+        worlds
+    }
+
+    /// Returns the contested texts that matter to a draw.
+    fn contested(&self, place: Place<'_>) -> SmallVec<[Contested; 2]> {
+        let draw = place.draw;
+        let colors = &self.scene.passes[place.pass].color;
+        let formats = colors.iter().map(|i| self.scene.attachments[*i].format);
+        let is_signed = |format: TextureFormat| {
+            let encodings = format.color_channels();
+            encodings
+                .iter()
+                .any(|e| matches!(e, ChannelEncoding::Snorm(_)))
+        };
+        let blends = draw
+            .targets
+            .iter()
+            .any(|t| t.blend.is_some() || t.advanced.is_some());
+        let signed = formats.clone().any(is_signed);
+        let srgb = formats.clone().any(|f| f == TextureFormat::Rgba8UnormSrgb);
+        let constant = draw.blend_constant.iter().any(|v| !(0.0..=1.0).contains(v));
+        let outputs = colors.len().min(draw.targets.len());
+        let others = outputs > 1 || draw.shader.has_second_source();
+        let mut contested = SmallVec::new();
+        if signed && blends && self.rules.signed_clamp.value() == SignedClamp::Either {
+            contested.push(Contested::SignedOperands);
+        }
+        if signed && self.rules.signed_result.value() == SignedClamp::Either {
+            contested.push(Contested::SignedResults);
+        }
+        if srgb && draw.logic.is_some() && self.rules.srgb_logic.value() == SrgbLogic::Either {
+            contested.push(Contested::SrgbLogic);
+        }
+        if constant && blends && self.rules.constant_clamp.value() == ConstantClamp::Either {
+            contested.push(Contested::ClampedConstant);
+        }
+        if others && draw.alpha_to_one() && self.rules.one_is_first_output.value() {
+            contested.push(Contested::OneForAll);
+        }
+        contested
+    }
+}
