@@ -75,6 +75,7 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
         "passes": passes,
         "read": read,
         "counters": wire.counters,
+        "path": wire.path,
     }))
 }
 

@@ -179,6 +179,9 @@ functions! {
         // SAFETY: a colour has four components.
         let color = (buffer == glow::COLOR).then(|| unsafe { *value.cast::<[u32; 4]>() });
         let spoils = buffer == glow::DEPTH && planted.calls.has(CallFault::StencilWithDepth);
+        if buffer == glow::COLOR && index > 0 && planted.calls.has(CallFault::ClearFirstTarget) {
+            return;
+        }
         planted.clear(color, |driver| {
             driver!(driver, glClearBufferfv(buffer, index, value));
             if spoils {
@@ -203,6 +206,10 @@ functions! {
         planted.blits += 1;
         // Reading back comes after the end of a submission and blits too.
         if planted.calls.has(CallFault::ResolveFirst) && planted.blits > 1 && planted.calls.passes > 0 {
+            return;
+        }
+        let is_empty = planted.calls.passes > 0 && planted.calls.draws == 0;
+        if planted.calls.has(CallFault::EmptyResolve) && is_empty {
             return;
         }
         if planted.calls.has(CallFault::BlitColumn) {

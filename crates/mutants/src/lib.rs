@@ -16,6 +16,7 @@ mod bounds;
 mod capability;
 mod clear;
 mod clip_distance;
+mod combinations;
 mod counter;
 mod cull;
 mod depth;
@@ -78,6 +79,7 @@ const CLASSES: &[Class] = &[
     clip_distance::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
     hierarchy::add, sequence::add, size::add, shader_mask::add, stencil_export::add, held::add,
+    combinations::add,
 ];
 
 /// Returns all mutants, class by class.

@@ -75,7 +75,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
     let identity = identify(&instance, physical);
     let mut device = Device::new(instance, physical, &identity)?;
     if let Some(Fault::Call(fault)) = options.fault {
-        device.raw = planted::plant(&device.raw, fault);
+        planted::plant(&mut device, fault);
     }
     Ok(VulkanBackend {
         info: AdapterInfo {

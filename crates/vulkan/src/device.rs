@@ -38,7 +38,7 @@ pub(crate) struct Device {
     /// True if a vertex shader may choose the second of two viewports.
     pub(crate) second_viewport: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
-    pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
+    pub(crate) extended: Option<ash::ext::extended_dynamic_state3::DeviceFn>,
     /// The function behind dynamic logic operations, where the device has them.
     pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
     /// True if logic operations can be enabled between draws.
@@ -452,7 +452,10 @@ impl Device {
             features: enabled,
             second_viewport,
             provoking,
-            extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
+            extended: extended.then(|| {
+                let loaded = ash::ext::extended_dynamic_state3::Device::new(api, &raw);
+                loaded.fp().clone()
+            }),
             dynamic_logic: dynamic_logic
                 .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
             logic_enable,

@@ -155,7 +155,7 @@ impl Extended {
         };
         if colored && self.further.logic == DynamicLogic::All {
             // SAFETY: as above.
-            unsafe { api.cmd_set_logic_op_enable(commands, self.logic.is_some()) };
+            unsafe { (api.cmd_set_logic_op_enable_ext)(commands, self.logic.is_some().into()) };
         }
         let all = || self.targets.iter();
         let enables: Vec<_> = all().map(|t| t.blend_enable).collect();
@@ -170,16 +170,19 @@ impl Extended {
                 alpha_blend_op: t.alpha_blend_op,
             })
             .collect();
-        // SAFETY: the caller's; the features are enabled wherever the functions are loaded.
+        let samples = state::samples(self.samples);
+        let count = self.targets.len() as u32;
+        // SAFETY: the caller's; the features are enabled wherever the functions are loaded, and the arrays have these
+        // lengths.
         unsafe {
-            api.cmd_set_polygon_mode(commands, state::polygon_mode(self.polygon_mode));
-            api.cmd_set_depth_clamp_enable(commands, self.depth_clamp);
-            api.cmd_set_sample_mask(commands, state::samples(self.samples), &[self.mask]);
-            api.cmd_set_alpha_to_coverage_enable(commands, self.alpha_to_coverage);
-            if !self.targets.is_empty() {
-                api.cmd_set_color_blend_enable(commands, 0, &enables);
-                api.cmd_set_color_blend_equation(commands, 0, &equations);
-                api.cmd_set_color_write_mask(commands, 0, &masks);
+            (api.cmd_set_polygon_mode_ext)(commands, state::polygon_mode(self.polygon_mode));
+            (api.cmd_set_depth_clamp_enable_ext)(commands, self.depth_clamp.into());
+            (api.cmd_set_sample_mask_ext)(commands, samples, &self.mask);
+            (api.cmd_set_alpha_to_coverage_enable_ext)(commands, self.alpha_to_coverage.into());
+            if colored {
+                (api.cmd_set_color_blend_enable_ext)(commands, 0, count, enables.as_ptr());
+                (api.cmd_set_color_blend_equation_ext)(commands, 0, count, equations.as_ptr());
+                (api.cmd_set_color_write_mask_ext)(commands, 0, count, masks.as_ptr());
             }
         }
     }

@@ -3,6 +3,8 @@
 //! The functions of the table have the driver's signatures and nothing else to tell them apart, so the
 //! driver's own table and what was seen of the calls are kept per thread: a backend belongs to one thread.
 
+use crate::device::Device;
+use ash::ext::extended_dynamic_state3;
 use ash::vk::{self, Handle};
 use etalon_backend::{CallFault, DrawNumbers, FaultyCalls};
 use std::cell::RefCell;
@@ -32,6 +34,7 @@ struct Functions {
     v10: ash::DeviceFnV1_0,
     v12: ash::DeviceFnV1_2,
     v13: ash::DeviceFnV1_3,
+    ext3: extended_dynamic_state3::DeviceFn,
 }
 
 /// The driver's functions, and what was seen of the commands since recording began.
@@ -51,12 +54,16 @@ struct Planted {
     topology: vk::PrimitiveTopology,
 }
 
-/// Returns the device with a fault in its function table.
-pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
+/// Puts a fault into the function table of a device.
+pub(crate) fn plant(device: &mut Device, fault: CallFault) {
+    let raw = &device.raw;
+    let extended = device.extended.clone();
     let driver = Functions {
-        v10: device.fp_v1_0().clone(),
-        v12: device.fp_v1_2().clone(),
-        v13: device.fp_v1_3().clone(),
+        v10: raw.fp_v1_0().clone(),
+        v12: raw.fp_v1_2().clone(),
+        v13: raw.fp_v1_3().clone(),
+        // A device without the extension is not asked for its functions.
+        ext3: extended.unwrap_or_else(|| extended_dynamic_state3::DeviceFn::load(|_| ptr::null())),
     };
     let mut functions = driver.clone();
     replace(&mut functions);
@@ -72,13 +79,16 @@ pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
         secondary: false,
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
     }));
-    ash::Device::from_parts_1_3(
-        device.handle(),
+    if let Some(extended) = &mut device.extended {
+        *extended = functions.ext3;
+    }
+    device.raw = ash::Device::from_parts_1_3(
+        device.raw.handle(),
         functions.v10,
-        device.fp_v1_1().clone(),
+        device.raw.fp_v1_1().clone(),
         functions.v12,
         functions.v13,
-    )
+    );
 }
 
 fn with<R>(call: impl FnOnce(&mut Planted) -> R) -> R {
@@ -291,6 +301,23 @@ functions! {
             mode = vk::CullModeFlags::NONE;
         }
     }
+    before v13 cmd_set_rasterizer_discard_enable(commands: vk::CommandBuffer, discard: vk::Bool32) |planted| {
+        discard = planted.calls.kept(CallFault::DiscardKept, 0, discard);
+    }
+    before ext3 cmd_set_alpha_to_coverage_enable_ext(commands: vk::CommandBuffer, covers: vk::Bool32) |planted| {
+        covers = planted.calls.kept(CallFault::CoverageKept, 0, covers);
+    }
+    before ext3 cmd_set_sample_mask_ext(
+        commands: vk::CommandBuffer, samples: vk::SampleCountFlags, masks: *const vk::SampleMask
+    ) [masks; 1] |planted| {
+        masks[0] = planted.calls.kept(CallFault::SampleMaskKept, 0, masks[0]);
+    }
+    before ext3 cmd_set_polygon_mode_ext(commands: vk::CommandBuffer, mode: vk::PolygonMode) |planted| {
+        mode = planted.calls.kept(CallFault::PolygonModeKept, 0, mode);
+    }
+    before ext3 cmd_set_depth_clamp_enable_ext(commands: vk::CommandBuffer, clamp: vk::Bool32) |planted| {
+        clamp = planted.calls.kept(CallFault::DepthClampKept, 0, clamp);
+    }
     before v13 cmd_set_primitive_topology(
         commands: vk::CommandBuffer, topology: vk::PrimitiveTopology
     ) |planted| {
@@ -446,6 +473,7 @@ impl Planted {
             Some(CallFault::ClearSkipped) if is_later => {
                 colors.iter_mut().chain(depth).chain(stencil).for_each(load);
             }
+            Some(CallFault::ClearFirstTarget) => colors.iter_mut().skip(1).for_each(load),
             Some(CallFault::LoadColorIgnored) => colors.iter_mut().for_each(load),
             Some(CallFault::LoadDepthIgnored) => depth.iter_mut().for_each(load),
             Some(CallFault::LoadStencilIgnored) => stencil.iter_mut().for_each(load),

@@ -139,6 +139,20 @@ faults! {
     FaceDropped = "face-dropped" in "paths/{blend-float,integers}/end=copy/*/target=cube-face" of OpenGl;
     /// The clip volume's origin is the upper left.
     ClipOriginKept = "clip-origin-kept" in "paths/renderbuffer/clip=toggled/*" of OpenGl;
+    /// Alpha to coverage is that of the draw before, where it is dynamic.
+    CoverageKept = "coverage-kept" in "sequence/shared/multisample/*/state=extended-dynamic-3/*" of Vulkan;
+    /// The sample mask is that of the draw before, where it is dynamic.
+    SampleMaskKept = "sample-mask-kept" in "sequence/shared/multisample/*/state=extended-dynamic-3/*" of Vulkan;
+    /// The polygon mode is that of the draw before, where it is dynamic.
+    PolygonModeKept = "polygon-mode-kept" in "sequence/shared/polygon-mode/*/state=extended-dynamic-3/*" of Vulkan;
+    /// Depth clamping is that of the draw before, where it is dynamic.
+    DepthClampKept = "depth-clamp-kept" in "sequence/shared/depth-clamp/*/state=extended-dynamic-3/*" of Vulkan;
+    /// Rasterizer discard is that of the draw before, where it is dynamic.
+    DiscardKept = "discard-kept" in "sequence/shared/rasterizer-discard/*" of Vulkan;
+    /// Of several targets, only the first is cleared when a pass begins.
+    ClearFirstTarget = "clear-first-target" in "sequence/loads-by-target/*";
+    /// Passes without draws resolve nothing.
+    EmptyResolve = "empty-resolve" in "sequence/empty-resolve/*" of OpenGl;
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
 }

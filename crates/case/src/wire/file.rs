@@ -122,6 +122,10 @@ pub(crate) struct SequenceWire {
     pub(crate) counters: BTreeMap<String, Value>,
     /// The attachments to read back; those of the second framebuffer follow.
     pub(crate) read: Vec<String>,
+    /// The path, as in a scene.
+    #[serde(default)]
+    #[schemars(with = "etalon_scene::Path")]
+    pub(crate) path: BTreeMap<String, Value>,
 }
 
 /// The separation of the steps of a sequence.

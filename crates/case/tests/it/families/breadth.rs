@@ -6,7 +6,7 @@ use etalon_scene::{AdvancedBlend, Contents, LogicOperation, PrimitiveTopology, P
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The built-in cases below a path, all of them.
-fn all_cases(prefix: &str) -> Vec<Case> {
+pub(super) fn all_cases(prefix: &str) -> Vec<Case> {
     let library = Library::built_in().expect("built-in files parse");
     let named = library
         .cases(Profile::Full)
