@@ -35,13 +35,20 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         ..
     } = *target;
     let viewport = viewport(wire, size)?;
-    let mesh = wire
+    let mut mesh = wire
         .mesh
         .expand(viewport_texels(&viewport))
         .map_err(|message| At::new(message).key("mesh"))?;
     if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
         return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
     }
+    if wire.w.is_empty() {
+        return Err(At::new("a list of factors has one at least").key("w"));
+    }
+    for (vertex, w) in mesh.vertices.iter_mut().zip(wire.w.iter().cycle()) {
+        vertex.position = vertex.position.map(|v| v * w);
+    }
+    check_outlines(wire.polygon_mode, &mesh).map_err(|e| e.key("polygon_mode"))?;
     let (mesh, fetch) = fetch(mesh, wire.topology, wire.fetch, wire.instances.as_ref())?;
     check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
     if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
@@ -154,8 +161,11 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     })
 }
 
-/// The farthest that a vertex may lie from the middle of clip space.
-const FARTHEST: f32 = 64.0;
+/// The greatest part of a clip-space position, which every API's floats hold (OpenGL 3.3, 2.1.1).
+const FARTHEST: f32 = 4_294_967_296.0;
+
+/// The farthest that texture coordinates may lie from 0.
+const FARTHEST_UV: f32 = 64.0;
 
 /// Checks which samples are drawn.
 fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
@@ -219,6 +229,17 @@ fn clip_distances(wire: &DrawWire) -> Result<(), At> {
     if count > 0 && wire.instances.is_some() {
         let message = "clip distances are made of the vertex colour, and instances have their own";
         return Err(At::new(message).key("instances"));
+    }
+    Ok(())
+}
+
+/// Checks that no outline reaches behind the eye: which edges of a clipped polygon are drawn no text says.
+fn check_outlines(mode: PolygonMode, mesh: &Mesh) -> Result<(), At> {
+    let behind = mesh.vertices.iter().any(|v| v.position[3] <= 0.0);
+    if mode != PolygonMode::Fill && behind {
+        return Err(At::new(
+            "the outline of what reaches behind the eye is open",
+        ));
     }
     Ok(())
 }
@@ -340,19 +361,22 @@ fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget])
 /// Refuses what no specification pins: vertices far out, and written depths out of range.
 fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     for vertex in &mesh.vertices {
-        let far = |v: &f32| v.abs() > FARTHEST;
-        if vertex.position[..3].iter().any(far) {
+        if vertex.position.iter().any(|v| !(v.abs() <= FARTHEST)) {
             return Err(At::new(format!(
-                "a vertex lies within {FARTHEST} of the middle of clip space"
+                "a part of a clip-space position lies between -{FARTHEST} and {FARTHEST}"
             )));
         }
-        if vertex.uv.iter().any(far) {
+        let [x, y, _, w] = vertex.position;
+        if [x, y, w] == [0.0; 3] {
+            return Err(At::new("a vertex in the eye has no place in the picture"));
+        }
+        if vertex.uv.iter().any(|v| v.abs() > FARTHEST_UV) {
             return Err(At::new(format!(
-                "texture coordinates lie between -{FARTHEST} and {FARTHEST}"
+                "texture coordinates lie between -{FARTHEST_UV} and {FARTHEST_UV}"
             ))
             .key("uv"));
         }
-        if shader.interpolates_at_centroid() && vertex.uv[0] < 0.0 {
+        if shader == Shader::Centroid && vertex.uv[0] < 0.0 {
             let message = "the shader `centroid` wants a first texture coordinate not below 0";
             return Err(At::new(message).key("uv"));
         }

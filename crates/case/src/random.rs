@@ -25,6 +25,8 @@ pub(crate) enum Flavor {
     Extended,
     /// [`Flavor::Common`] with shaders that write the stencil reference.
     Exported,
+    /// [`Flavor::Common`] with any w: vertices in front of the eye, behind it and in its plane.
+    Perspective,
 }
 
 /// Something that only some APIs have.
@@ -39,6 +41,7 @@ enum Extra {
     ReversedDepth,
     AlphaToOne,
     Exported,
+    Perspective,
 }
 
 /// The colours of a scene, of which few codes are legal.
@@ -89,6 +92,27 @@ impl Palette {
 /// The size of all attachments, a side.
 const SIZE: u32 = 16;
 
+/// Factors of positions: w, from the first vertex of each primitive on or throughout a mesh.
+const FACTORS: [&[f64]; 7] = [
+    &[1.0],
+    &[2.0, 0.5, 8.0],
+    &[0.25, 1.0, 1.0, 4.0],
+    &[1.0, 64.0],
+    &[4.0, 1.0, 0.125, 2.0, 16.0],
+    &[65536.0],
+    &[9.536_743_164_062_5e-7],
+];
+
+/// The x, y and w of triangles that reach behind the eye.
+const BEHIND: [[[f64; 3]; 3]; 6] = [
+    [[-2.0, -3.0, 1.0], [2.0, -3.0, 1.0], [0.0, 1.0, 0.0]],
+    [[-2.0, 3.0, 1.0], [-2.0, -3.0, 1.0], [1.0, 0.0, 0.0]],
+    [[-2.0, -2.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    [[-2.0, -2.0, 1.0], [3.0, 2.0, -1.0], [2.0, 3.0, -1.0]],
+    [[-3.0, -2.0, 1.0], [3.0, -2.0, 1.0], [0.0, 4.0, -1.0]],
+    [[2.0, 2.0, 1.0], [-3.0, -2.0, -1.0], [-2.0, -3.0, -1.0]],
+];
+
 /// The scene of a seed. A seed always gives the same scene: ids name it.
 pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     // Neighbouring seeds of the flavours share nothing.
@@ -97,6 +121,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     let extra = match flavor {
         Flavor::Common => Extra::Nothing,
         Flavor::Exported => Extra::Exported,
+        Flavor::Perspective => Extra::Perspective,
         Flavor::Multisample => *dice.of(&[Extra::Nothing, Extra::Nothing, Extra::AlphaToOne]),
         Flavor::Extended => *dice.of(&[
             Extra::SeparateMasks,
@@ -219,6 +244,13 @@ impl Maker {
                 draw["depth_bounds"] = json!(bounds);
             }
             Extra::DepthClamp => draw["depth_clamp"] = true.into(),
+            Extra::Perspective => {
+                draw["w"] = json!(self.dice.of(&FACTORS));
+                // What the first draw lays out covers the viewport.
+                if index > 0 && self.dice.range(0, 1) == 0 {
+                    draw["mesh"] = self.reaching_behind(shader);
+                }
+            }
             _ => {}
         }
         if self.samples > 1 {
@@ -262,6 +294,26 @@ impl Maker {
         let z: Vec<f64> = (0..count).map(|_| self.vertex_depth()).collect();
         let windings: Vec<&str> = (0..count).map(|_| *self.dice.of(&["ccw", "cw"])).collect();
         json!({ "kind": kind, "values": values, "z": z, "windings": windings })
+    }
+
+    /// A triangle with a vertex behind the eye, or in its plane: the lines of its edges keep away from texel centres
+    /// of viewports of any size, since they lie outside of them.
+    fn reaching_behind(&mut self, shader: &str) -> Value {
+        let written = shader == "flat_color_depth";
+        let value = if written {
+            json!(self.depth())
+        } else {
+            self.color()
+        };
+        let z = self.vertex_depth();
+        let mut positions = self
+            .dice
+            .of(&BEHIND)
+            .map(|[x, y, w]| json!([x, y, z * w, w]));
+        if self.dice.range(0, 1) == 0 {
+            positions.swap(0, 1);
+        }
+        json!({ "kind": "vertices", "positions": positions, "values": [value] })
     }
 
     /// A written depth: two of them are the same or far apart.
@@ -488,6 +540,7 @@ mod tests {
             Flavor::Multisample,
             Flavor::Extended,
             Flavor::Exported,
+            Flavor::Perspective,
         ] {
             assert_eq!(scene(flavor, 7), scene(flavor, 7));
             assert_ne!(scene(flavor, 7), scene(flavor, 8));

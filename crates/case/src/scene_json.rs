@@ -18,7 +18,7 @@ use serde_json::{Map, Value, json};
 /// attachments in ascending order of their names.
 ///
 /// # Errors
-/// When a case file cannot say it: a vertex with a `w` other than 1, a number that is not finite, or a texel's
+/// When a case file cannot say it: a number that is not finite, or a texel's
 /// code that is not the only one of its value.
 pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
     let mut attachments = Map::new();
@@ -295,7 +295,7 @@ fn letters(mask: u8) -> String {
 
 fn draw(scene: &Scene, pass: &Pass, draw: &Draw) -> Result<Value, &'static str> {
     let mut keys = Keys::default();
-    mesh(draw, &mut keys)?;
+    mesh(draw, &mut keys);
     keys.differing("topology", &draw.topology, &PrimitiveTopology::TriangleList);
     keys.differing("tessellation", &draw.tessellation, &None);
     keys.differing("provoking", &draw.provoking, &None);
@@ -412,7 +412,7 @@ fn targets(draw: &Draw, keys: &mut Keys) {
 }
 
 /// Adds the mesh, of which instances are equal parts, and its path.
-fn mesh(draw: &Draw, keys: &mut Keys) -> Result<(), &'static str> {
+fn mesh(draw: &Draw, keys: &mut Keys) {
     let Fetch {
         index,
         base_vertex,
@@ -425,15 +425,12 @@ fn mesh(draw: &Draw, keys: &mut Keys) -> Result<(), &'static str> {
     let parts = instances.max(1) as usize;
     let count = vertices.len() / parts;
     let own = &vertices[..count];
-    if own
-        .iter()
-        .any(|v| v.position[3].to_bits() != 1.0_f32.to_bits())
-    {
-        return Err("a vertex has a `w` other than 1");
-    }
     let mut mesh = Keys::default();
     mesh.add("kind", "vertices");
-    let positions = own.iter().map(|v| shorts(&v.position[..3]));
+    let positions = own.iter().map(|v| {
+        let flat = v.position[3].to_bits() == 1.0_f32.to_bits();
+        shorts(&v.position[..if flat { 3 } else { 4 }])
+    });
     mesh.add("positions", positions.collect::<Vec<_>>());
     let color = own.first().map_or([0.0; 4], |v| v.color);
     let alike = own
@@ -478,5 +475,4 @@ fn mesh(draw: &Draw, keys: &mut Keys) -> Result<(), &'static str> {
         own.differing("first", &first_instance, &0);
         keys.add("instances", own.done());
     }
-    Ok(())
 }

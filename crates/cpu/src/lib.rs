@@ -4,6 +4,7 @@
 //! sub-pixel bits, and is judged like any driver, by Vulkan's rules.
 
 mod backend;
+mod cut;
 mod lanes;
 mod linear;
 mod lists;

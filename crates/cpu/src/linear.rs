@@ -1,4 +1,4 @@
-//! Values that are linear over the window, in sub-texel units.
+//! Values over primitives, in sub-texel units.
 
 use crate::lanes::LANES;
 use etalon_pipeline::{DepthPlane, Point};
@@ -9,14 +9,37 @@ pub(crate) const SUB_PIXEL_BITS: u8 = 8;
 /// The number of sub-texel units per texel.
 pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 
-/// A value that is linear over the window.
+/// A value over a primitive.
 #[derive(Clone, Copy)]
-pub(crate) struct Linear(pub(crate) DepthPlane);
+pub(crate) struct Varying {
+    /// The value, or where `whole` is there, the value over w.
+    value: DepthPlane,
+    /// 1 over w, where the value is linear in space.
+    whole: Option<DepthPlane>,
+}
 
-impl Linear {
+impl Varying {
+    /// A value that is linear over the window.
+    pub(crate) fn linear(value: DepthPlane) -> Self {
+        Self { value, whole: None }
+    }
+
+    /// A value that is linear in space, from the planes of it over w and of 1 over w.
+    pub(crate) fn perspective(value: DepthPlane, whole: DepthPlane) -> Self {
+        let whole = Some(whole);
+        Self { value, whole }
+    }
+
     /// Returns the values at one point of each of a span's texels.
-    pub(crate) fn at(&self, x: usize, y: usize, point: Point) -> [f32; LANES] {
-        std::array::from_fn(|lane| self.0.at(position(x + lane, y, point)) as f32)
+    pub(crate) fn at(&self, x: usize, y: usize, points: &[Point; LANES]) -> [f32; LANES] {
+        std::array::from_fn(|lane| {
+            let at = position(x + lane, y, points[lane]);
+            let value = self.value.at(at);
+            match self.whole {
+                None => value as f32,
+                Some(whole) => (value / whole.at(at)) as f32,
+            }
+        })
     }
 }
 

@@ -1,7 +1,8 @@
 //! Rasterization of primitives to spans.
 
+use crate::cut::{self, CutTriangle};
 use crate::lanes::{LANES, Mask};
-use crate::linear::{CENTER, Linear, UNITS, position};
+use crate::linear::{CENTER, UNITS, Varying, position};
 use crate::memory::Memory;
 use crate::span::{Span, SpanState};
 use crate::steps::Steps;
@@ -11,7 +12,7 @@ use etalon_pipeline::{
     DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
     window_position,
 };
-use etalon_scene::{Draw, Pass, PolygonMode, PrimitiveVertices, Scene};
+use etalon_scene::{Draw, Interpolation, Pass, PolygonMode, PrimitiveVertices, Scene};
 
 /// The supported sample counts.
 pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
@@ -19,46 +20,63 @@ pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
 /// The most samples of a texel.
 const MOST_SAMPLES: usize = SAMPLES[SAMPLES.len() - 1] as usize;
 
+/// A vertex of a primitive.
 #[derive(Clone, Copy)]
-struct Vertex {
-    at: Point,
-    z: f32,
-    clip_z: f32,
-    color: [f32; 4],
-    uv: [f32; 2],
+pub(crate) struct Vertex {
+    /// The clip-space position.
+    pub(crate) position: [f32; 4],
+    pub(crate) at: Point,
+    pub(crate) z: f32,
+    pub(crate) clip_z: f32,
+    pub(crate) color: [f32; 4],
+    pub(crate) uv: [f32; 2],
     /// The clip distances that clip, from the first on.
-    distances: [f32; MOST_DISTANCES],
+    pub(crate) distances: [f32; MOST_DISTANCES],
 }
 
 /// The most clip distances of a vertex (Vulkan, Required Limits; OpenGL 4.6, table 23.56).
 const MOST_DISTANCES: usize = 8;
 
 /// The linear values over a primitive, window depth first, and its clipping.
-struct Planes {
-    window: DepthPlane,
+pub(crate) struct Planes {
+    pub(crate) window: DepthPlane,
     /// Texture coordinates, if the shader reads them.
-    uv: Option<[Linear; 2]>,
-    clip: DepthPlane,
-    range: [f32; 2],
-    clip_range: [f64; 2],
-    bias: f64,
-    clamp: Option<[f32; 2]>,
-    clips: bool,
+    pub(crate) uv: Option<[Varying; 2]>,
+    /// 1 over w, if the shader reads it.
+    pub(crate) reciprocal_w: Option<Varying>,
+    pub(crate) clip: DepthPlane,
+    pub(crate) range: [f32; 2],
+    pub(crate) clip_range: [f64; 2],
+    pub(crate) bias: f64,
+    pub(crate) clamp: Option<[f32; 2]>,
+    pub(crate) clips: bool,
     /// The clip distances that are negative somewhere.
-    distances: Vec<DepthPlane>,
+    pub(crate) distances: Vec<DepthPlane>,
     /// True if the primitive may extend beyond the viewport.
-    leaves: bool,
+    pub(crate) leaves: bool,
     /// The viewport's left, top, right and bottom edges in sub-texel units.
-    viewport: [i64; 4],
+    pub(crate) viewport: [i64; 4],
+}
+
+/// Returns the viewport's left, top, right and bottom edges in sub-texel units.
+pub(crate) fn viewport(draw: &Draw) -> [i64; 4] {
+    let [x, y, w, h] = draw.viewport.area();
+    [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64)
 }
 
 impl Planes {
-    fn new(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3], bias: f64, wide: bool) -> Self {
+    fn new(
+        draw: &Draw,
+        interpolation: Interpolation,
+        points: [Point; 3],
+        vertices: [Vertex; 3],
+        bias: f64,
+        wide: bool,
+    ) -> Self {
         let z = vertices.map(|v| v.z);
         let clip_z = vertices.map(|v| v.clip_z);
         let [near, far] = draw.viewport.depth;
-        let [x, y, w, h] = draw.viewport.area();
-        let viewport = [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64);
+        let viewport = viewport(draw);
         let [left, top, right, bottom] = viewport;
         let inside = |p: &Point| (left..right).contains(&p.x) && (top..bottom).contains(&p.y);
         let out = clip_z.iter().any(|z| !(0.0..=1.0).contains(z));
@@ -66,10 +84,24 @@ impl Planes {
             window: DepthPlane::new(points, z.map(f64::from)),
             clip: DepthPlane::new(points, clip_z.map(f64::from)),
             uv: draw.shader.uses_uv().then(|| {
+                let w = vertices.map(|v| f64::from(v.position[3]));
+                let perspective = interpolation == Interpolation::Perspective && w != [w[0]; 3];
                 [0, 1].map(|axis| {
                     let values = vertices.map(|v| f64::from(v.uv[axis]));
-                    Linear(DepthPlane::new(points, values))
+                    if perspective {
+                        let over = [0, 1, 2].map(|i| values[i] / w[i]);
+                        Varying::perspective(
+                            DepthPlane::new(points, over),
+                            DepthPlane::new(points, w.map(|w| 1.0 / w)),
+                        )
+                    } else {
+                        Varying::linear(DepthPlane::new(points, values))
+                    }
                 })
+            }),
+            reciprocal_w: draw.shader.reads_w().then(|| {
+                let values = vertices.map(|v| 1.0 / f64::from(v.position[3]));
+                Varying::linear(DepthPlane::new(points, values))
             }),
             clip_range: ends(clip_z).map(f64::from),
             range: ends(z),
@@ -136,7 +168,9 @@ impl Planes {
 /// point, whose last vertices are its first again.
 fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<DepthPlane> {
     let count = draw.clipping_distances().count_ones() as usize;
-    let all = (0..count).map(|n| vertices.map(|v| f64::from(v.distances[n])));
+    // Over w they are linear in the window, and keep their signs.
+    let over_w = |v: Vertex, n: usize| f64::from(v.distances[n]) / f64::from(v.position[3]);
+    let all = (0..count).map(|n| vertices.map(|v| over_w(v, n)));
     all.filter(|values| values.iter().any(|v| *v < 0.0))
         .map(|values| {
             if signed_area(points) == 0 {
@@ -196,6 +230,7 @@ pub(crate) fn draw<S: Steps>(
             let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
             let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
             Vertex {
+                position: v.position,
                 at: Point {
                     x: snap(x),
                     y: snap(y),
@@ -212,6 +247,7 @@ pub(crate) fn draw<S: Steps>(
     let encoding = state.depth_encoding();
     let front = steps.lines_face_front();
     let provoking = draw.provoking_vertices();
+    let (interpolation, _) = steps.interpolation(draw.shader);
     for (primitive, provoking) in draw.primitives().into_iter().zip(provoking) {
         // The colour is flat.
         let color = vertices[provoking].color;
@@ -220,22 +256,35 @@ pub(crate) fn draw<S: Steps>(
             ..vertices[i]
         };
         match primitive {
+            PrimitiveVertices::Point(i) if cut::is_cut(draw, &vertices[i]) => {}
             PrimitiveVertices::Point(i) => {
                 let v = vertices[i];
                 let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);
-                let planes = Planes::new(draw, [v.at; 3], [v; 3], bias, true);
+                let planes = Planes::new(draw, interpolation, [v.at; 3], [v; 3], bias, true);
                 point(v, front, &planes, &samples, bounds, &mut state);
             }
             PrimitiveVertices::Line(ends) => {
-                let ends = ends.map(vertex);
+                let Some(ends) = cut::line(draw, ends.map(vertex)) else {
+                    continue;
+                };
                 let [a, b] = ends;
                 let points = [a.at, b.at, a.at];
                 let bias = line_bias(draw, points, [a.z, b.z, a.z], encoding, steps);
-                let planes = Planes::new(draw, points, [a, b, a], bias, true);
+                let planes = Planes::new(draw, interpolation, points, [a, b, a], bias, true);
                 line(ends, front, &planes, samples.len(), bounds, &mut state);
             }
             PrimitiveVertices::Triangle(triangle) => {
                 let corners = triangle.map(vertex);
+                if draw.polygon_mode == PolygonMode::Fill
+                    && let Some(cut) = CutTriangle::new(draw, corners)
+                {
+                    let front = cut.is_front(draw);
+                    if !is_culled(draw.cull, front) {
+                        let planes = cut.planes(draw, interpolation, encoding, steps);
+                        fill_cut(&cut, front, &planes, &samples, bounds, &mut state);
+                    }
+                    continue;
+                }
                 let points = corners.map(|v| v.at);
                 let front = front_facing(signed_area(points), draw.front_face);
                 if is_culled(draw.cull, front) {
@@ -247,6 +296,7 @@ pub(crate) fn draw<S: Steps>(
                 let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding, steps);
                 let planes = Planes::new(
                     draw,
+                    interpolation,
                     points,
                     corners,
                     bias,
@@ -297,13 +347,31 @@ pub(crate) fn depth_bias(
     encoding: Option<ChannelEncoding>,
     steps: &impl Steps,
 ) -> f64 {
+    let plane = || DepthPlane::new(points, z.map(f64::from));
+    plane_bias(
+        draw,
+        plane,
+        f64::from(z[0].max(z[1]).max(z[2])),
+        encoding,
+        steps,
+    )
+}
+
+/// Returns the depth bias of a polygon of this plane and greatest depth.
+pub(crate) fn plane_bias(
+    draw: &Draw,
+    plane: impl FnOnce() -> DepthPlane,
+    largest: f64,
+    encoding: Option<ChannelEncoding>,
+    steps: &impl Steps,
+) -> f64 {
     let state = &draw.depth_bias;
     let Some(encoding) = encoding else { return 0.0 };
     if state.constant == 0 && state.slope == 0.0 {
         return 0.0;
     }
-    let unit = steps.bias_unit(encoding, f64::from(z[0].max(z[1]).max(z[2])));
-    let plane = DepthPlane::new(points, z.map(f64::from));
+    let unit = steps.bias_unit(encoding, largest);
+    let plane = plane();
     let (steepest, _) = slope(plane.dx * UNITS as f64, plane.dy * UNITS as f64);
     steps.bias(state, unit, steepest)
 }
@@ -383,6 +451,45 @@ fn fill<S: Steps>(
                     color: inside.color,
                     depth: &|sample| planes.at(x, y, samples[sample]),
                     uv: planes.uv,
+                    reciprocal_w: planes.reciprocal_w,
+                });
+            }
+        }
+    }
+}
+
+/// Runs the spans of a triangle that is cut.
+fn fill_cut<S: Steps>(
+    cut: &CutTriangle,
+    front: bool,
+    planes: &Planes,
+    samples: &[Point],
+    [left, top, right, bottom]: Bounds,
+    state: &mut SpanState<'_, S>,
+) {
+    let mut all = [[false; LANES]; MOST_SAMPLES];
+    let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
+    for y in top..bottom {
+        for x in (left / LANES * LANES..right).step_by(LANES) {
+            let mut any = false;
+            for (mask, sample) in masks.iter_mut().zip(samples) {
+                *mask = std::array::from_fn(|lane| {
+                    let x = x + lane;
+                    x >= left && x < right && cut.covers(position(x, y, *sample))
+                });
+                planes.clip(mask, x, y, *sample);
+                any |= mask.contains(&true);
+            }
+            if any {
+                state.run(&Span {
+                    x,
+                    y,
+                    masks,
+                    front,
+                    color: cut.color(),
+                    depth: &|sample| planes.at(x, y, samples[sample]),
+                    uv: planes.uv,
+                    reciprocal_w: planes.reciprocal_w,
                 });
             }
         }
@@ -485,5 +592,6 @@ fn texel<S: Steps>(
         color,
         depth: &|_| planes.at(start, y, CENTER),
         uv: planes.uv,
+        reciprocal_w: planes.reciprocal_w,
     });
 }

@@ -1,7 +1,7 @@
 //! The fragment pipeline for one span of texels, all lanes at once.
 
 use crate::lanes::{Codes, LANES, Mask, Real};
-use crate::linear::{CENTER, Linear, UNITS};
+use crate::linear::{CENTER, UNITS, Varying};
 use crate::lists::Lists;
 use crate::memory::{Counted, Memory};
 use crate::steps::{Exported, Path, Steps, Tests};
@@ -9,7 +9,7 @@ use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, takes_logic};
-use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
+use etalon_scene::{Draw, EarlyTests, InterpolationSampling, Pass, Scene, Shader, StencilFace};
 
 /// The covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
 pub(crate) struct Span<'a> {
@@ -22,7 +22,9 @@ pub(crate) struct Span<'a> {
     /// Window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
     /// Texture coordinates, if the shader reads them.
-    pub(crate) uv: Option<[Linear; 2]>,
+    pub(crate) uv: Option<[Varying; 2]>,
+    /// 1 over w, if the shader reads it.
+    pub(crate) reciprocal_w: Option<Varying>,
 }
 
 /// The state of a draw and the attachments it draws to.
@@ -319,7 +321,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 Taps::NONE
             },
             list: List::Known(&list),
-            uv: self.uv(span, point),
+            reciprocal_w: match &span.reciprocal_w {
+                Some(plane) => plane.at(span.x, span.y, &[point; LANES]),
+                None => [0.0; LANES],
+            },
+            uv: self.uv(span, sample, point),
             params: &self.draw.params,
         };
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
@@ -363,14 +369,24 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span.y * self.surfaces[index].stride + span.x
     }
 
-    /// Returns the texture coordinates at one point of each of a span's texels.
-    fn uv(&self, span: &Span<'_>, point: Point) -> [Real; 2] {
-        match &span.uv {
-            Some(planes) => planes
-                .each_ref()
-                .map(|plane| plane.at(span.x, span.y, point)),
-            None => [[0.0; LANES]; 2],
-        }
+    /// Returns the texture coordinates at one point of each of a span's texels, given the sample that is shaded and
+    /// the point at which inputs are interpolated that name none.
+    fn uv(&self, span: &Span<'_>, sample: usize, point: Point) -> [Real; 2] {
+        let Some(planes) = &span.uv else {
+            return [[0.0; LANES]; 2];
+        };
+        let points = match self.steps.interpolation(self.draw.shader).1 {
+            InterpolationSampling::Center => [point; LANES],
+            InterpolationSampling::Sample => [self.samples[sample]; LANES],
+            // The first covered sample lies inside.
+            InterpolationSampling::Centroid => std::array::from_fn(|lane| {
+                let covered = span.masks.iter().position(|mask| mask[lane]);
+                covered.map_or(point, |sample| self.samples[sample])
+            }),
+        };
+        planes
+            .each_ref()
+            .map(|plane| plane.at(span.x, span.y, &points))
     }
 
     fn texel(&self, span: &Span<'_>, t: usize) -> [Real; 4] {
@@ -382,7 +398,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             (Some(sampler), Some(planes)) => {
                 let [u, v] = planes
                     .each_ref()
-                    .map(|plane| plane.at(span.x, span.y, CENTER));
+                    .map(|plane| plane.at(span.x, span.y, &[CENTER; LANES]));
                 self.steps.sample(surface, sampler, u, v)
             }
             _ => self.steps.fetch(surface, span.x, span.y),

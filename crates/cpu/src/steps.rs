@@ -14,8 +14,9 @@ use etalon_pipeline::{
     stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample,
-    ResolveMode, Sampler, Scene, Shader, StencilFace, StencilOperation,
+    AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, Interpolation,
+    InterpolationSampling, LogicOperation, Multisample, ResolveMode, Sampler, Scene, Shader,
+    StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -407,6 +408,12 @@ pub trait Steps {
     #[inline(always)]
     fn shaded_at(&self, state: &Multisample, first: usize, _samples: usize) -> Option<usize> {
         state.min_sample_shading.map(|_| first)
+    }
+
+    /// Returns the way in which a shader's texture coordinates are interpolated, and at which points.
+    #[inline(always)]
+    fn interpolation(&self, shader: Shader) -> (Interpolation, InterpolationSampling) {
+        (shader.interpolation(), shader.interpolation_sampling())
     }
 
     /// Returns the sample whose stored value a sample's test or blend reads.

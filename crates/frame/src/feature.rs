@@ -69,6 +69,8 @@ state_enum! {
         IndependentResolveNone = "independent-resolve-none",
         /// Flat attributes of a primitive's last vertex.
         LastProvokingVertex = "last-provoking-vertex",
+        /// Attributes that are interpolated linearly in the window.
+        LinearInterpolation = "linear-interpolation",
         /// Logic operations.
         LogicOperations = "logic-operations",
         /// Clear commands that leave masked channels and bits.

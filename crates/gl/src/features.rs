@@ -41,6 +41,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::FirstProvokingVertex | Feature::MixedProvokingVertices => {
             entry_points.provoking_vertex.is_some()
         }
+        // ES has no `noperspective` (GLSL ES 3.20, 4.5).
+        Feature::LinearInterpolation => !caps.es,
         Feature::LogicOperations => entry_points.logic_op.is_some(),
         Feature::MinSampleShading => entry_points.min_sample_shading.is_some(),
         Feature::Tessellation => caps.tessellation.is_some(),

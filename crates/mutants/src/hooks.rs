@@ -8,8 +8,8 @@ use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
 use etalon_scene::{
-    AdvancedBlend, BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader,
-    StencilFace,
+    AdvancedBlend, BlendState, CompareFunction, DepthBias, Interpolation, InterpolationSampling,
+    LogicOperation, Multisample, Shader, StencilFace,
 };
 
 /// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
@@ -103,6 +103,8 @@ hooks! {
     /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
     /// index and the number of samples.
     mask_keeps(u32, usize, usize) -> bool;
+    /// The interpolation of a shader's texture coordinates, and the points at which they are taken.
+    interpolation(Shader) -> (Interpolation, InterpolationSampling);
     /// A channel of a resolved texel.
     resolve(ChannelEncoding, &[u32]) -> u32;
 }
@@ -164,6 +166,7 @@ impl Steps for &Hooks {
         shaded_at(state: &Multisample, first: usize, samples: usize) -> Option<usize>;
         stored_sample(aspect: Aspect, sample: usize) -> usize;
         depth_sample(sample: usize, samples: usize) -> usize;
+        interpolation(shader: Shader) -> (Interpolation, InterpolationSampling);
         resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
     }
 

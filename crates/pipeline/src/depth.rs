@@ -15,6 +15,17 @@ pub struct DepthPlane {
 }
 
 impl DepthPlane {
+    /// Returns the plane of a value at the top left corner and its growth per unit.
+    pub fn of(z: f64, dx: f64, dy: f64) -> Self {
+        let origin = Point::default();
+        Self { origin, z, dx, dy }
+    }
+
+    /// Returns the value at the top left corner and the growth per unit to the right and down.
+    pub fn parts(&self) -> [f64; 3] {
+        [self.at(Point::default()), self.dx, self.dy]
+    }
+
     /// Returns the plane through three vertices; flat if they span no area.
     pub fn new(points: [Point; 3], z: [f64; 3]) -> Self {
         let [a, b, c] = points;

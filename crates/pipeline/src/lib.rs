@@ -15,6 +15,7 @@ mod blend;
 mod coverage;
 mod depth;
 mod half_float;
+mod homogeneous;
 mod logic;
 mod plain;
 mod rounding;
@@ -29,6 +30,9 @@ pub use arithmetic::Arithmetic;
 pub use blend::{BlendInput, blend};
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};
 pub use depth::{DepthPlane, slope};
+pub use homogeneous::{
+    CutEdge, HomogeneousTriangle, WindowVertex, clipped_segment, dot, line_through, window_vertex,
+};
 pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;
 pub use sampling::texel_position;

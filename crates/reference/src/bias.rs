@@ -8,13 +8,19 @@ use etalon_frame::ChannelEncoding;
 use etalon_pipeline::slope;
 use etalon_scene::Draw;
 
+/// A polygon that may be biased.
+pub(crate) struct Biased<'a> {
+    /// The depths of its vertices; of one that is cut, all that it has.
+    pub(crate) z: &'a [Interval],
+    /// Its snapped vertices; none if it is cut.
+    pub(crate) boxes: &'a [SnapBox],
+    /// Its least and greatest slope per texel.
+    pub(crate) slope: &'a dyn Fn() -> Interval,
+}
+
 /// Returns the interval that the rules let a depth bias add (Vulkan, Depth Bias; OpenGL 4.6, 14.6.5).
-pub(crate) fn depth_bias(
-    context: &PassContext<'_>,
-    draw: &Draw,
-    boxes: [SnapBox; 3],
-    z: [Interval; 3],
-) -> Interval {
+pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biased<'_>) -> Interval {
+    let Biased { z, boxes, .. } = *polygon;
     let state = draw.depth_bias;
     let (Some(encoding), true) = (context.depth, state.constant != 0 || state.slope != 0.0) else {
         return Interval::exact(0.0);
@@ -32,7 +38,7 @@ pub(crate) fn depth_bias(
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
             // Vertices beyond the near and far planes may count or not.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
-            let low = match may_be_clipped(context, draw, boxes) {
+            let low = match boxes.is_empty() || may_be_clipped(context, draw, boxes) {
                 // What is left may hold any of its depths, and the exponent is that of the greatest.
                 true => z.iter().map(|z| z.low).fold(f64::MAX, f64::min).max(0.0),
                 false => z.iter().map(|z| z.low).fold(0.0, f64::max),
@@ -46,7 +52,7 @@ pub(crate) fn depth_bias(
         }
     };
     let by_constant = flushed(unit).times(Interval::exact(f64::from(state.constant)));
-    let by_slope = slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
+    let by_slope = (polygon.slope)().times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
         .plus(by_slope)
         .widen_relative(context.rules.float_error.value());
@@ -62,7 +68,7 @@ pub(crate) fn depth_bias(
 
 /// True if a vertex lies outside of the viewport, wherever it is snapped to: at a side of the viewport the primitive may
 /// be clipped.
-fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: [SnapBox; 3]) -> bool {
+fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: &[SnapBox]) -> bool {
     let units = units_per_texel(context.limits) as f64;
     let [left, top, width, height] = draw.viewport.rect.map(f64::from);
     let outside = |low: i64, high: i64, start: f64, length: f64| {
@@ -78,7 +84,7 @@ fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: [SnapBox; 3]) -
 /// Returns the interval that a bias adds where depths of vertices may be held to 0 and 1 with it, before fragments
 /// take theirs between them: what is left to the farthest depth at the one end, and to the nearest at the other.
 /// Clipping makes vertices of any depth of the primitive.
-pub(crate) fn clamped_at_vertices(bias: Interval, z: [Interval; 3]) -> Interval {
+pub(crate) fn clamped_at_vertices(bias: Interval, z: &[Interval]) -> Interval {
     let held = |z: f64| z.clamp(0.0, 1.0);
     let farthest = held(z.iter().map(|z| z.high).fold(f64::MIN, f64::max));
     let nearest = held(z.iter().map(|z| z.low).fold(f64::MAX, f64::min));
@@ -99,7 +105,7 @@ fn flushed(unit: Interval) -> Interval {
 }
 
 /// Returns the least and greatest slope per texel over all snapped positions.
-fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
+pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
     let units = units_per_texel(context.limits) as f64;
     let middle = z.map(|z| (z.low + z.high) / 2.0);
     if z[0] == z[1] && z[1] == z[2] {

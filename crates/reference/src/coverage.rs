@@ -166,9 +166,11 @@ impl Walk<'_> {
                 continue;
             }
             if side == Side::On && self.rules.shared_edge.value() == SharedEdge::TopLeft {
-                let (p, q) = primitive.edge(i);
-                let (p, q) = if positive_area { (q, p) } else { (p, q) };
-                if !is_top_left(p, q) {
+                let inner = primitive.edge(i).is_some_and(|(p, q)| {
+                    let (p, q) = if positive_area { (q, p) } else { (p, q) };
+                    is_top_left(p, q)
+                });
+                if !inner {
                     self.note_rejection(notes, place, Rejection::Coverage, true, || {
                         Step::Coverage(Coverage::NotTopLeft { edge: i })
                     });
@@ -181,8 +183,9 @@ impl Walk<'_> {
             let decision = Decision::Edge {
                 draw: place.draw_id,
                 ends: (a.min(b), a.max(b)),
-                owner: (self.rules.shared_edge.value() == SharedEdge::Independent)
-                    .then_some(place.primitive_index as u32),
+                owner: (self.rules.shared_edge.value() == SharedEdge::Independent
+                    || primitive.edge(i).is_none())
+                .then_some(place.primitive_index as u32),
             };
             // The side is named by the edge's canonical direction.
             let wanted = (inside == Side::Positive) == (a < b);

@@ -30,6 +30,22 @@ impl Depth {
         }
     }
 
+    /// A depth of a known plane at positions that may be off by so much along each axis; `hull` holds it inside of
+    /// the primitive.
+    pub(crate) fn of_plane(plane: DepthPlane, off: [f64; 2], hull: Interval, error: f64) -> Self {
+        let (dx, dy) = (plane.dx.abs(), plane.dy.abs());
+        Self {
+            planes: if hull.low == hull.high {
+                Vec::new()
+            } else {
+                vec![plane]
+            },
+            steepest: dx + dy,
+            error: error + dx * off[0] + dy * off[1],
+            hull: hull.widen(error),
+        }
+    }
+
     /// True if it is the same all over the primitive.
     pub(crate) fn is_flat(&self) -> bool {
         self.planes.is_empty()

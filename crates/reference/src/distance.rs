@@ -31,15 +31,30 @@ pub(crate) enum Distance {
 
 impl Distance {
     /// The same everywhere, or of an unknown course between the vertices.
-    pub(crate) fn between(values: &[f32]) -> Self {
-        let all = values.iter().map(|v| Interval::exact(f64::from(*v)));
+    pub(crate) fn between(values: &[f64]) -> Self {
+        let all = values.iter().map(|v| Interval::exact(*v));
         let hull = all.reduce(Interval::hull);
         Self::Between(hull.unwrap_or(Interval::exact(0.0)))
     }
 
+    /// That of unknown sign.
+    pub(crate) const UNKNOWN: Self = Self::Between(Interval {
+        low: -1.0,
+        high: 1.0,
+    });
+
+    /// A known plane of the distance over w.
+    pub(crate) fn of_plane(plane: Depth) -> Self {
+        // Of the steps, one is the plane's.
+        let error = plane.error * (EDGE_STEPS - 1.0);
+        Self::Over { plane, error }
+    }
+
+    /// The distance over a triangle in front of the eye, from its values at the vertices over their w: a sign is that
+    /// of what is linear over the window (OpenGL 4.6, 13.7 and 14.6.1; WebGPU, 23.2.4).
     pub(crate) fn over(
         vertices: [SnapBox; 3],
-        values: [f32; 3],
+        values: [f64; 3],
         [units, grid]: [i64; 2],
         float_error: f64,
     ) -> Self {
@@ -47,17 +62,17 @@ impl Distance {
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
             return Self::between(&values);
         }
-        let exact = values.map(|v| Interval::exact(f64::from(v)));
+        let exact = values.map(Interval::exact);
         let plane = Depth::over(vertices, exact, [units, grid], float_error);
         let error = plane.steepest * grid as f64 * EDGE_STEPS;
         Self::Over { plane, error }
     }
 
-    pub(crate) fn along(ends: [SnapBox; 2], values: [f32; 2], units: i64) -> Self {
+    pub(crate) fn along(ends: [SnapBox; 2], values: [f64; 2], units: i64) -> Self {
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
             return Self::between(&values);
         }
-        let plane = DepthPlane::along(ends.map(|e| e.low), values.map(f64::from));
+        let plane = DepthPlane::along(ends.map(|e| e.low), values);
         let error = (plane.dx.abs() + plane.dy.abs()) * units as f64 * 2.0;
         Self::Along { plane, error }
     }

@@ -209,6 +209,7 @@ impl Walk<'_> {
                 Taps::NONE
             },
             list: List::Unknown,
+            reciprocal_w: self.reciprocal_w(place),
             uv: self.uv(place),
             params: &draw.params,
         };

@@ -159,6 +159,11 @@ impl Interval {
         }
     }
 
+    /// Restricts both ends to another interval.
+    pub fn clamp_to(self, other: Self) -> Self {
+        self.clamp(other.low, other.high)
+    }
+
     /// Restricts both ends to a range.
     pub fn clamp(self, low: f64, high: f64) -> Self {
         self.map_increasing(|v| v.clamp(low, high))

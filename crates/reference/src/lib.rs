@@ -13,6 +13,7 @@ mod contents;
 mod context;
 mod counting;
 mod coverage;
+mod cut;
 mod depth;
 mod depth_resolve;
 mod distance;
@@ -46,6 +47,7 @@ mod store;
 mod test_limits;
 mod texels;
 mod undefined;
+mod varying;
 mod walk;
 mod world;
 

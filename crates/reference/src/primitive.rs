@@ -6,7 +6,9 @@ use crate::interval::Interval;
 use crate::judging::Range as Values;
 use crate::possible::Possible;
 use crate::snap::{SnapBox, area};
-use etalon_pipeline::{Point, edge_value};
+use crate::varying::Varying;
+use etalon_pipeline::{DepthPlane, Point, edge_value};
+use etalon_scene::InterpolationSampling;
 use std::ops::Range;
 
 /// The shape of a primitive.
@@ -33,16 +35,26 @@ impl VertexId {
     }
 }
 
-/// A triangle's vertices in their own order.
+/// A triangle's edges, each from a vertex to the next one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
-    pub(crate) vertices: [SnapBox; 3],
+    pub(crate) edges: [Edge; 3],
     /// The identities of the vertices' places.
     pub(crate) ids: [VertexId; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
     /// The most by which legal snapping changes an edge function near the triangle.
     moved: i64,
+}
+
+/// An edge of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Edge {
+    /// Between two snapped vertices.
+    Between([SnapBox; 2]),
+    /// What is left of an edge that reaches behind the eye, or farther than vertices are snapped: a line whose value
+    /// is at most so much where legal clipping may put it.
+    Cut { line: DepthPlane, off: f64 },
 }
 
 /// A primitive with snapped vertices.
@@ -62,7 +74,9 @@ pub(crate) struct SnappedPrimitive {
     /// All snapped vertices.
     pub(crate) all: SnapBox,
     /// Texture coordinates, where the shader reads them.
-    pub(crate) uv: Option<Box<[Depth; 2]>>,
+    pub(crate) uv: Option<Box<[Varying; 2]>>,
+    /// 1 over the clip-space w, where the shader reads it.
+    pub(crate) reciprocal_w: Option<Box<Varying>>,
     /// The clip distances that clip.
     pub(crate) distances: Vec<Distance>,
     /// A number that is equal for the same vertices under the same viewport; none if the draw tests no
@@ -94,16 +108,38 @@ impl Triangle {
         // A sample of a texel that it may touch is no farther from any vertex.
         let reach = (all.high.x - all.low.x) + (all.high.y - all.low.y) + 4 * units;
         Self {
-            vertices,
+            edges: [[a, b], [b, c], [c, a]].map(Edge::Between),
             ids,
             area: area(vertices),
             moved: 2 * moved * reach + 2 * moved * moved,
         }
     }
 
+    /// Returns a triangle of which some edges may be cut; a cut one is decided by the primitive alone.
+    pub(crate) fn cut(edges: [Edge; 3], ids: [VertexId; 3], area: (i64, i64)) -> Self {
+        Self {
+            edges,
+            ids,
+            area,
+            moved: i64::MAX,
+        }
+    }
+
     /// Returns the side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
-        let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
+        let (p, q) = match self.edges[i] {
+            Edge::Between([p, q]) => (p, q),
+            Edge::Cut { line, off } => {
+                let value = line.at(at);
+                return if value > off {
+                    Side::Positive
+                } else if value < -off {
+                    Side::Negative
+                } else {
+                    Side::Unknown
+                };
+            }
+        };
         // One corner decides most samples.
         match edge_value(p.low, q.low, at) {
             value if value > self.moved => return Side::Positive,
@@ -143,8 +179,15 @@ impl Triangle {
             _ => return [among, 0..0],
         };
         let (top, bottom) = (i64::from(row) * units, (i64::from(row) + 1) * units);
-        for i in 0..3 {
-            let (p, q) = (self.vertices[i].low, self.vertices[(i + 1) % 3].low);
+        let edges = self.edges.map(|edge| match edge {
+            Edge::Between(ends) => Some(ends),
+            Edge::Cut { .. } => None,
+        });
+        let [Some(ab), Some(bc), Some(ca)] = edges else {
+            return [among, 0..0];
+        };
+        for ends in [ab, bc, ca] {
+            let [p, q] = ends.map(|end| end.low);
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
@@ -166,9 +209,12 @@ impl Triangle {
         [range(outer), range(inner)]
     }
 
-    /// Returns the end points of an edge that lies on its sample exactly.
-    pub(crate) fn edge(&self, i: usize) -> (Point, Point) {
-        (self.vertices[i].low, self.vertices[(i + 1) % 3].low)
+    /// Returns the end points of an edge that lies on its sample exactly; `None` of one that is cut.
+    pub(crate) fn edge(&self, i: usize) -> Option<(Point, Point)> {
+        match self.edges[i] {
+            Edge::Between([p, q]) => Some((p.low, q.low)),
+            Edge::Cut { .. } => None,
+        }
     }
 }
 
@@ -198,9 +244,10 @@ impl SnappedPrimitive {
             Shape::Point(center) => point_times(*center, at, units),
             Shape::Line(ends) => line_times(*ends, at, units),
             Shape::Outline(triangle) => {
-                let v = triangle.vertices;
-                let edges = [[v[0], v[1]], [v[1], v[2]], [v[2], v[0]]];
-                let each = edges.map(|edge| line_times(edge, at, units));
+                let each = triangle.edges.map(|edge| match edge {
+                    Edge::Between(ends) => line_times(ends, at, units),
+                    Edge::Cut { .. } => (0, 1),
+                });
                 let most = each.iter().map(|t| t.1).sum();
                 // Edges that overlap may be drawn once.
                 (each.iter().map(|t| t.0).max().unwrap_or(0), most)
@@ -226,18 +273,30 @@ impl SnappedPrimitive {
         Values::same(depth.hull(biased))
     }
 
-    /// Returns the texture coordinates at a sample that the primitive covers, if the shader reads any. With
-    /// several samples they may be those of any point of the texel, also of a centre outside of the
-    /// primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
-    pub(crate) fn uv_seen(&self, at: Point, units: i64, samples: u32) -> Option<[Interval; 2]> {
+    /// Returns the texture coordinates at a sample that the primitive covers, if the shader reads any.
+    pub(crate) fn uv_seen(
+        &self,
+        at: Point,
+        units: i64,
+        samples: u32,
+        sampling: InterpolationSampling,
+    ) -> Option<[Interval; 2]> {
         let both = self.uv.as_deref()?;
-        Some(both.each_ref().map(|one| {
-            if samples > 1 {
-                one.at(at).hull(one.over_texel(at, units))
-            } else {
-                one.at(at)
+        let is_triangle = matches!(self.shape, Shape::Triangle(_));
+        Some(both.each_ref().map(|value| match sampling {
+            _ if samples == 1 => value.at(at),
+            InterpolationSampling::Sample if is_triangle => value.at(at),
+            InterpolationSampling::Centroid if is_triangle => {
+                value.over_texel(at, units).clamp_to(value.hull())
             }
+            _ => seen(value, at, units, samples),
         }))
+    }
+
+    /// Returns 1 over w at a sample that the primitive covers, if the shader reads it.
+    pub(crate) fn w_seen(&self, at: Point, units: i64, samples: u32) -> Option<Interval> {
+        let value = self.reciprocal_w.as_deref()?;
+        Some(seen(value, at, units, samples))
     }
 
     /// True if a depth bias may move its fragments.
@@ -273,6 +332,16 @@ impl SnappedPrimitive {
             });
         }
         inside
+    }
+}
+
+/// Returns a value that a shader reads. With several samples it may be that of any point of the texel, also of a
+/// centre outside of the primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
+    if samples > 1 {
+        value.at(at).hull(value.over_texel(at, units))
+    } else {
+        value.at(at)
     }
 }
 

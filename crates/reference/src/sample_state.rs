@@ -67,6 +67,13 @@ impl Walk<'_> {
         [across, down].map(|v| Range::same(v.widen(self.rules.float_error.value() * v.high)))
     }
 
+    /// Returns 1 over the clip-space w that a shader reads; 0 if it reads none.
+    pub(crate) fn reciprocal_w(&self, place: Place<'_>) -> Range {
+        let samples = self.samples_shaded(place);
+        let w = place.primitive.w_seen(place.point, self.units, samples);
+        w.map_or(Range::exact(0.0), Range::same)
+    }
+
     /// Returns the number of samples among which the point may be chosen at which inputs are
     /// interpolated: 1 if it is the sample's own.
     pub(crate) fn samples_shaded(&self, place: Place<'_>) -> u32 {

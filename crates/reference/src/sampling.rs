@@ -55,7 +55,10 @@ impl Walk<'_> {
 
     fn coordinates(&self, place: Place<'_>) -> Option<[Interval; 2]> {
         let samples = self.samples_shaded(place);
-        place.primitive.uv_seen(place.point, self.units, samples)
+        let sampling = place.draw.shader.interpolation_sampling();
+        place
+            .primitive
+            .uv_seen(place.point, self.units, samples, sampling)
     }
 
     /// True if a pass before this one draws or resolves to an attachment.

@@ -1,17 +1,19 @@
 //! Primitive setup, once per draw: snapped positions and depths.
 
-use crate::bias::{clamped_at_vertices, depth_bias};
+use crate::bias::{Biased, clamped_at_vertices, depth_bias, slopes};
 use crate::context::PassContext;
+use crate::cut::{CutLine, CutTriangle, is_cut, is_cut_line};
 use crate::depth::Depth;
 use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::rules::Snap;
-use crate::snap::{SnapBox, units_per_texel};
+use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
+use crate::varying::{Perspective, Varying};
 use etalon_pipeline::{Arithmetic, Plain, Point, shader, window_position};
-use etalon_scene::{Draw, PolygonMode, PrimitiveVertices};
+use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -36,7 +38,13 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
     if draw.rasterizer_discard {
         return primitives;
     }
-    let provoking = draw.provoking.map(|_| draw.provoking_vertices());
+    let provoking: Option<Vec<SmallVec<[usize; 3]>>> = if draw.shader.flat_from_either() {
+        let ends = draw.primitive_ends().into_iter();
+        Some(ends.map(|ends| SmallVec::from_slice(&ends)).collect())
+    } else {
+        let convention = draw.provoking.map(|_| draw.provoking_vertices());
+        convention.map(|all| all.into_iter().map(|vertex| smallvec![vertex]).collect())
+    };
     let mut vertices = Vertices {
         known: vec![None; draw.mesh.vertices.len()],
         geometry: draw_geometry(draw),
@@ -47,7 +55,7 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         }
         // Without a convention, the flat colour may be that of any vertex.
         let own: SmallVec<[usize; 3]> = match (&provoking, one) {
-            (Some(all), _) => smallvec![all[index]],
+            (Some(all), _) => all[index].clone(),
             (None, PrimitiveVertices::Point(i)) => smallvec![i],
             (None, PrimitiveVertices::Line(line)) => SmallVec::from_slice(&line),
             (None, PrimitiveVertices::Triangle(triangle)) => SmallVec::from_slice(&triangle),
@@ -57,14 +65,8 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
             let hull = own.iter().map(value).reduce(Interval::hull);
             hull.unwrap_or(Interval::exact(0.0))
         });
-        primitives.push(primitive(
-            context,
-            draw,
-            &mut vertices,
-            one,
-            color,
-            index as u32,
-        ));
+        let vertices = &mut vertices;
+        primitives.extend(primitive(context, draw, vertices, one, color, index as u32));
     }
     primitives
 }
@@ -83,6 +85,9 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
     for i in own {
         let position = draw.mesh.vertices[*i].position;
+        if position[3] <= 0.0 {
+            return false;
+        }
         let [[x], [y], _] = window_position(&mut Plain::<1>, position, &draw.viewport);
         for (axis, v) in [x, y].into_iter().enumerate() {
             if !v.is_finite() {
@@ -105,6 +110,20 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
     ])
 }
 
+/// What differs between shapes of a primitive.
+struct Parts {
+    shape: Shape,
+    window_depth: Depth,
+    clip_depth: Depth,
+    bias: Interval,
+    /// All snapped vertices, or what is seen.
+    all: SnapBox,
+    uv: Option<[Varying; 2]>,
+    reciprocal_w: Option<Varying>,
+    distances: Vec<Distance>,
+}
+
+/// Returns a primitive; `None` if clipping leaves nothing of it.
 fn primitive(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -112,14 +131,67 @@ fn primitive(
     one: PrimitiveVertices,
     color: [Interval; 4],
     index: u32,
-) -> SnappedPrimitive {
-    let mut of = |i: usize| {
-        let position = draw.mesh.vertices[i].position;
-        *vertices.known[i].get_or_insert_with(|| vertex(context, draw, position))
+) -> Option<SnappedPrimitive> {
+    let fill = draw.polygon_mode == PolygonMode::Fill;
+    let parts = match one {
+        PrimitiveVertices::Point(i) if is_cut(context, draw, &[i]) => {
+            point_behind(context, draw, vertices, i)?
+        }
+        PrimitiveVertices::Line(line) if is_cut_line(context, draw, line) => {
+            cut_line(context, draw, line)?
+        }
+        PrimitiveVertices::Triangle(triangle) if fill && is_cut(context, draw, &triangle) => {
+            cut_triangle(context, draw, vertices, triangle)?
+        }
+        _ => snapped(context, draw, vertices, one),
     };
+    let units = units_per_texel(context.limits);
+    let reach = match parts.shape {
+        Shape::Triangle(_) => 0,
+        _ => 2 * units,
+    };
+    let all = parts.all;
+    Some(SnappedPrimitive {
+        uv: parts.uv.map(Box::new),
+        reciprocal_w: parts.reciprocal_w.map(Box::new),
+        distances: parts.distances,
+        shape: parts.shape,
+        color,
+        bounds: [
+            (all.low.x - reach).div_euclid(units),
+            (all.low.y - reach).div_euclid(units),
+            (all.high.x + reach).div_euclid(units) + 1,
+            (all.high.y + reach).div_euclid(units) + 1,
+        ],
+        window_depth: parts.window_depth,
+        clip_depth: parts.clip_depth,
+        bias: parts.bias,
+        all,
+        geometry: match (context.depth, draw.depth) {
+            (Some(_), Some(_)) => Some(geometry(draw, one, vertices.geometry.clone())),
+            _ => None,
+        },
+        index,
+    })
+}
+
+/// Returns a primitive whose vertices lie in front of the eye and are snapped.
+fn snapped(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    vertices: &mut Vertices,
+    one: PrimitiveVertices,
+) -> Parts {
+    let mut of = |i: usize| known(context, draw, vertices, i);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value();
+    let boxes = match one {
+        PrimitiveVertices::Point(i) => [i; 3],
+        PrimitiveVertices::Line([a, b]) => [a, b, a],
+        PrimitiveVertices::Triangle(triangle) => triangle,
+    }
+    .map(|i| of(i).snapped);
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match one {
         PrimitiveVertices::Point(i) => {
@@ -131,7 +203,7 @@ fn primitive(
             )
         }
         PrimitiveVertices::Line(line) => {
-            let v = line.map(of);
+            let v = line.map(&mut of);
             (
                 Shape::Line(v.map(|v| v.snapped)),
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units, error),
@@ -141,13 +213,17 @@ fn primitive(
         }
         PrimitiveVertices::Triangle(triangle) => {
             let v = triangle.map(of);
-            let boxes = v.map(|v| v.snapped);
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
             let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
             let z = v.map(|v| v.window_z);
-            bias = depth_bias(context, draw, boxes, z);
+            let biased = Biased {
+                z: &z,
+                boxes: &boxes,
+                slope: &|| slopes(context, boxes, z),
+            };
+            bias = depth_bias(context, draw, &biased);
             if !bias.is(0.0) && !context.rules.bias_clamps_fragments.value() {
-                bias = clamped_at_vertices(bias, z);
+                bias = clamped_at_vertices(bias, &z);
             }
             let shape = match draw.polygon_mode {
                 PolygonMode::Fill => Shape::Triangle(triangle),
@@ -169,39 +245,123 @@ fn primitive(
             (shape, window, clip)
         }
     };
-    let all = match &shape {
-        Shape::Point(one) => *one,
-        Shape::Line([a, b]) => a.hull(*b),
-        Shape::Triangle(t) | Shape::Outline(t) => {
-            let [a, b, c] = t.vertices;
-            a.hull(b).hull(c)
-        }
+    let [a, b, c] = boxes;
+    let over = Over {
+        context,
+        draw,
+        outline: matches!(shape, Shape::Outline(_)),
+        one,
+        boxes,
     };
-    let reach = match shape {
-        Shape::Triangle(_) => 0,
-        _ => 2 * units,
-    };
-    SnappedPrimitive {
-        uv: texture_coordinates(context, draw, &shape, one).map(Box::new),
-        distances: distances(context, draw, &shape, one),
+    Parts {
+        uv: draw.shader.uses_uv().then(|| over.uv()),
+        reciprocal_w: draw.shader.reads_w().then(|| over.reciprocal_w()),
+        distances: over.distances(),
         shape,
-        color,
-        bounds: [
-            (all.low.x - reach).div_euclid(units),
-            (all.low.y - reach).div_euclid(units),
-            (all.high.x + reach).div_euclid(units) + 1,
-            (all.high.y + reach).div_euclid(units) + 1,
-        ],
         window_depth,
         clip_depth,
         bias,
-        all,
-        geometry: match (context.depth, draw.depth) {
-            (Some(_), Some(_)) => Some(geometry(draw, one, vertices.geometry.clone())),
-            _ => None,
-        },
-        index,
+        all: a.hull(b).hull(c),
     }
+}
+
+fn known(context: &PassContext<'_>, draw: &Draw, vertices: &mut Vertices, i: usize) -> Vertex {
+    let position = draw.mesh.vertices[i].position;
+    *vertices.known[i].get_or_insert_with(|| vertex(context, draw, position))
+}
+
+/// Returns a point behind the eye, or too far out for the grid, if the rules let it be drawn: then where the division
+/// by w puts it.
+fn point_behind(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    vertices: &mut Vertices,
+    i: usize,
+) -> Option<Parts> {
+    let [.., w] = draw.mesh.vertices[i].position;
+    let [width, height] = context.size.map(|s| s as f32);
+    let [[across], [down], _] = window_position(
+        &mut Plain::<1>,
+        draw.mesh.vertices[i].position,
+        &draw.viewport,
+    );
+    let near = across.abs() < 4.0 * width && down.abs() < 4.0 * height;
+    // Without near and far planes nothing but the view volume's sides discards it, which OpenGL leaves open.
+    let clips = context.rules.clips_points.value() && !draw.depth_clamp;
+    if clips || w == 0.0 || !near {
+        return None;
+    }
+    let mut parts = snapped(context, draw, vertices, PrimitiveVertices::Point(i));
+    parts.distances.push(Distance::UNKNOWN);
+    Some(parts)
+}
+
+/// Returns what is left of a triangle that reaches behind the eye.
+fn cut_triangle(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    vertices: &mut Vertices,
+    triangle: [usize; 3],
+) -> Option<Parts> {
+    let cut = CutTriangle::new(context, draw, triangle)?;
+    let boxes = triangle.map(|i| {
+        let whole = !is_cut(context, draw, &[i]);
+        whole.then(|| known(context, draw, vertices, i).snapped)
+    });
+    let ids = triangle.map(|i| VertexId::new(draw.mesh.vertices[i].position));
+    let window_depth = cut.window_depth();
+    let biased = Biased {
+        z: &[window_depth.hull],
+        boxes: &[],
+        slope: &|| cut.slope(&window_depth),
+    };
+    let mut bias = depth_bias(context, draw, &biased);
+    if !bias.is(0.0) && !context.rules.bias_clamps_fragments.value() {
+        bias = clamped_at_vertices(bias, &[window_depth.hull]);
+    }
+    let clipping = clipping_distances(draw);
+    Some(Parts {
+        shape: Shape::Triangle(cut.triangle(boxes, ids)),
+        clip_depth: cut.clip_depth(),
+        bias,
+        all: cut.bounds(),
+        uv: draw.shader.uses_uv().then(|| cut.uv()),
+        reciprocal_w: draw.shader.reads_w().then(|| cut.reciprocal_w()),
+        distances: clipping
+            .map(|n| cut.distance(triangle.map(|i| distance(draw, i, n))))
+            .collect(),
+        window_depth,
+    })
+}
+
+/// Returns what is left of a line that reaches behind the eye or crosses the near or far plane.
+fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<Parts> {
+    let cut = CutLine::new(context, draw, line)?;
+    let units = units_per_texel(context.limits);
+    let error = context.rules.float_error.value();
+    let between = |values: [f64; 2]| {
+        Varying::Linear(Depth::flat(&values.map(Interval::exact)).interpolated(error))
+    };
+    let uv = |axis: usize| between(line.map(|i| f64::from(draw.mesh.vertices[i].uv[axis])));
+    let mut distances: Vec<Distance> = clipping_distances(draw)
+        .map(|n| Distance::between(&line.map(|i| distance(draw, i, n))))
+        .collect();
+    distances.extend(cut.may_be_clipped.then_some(Distance::UNKNOWN));
+    let [a, b] = cut.ends;
+    Some(Parts {
+        shape: Shape::Line(cut.ends),
+        window_depth: Depth::along(cut.ends, cut.window_z, units, error),
+        // The planes have clipped it.
+        clip_depth: Depth::flat(&[Interval::exact(0.5)]),
+        bias: Interval::exact(0.0),
+        all: a.hull(b),
+        uv: draw.shader.uses_uv().then(|| [uv(0), uv(1)]),
+        reciprocal_w: draw
+            .shader
+            .reads_w()
+            .then(|| Varying::Linear(Depth::along(cut.ends, cut.reciprocal_w, units, error))),
+        distances,
+    })
 }
 
 /// Begins a number for the inputs of depth that all primitives of a draw share.
@@ -231,86 +391,121 @@ fn geometry(draw: &Draw, one: PrimitiveVertices, mut hasher: DefaultHasher) -> u
     hasher.finish()
 }
 
-/// Returns the texture coordinates over a primitive.
-fn texture_coordinates(
-    context: &PassContext<'_>,
-    draw: &Draw,
-    shape: &Shape,
+/// Values over a primitive in front of the eye.
+struct Over<'a> {
+    context: &'a PassContext<'a>,
+    draw: &'a Draw,
+    /// True if the edges of a triangle are drawn.
+    outline: bool,
     one: PrimitiveVertices,
-) -> Option<[Depth; 2]> {
-    if !draw.shader.uses_uv() {
-        return None;
-    }
-    let units = units_per_texel(context.limits);
-    let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value();
-    let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
-    let w = |i: usize| draw.mesh.vertices[i].position[3];
-    Some([0, 1].map(|axis| match (shape, one) {
-        // Under a perspective coordinates are not linear in the picture, and all between the vertices'.
-        (_, PrimitiveVertices::Triangle([a, b, c])) if w(a) != w(b) || w(b) != w(c) => {
-            Depth::flat(&[a, b, c].map(|i| value(i, axis))).interpolated(error)
-        }
-        (_, PrimitiveVertices::Line([a, b])) if w(a) != w(b) => {
-            Depth::flat(&[a, b].map(|i| value(i, axis))).interpolated(error)
-        }
-        (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own)) => Depth::over(
-            triangle.vertices,
-            own.map(|i| value(i, axis)),
-            [units, grid],
-            error,
-        ),
-        (Shape::Outline(triangle), PrimitiveVertices::Triangle(own)) => {
-            let values = own.map(|i| value(i, axis));
-            let mut plane = Depth::over(triangle.vertices, values, [units, grid], error);
-            plane.reach_out(units);
-            plane
-        }
-        (Shape::Line(ends), PrimitiveVertices::Line(own)) => {
-            Depth::along(*ends, own.map(|i| value(i, axis)), units, error)
-        }
-        (_, PrimitiveVertices::Point(i)) => Depth::flat(&[value(i, axis)]),
-        (_, PrimitiveVertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
-        (_, PrimitiveVertices::Triangle(own)) => Depth::flat(&own.map(|i| value(i, axis))),
-    }))
+    /// The snapped vertices, the first ones again where there are fewer than three.
+    boxes: [SnapBox; 3],
 }
 
-/// Returns the clip distances over a primitive, those that clip.
-fn distances(
-    context: &PassContext<'_>,
-    draw: &Draw,
-    shape: &Shape,
-    one: PrimitiveVertices,
-) -> Vec<Distance> {
-    let clipping = draw.clipping_distances();
-    if clipping == 0 {
-        return Vec::new();
+impl Over<'_> {
+    fn w(&self, i: usize) -> f64 {
+        f64::from(self.draw.mesh.vertices[i].position[3])
     }
-    let units = units_per_texel(context.limits);
-    let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value();
-    let of = |i: usize| shader::clip_distances(draw.shader, &draw.mesh.vertices[i]);
-    let w = |i: usize| draw.mesh.vertices[i].position[3];
-    let numbers = (0..draw.shader.clip_distances() as usize).filter(|n| clipping & (1 << n) != 0);
-    numbers
-        .map(|n| {
-            let value = |i: usize| of(i)[n];
-            match (shape, one) {
-                (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own))
-                    if w(own[0]) == w(own[1]) && w(own[1]) == w(own[2]) =>
-                {
-                    Distance::over(triangle.vertices, own.map(value), [units, grid], error)
+
+    fn grids(&self) -> [i64; 2] {
+        let units = units_per_texel(self.context.limits);
+        [units, units >> self.context.limits.sub_pixel_bits]
+    }
+
+    /// Returns the texture coordinates.
+    fn uv(&self) -> [Varying; 2] {
+        [0, 1].map(|axis| self.varying(|i| f64::from(self.draw.mesh.vertices[i].uv[axis])))
+    }
+
+    fn varying(&self, value: impl Fn(usize) -> f64) -> Varying {
+        let error = self.context.rules.float_error.value();
+        let perspective = self.draw.shader.interpolation() == Interpolation::Perspective;
+        let w = |i: usize| self.w(i);
+        match self.one {
+            PrimitiveVertices::Triangle(own)
+                if perspective && own.iter().any(|i| w(*i) != w(own[0])) =>
+            {
+                let values = own.map(&value);
+                let flat = values[0] == values[1] && values[1] == values[2];
+                let (least, most) = area(self.boxes);
+                if self.outline || flat || (least <= 0 && most >= 0) {
+                    let all = values.map(Interval::exact);
+                    return Varying::Linear(Depth::flat(&all).interpolated(error));
                 }
-                (Shape::Line(ends), PrimitiveVertices::Line(own)) if w(own[0]) == w(own[1]) => {
-                    Distance::along(*ends, own.map(value), units)
-                }
-                // Under a perspective they are not linear in the picture.
-                (_, PrimitiveVertices::Triangle(own)) => Distance::between(&own.map(value)),
-                (_, PrimitiveVertices::Line(own)) => Distance::between(&own.map(value)),
-                (_, PrimitiveVertices::Point(own)) => Distance::between(&[value(own)]),
+                let [_, grid] = self.grids();
+                let w = own.map(w);
+                Varying::Perspective(Perspective::over(self.boxes, w, values, grid, error))
             }
-        })
-        .collect()
+            PrimitiveVertices::Line([a, b]) if perspective && w(a) != w(b) => {
+                let all = [a, b].map(|i| Interval::exact(value(i)));
+                Varying::Linear(Depth::flat(&all).interpolated(error))
+            }
+            _ => Varying::Linear(self.linear(value)),
+        }
+    }
+
+    /// Returns a value that is linear over the window.
+    fn linear(&self, value: impl Fn(usize) -> f64) -> Depth {
+        let [units, grid] = self.grids();
+        let error = self.context.rules.float_error.value();
+        match self.one {
+            PrimitiveVertices::Triangle(own) => {
+                let values = own.map(|i| Interval::exact(value(i)));
+                let mut plane = Depth::over(self.boxes, values, [units, grid], error);
+                if self.outline {
+                    plane.reach_out(units);
+                }
+                plane
+            }
+            PrimitiveVertices::Line(own) => {
+                let [a, b, _] = self.boxes;
+                let values = own.map(|i| Interval::exact(value(i)));
+                Depth::along([a, b], values, units, error)
+            }
+            PrimitiveVertices::Point(i) => Depth::flat(&[Interval::exact(value(i))]),
+        }
+    }
+
+    /// Returns 1 over w, which is linear over the window.
+    fn reciprocal_w(&self) -> Varying {
+        let error = self.context.rules.float_error.value();
+        Varying::Linear(self.linear(|i| 1.0 / self.w(i)).interpolated(error))
+    }
+
+    /// Returns the clip distances that clip.
+    fn distances(&self) -> Vec<Distance> {
+        let error = self.context.rules.float_error.value();
+        let [a, b, _] = self.boxes;
+        clipping_distances(self.draw)
+            .map(|n| {
+                let value = |i: usize| distance(self.draw, i, n);
+                let over_w = |i: usize| value(i) / self.w(i);
+                match self.one {
+                    PrimitiveVertices::Triangle(own) if !self.outline => {
+                        Distance::over(self.boxes, own.map(over_w), self.grids(), error)
+                    }
+                    PrimitiveVertices::Line(own) if self.w(own[0]) == self.w(own[1]) => {
+                        Distance::along([a, b], own.map(value), self.grids()[0])
+                    }
+                    // Along a line under a perspective they are not linear in the picture.
+                    PrimitiveVertices::Triangle(own) => Distance::between(&own.map(value)),
+                    PrimitiveVertices::Line(own) => Distance::between(&own.map(value)),
+                    PrimitiveVertices::Point(own) => Distance::between(&[value(own)]),
+                }
+            })
+            .collect()
+    }
+}
+
+/// Returns the numbers of the clip distances that clip.
+fn clipping_distances(draw: &Draw) -> impl Iterator<Item = usize> {
+    let clipping = draw.clipping_distances();
+    (0..draw.shader.clip_distances() as usize).filter(move |n| clipping & (1 << n) != 0)
+}
+
+/// Returns a clip distance of a vertex.
+fn distance(draw: &Draw, vertex: usize, n: usize) -> f64 {
+    f64::from(shader::clip_distances(draw.shader, &draw.mesh.vertices[vertex])[n])
 }
 
 fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex {

@@ -2,15 +2,15 @@
 //! Samples of equal signature that held the same hold the same afterwards, so that one of them is judged
 //! for all.
 
-use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::judging::Range;
 use crate::primitive::{Shape, Side, SnappedPrimitive};
 use crate::sample::Sample;
+use crate::varying::Varying;
 use crate::walk::{Hit, Place, Walk};
 use crate::world::World;
 use etalon_frame::Rejection;
-use etalon_scene::{Contents, Draw, EarlyTests, Multisample};
+use etalon_scene::{Contents, Draw, EarlyTests, InterpolationSampling, Multisample};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
@@ -111,7 +111,7 @@ impl Walk<'_> {
                 || *state != plain
                 || draw.shader.runs_per_sample()
                 || draw.shader.writes_mask()
-                || draw.shader.interpolates_at_centroid(),
+                || draw.shader.interpolation_sampling() != InterpolationSampling::Center,
             primitives: !draw.counters.is_empty(),
             textures: draw
                 .textures
@@ -271,10 +271,15 @@ impl Walk<'_> {
             let depth = primitive.depth_seen(place.point, self.units, samples);
             signature.words.extend(bits(depth.float));
         }
+        let varies = |w: &Varying| !w.is_flat();
+        if primitive.reciprocal_w.as_deref().is_some_and(varies) {
+            signature.constant = false;
+            signature.words.extend(bits(self.reciprocal_w(place).float));
+        }
         if primitive
             .uv
             .as_ref()
-            .is_some_and(|uv| !uv.iter().all(Depth::is_flat))
+            .is_some_and(|uv| !uv.iter().all(Varying::is_flat))
         {
             signature.constant = false;
             for axis in self.uv(place) {
@@ -318,13 +323,10 @@ impl Inputs {
         if (self.depth || self.depth_seen) && primitive.window_depth.is_flat() {
             words.extend(bits(primitive.window_depth.hull));
         }
-        for axis in primitive
-            .uv
-            .iter()
-            .flat_map(|uv| uv.iter())
-            .filter(|axis| axis.is_flat())
-        {
-            words.extend(bits(axis.hull));
+        let uv = primitive.uv.iter().flat_map(|uv| uv.iter());
+        let varyings = uv.chain(primitive.reciprocal_w.as_deref());
+        for flat in varyings.filter(|varying| varying.is_flat()) {
+            words.extend(bits(flat.hull()));
         }
         words
     }

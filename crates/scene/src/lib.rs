@@ -43,7 +43,7 @@ pub use early_tests::EarlyTests;
 pub use fetch::{Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
-pub use mesh_source::{FieldOf, MeshSource, Splat, StripOf, Units};
+pub use mesh_source::{FieldOf, MeshSource, Position, Splat, StripOf, Units};
 pub use pass::{
     Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,
     ResolveMode, StoreOperation,
@@ -56,7 +56,7 @@ pub use rasterization::{
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Scene};
-pub use shader::{STENCIL_REFERENCE, Shader};
+pub use shader::{Interpolation, InterpolationSampling, STENCIL_REFERENCE, Shader};
 pub use tessellation::{
     CONTROL_GLSL, CONTROL_SPIRV, DomainOrigin, EVALUATION_GLSL, Tessellation, evaluation_spirv,
 };

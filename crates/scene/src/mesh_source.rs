@@ -2,6 +2,7 @@
 
 mod builder;
 mod field;
+mod position;
 mod splat;
 mod strip;
 mod surface;
@@ -9,6 +10,7 @@ mod surface;
 mod tests;
 
 pub use field::FieldOf;
+pub use position::Position;
 pub use splat::Splat;
 pub use strip::StripOf;
 
@@ -167,9 +169,9 @@ pub enum MeshSource {
     },
     /// Vertices one by one.
     Vertices {
-        /// Positions x, y, z.
-        positions: Vec<[f32; 3]>,
-        /// The units of x and y: clip space, or texels from the top left corner.
+        /// Positions x, y, z and, where it is not 1, w.
+        positions: Vec<Position>,
+        /// The units of positions: clip space, or texels from the top left corner, which x, y and z times w keep.
         #[serde(default)]
         units: Units,
         /// Indices of the drawn vertices, in order; `null` ends a strip. Without it, all in order.
@@ -188,7 +190,7 @@ pub enum MeshSource {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Units {
-    /// Clip space: -1 to 1, y up.
+    /// Clip space: -w to w, y up.
     #[default]
     Clip,
     /// Texels from the top left corner, y down.
@@ -305,12 +307,12 @@ impl MeshSource {
                 }
                 let attributes = values.iter().cycle().zip(uv.iter().cycle());
                 for (position, (value, uv)) in positions.iter().zip(attributes) {
-                    let [x, y, z] = *position;
+                    let [x, y, z, w] = position.0;
                     let position = match units {
-                        Units::Clip => [x, y, z, 1.0],
+                        Units::Clip => position.0,
                         Units::Texels => {
                             let corner = DVec2::new(f64::from(x), f64::from(y));
-                            builder.clip(corner, z)
+                            builder.clip(corner, z).map(|v| v * w)
                         }
                     };
                     builder.vertices.push(Vertex {

@@ -106,12 +106,12 @@ mod tests {
         assert!(may_overlap(&draw(&stack)));
         let crossed = MeshSource::Vertices {
             positions: vec![
-                [-1.0, -1.0, 0.0],
-                [1.0, -1.0, 0.0],
-                [0.0, 1.0, 0.0],
-                [-1.0, 0.5, 0.0],
-                [0.0, -1.5, 0.0],
-                [1.0, 0.5, 0.0],
+                [-1.0, -1.0, 0.0].into(),
+                [1.0, -1.0, 0.0].into(),
+                [0.0, 1.0, 0.0].into(),
+                [-1.0, 0.5, 0.0].into(),
+                [0.0, -1.5, 0.0].into(),
+                [1.0, 0.5, 0.0].into(),
             ],
             units: Units::Clip,
             indices: None,

@@ -36,6 +36,11 @@ impl Mesh {
 }
 
 impl Draw {
+    /// Returns the first and the last vertex of each primitive, in the order of [`Draw::primitives`].
+    pub fn primitive_ends(&self) -> Vec<[usize; 2]> {
+        self.mesh.ends(self.topology)
+    }
+
     /// Returns the provoking vertex of each primitive, in the order of [`Draw::primitives`]; the first
     /// of each if the draw names no convention.
     pub fn provoking_vertices(&self) -> Vec<usize> {

@@ -8,6 +8,7 @@ use crate::overlap::may_overlap;
 use crate::pass::{DepthStencilResolve, Pass, ResolveMode};
 use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology, ProvokingVertex};
 use crate::scene::Scene;
+use crate::shader::{Interpolation, InterpolationSampling};
 use crate::tessellation::DomainOrigin;
 use etalon_frame::{CounterKind, Feature, Requirement};
 use std::collections::BTreeSet;
@@ -180,9 +181,14 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     let early = draw.early_tests;
     need(early == EarlyTests::Forced, Feature::ForcedEarlyTests);
     need(early.is_conservative(), Feature::ConservativeDepth);
+    let shader = draw.shader;
     need(
-        draw.shader.interpolates_at_centroid(),
+        shader.interpolation_sampling() == InterpolationSampling::Centroid,
         Feature::CentroidInterpolation,
+    );
+    need(
+        shader.interpolation() == Interpolation::Linear,
+        Feature::LinearInterpolation,
     );
     need(draw.multisample.alpha_to_one, Feature::AlphaToOne);
     need(draw.shader.runs_per_sample(), Feature::SampleShading);

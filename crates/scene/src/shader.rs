@@ -24,8 +24,12 @@ struct Facts {
     position_only: bool,
     /// True if it reads interpolated texture coordinates as numbers.
     uv: bool,
-    /// True if it interpolates these inside the part of a texel that a primitive covers.
-    centroid: bool,
+    /// The way in which these are interpolated.
+    interpolation: Interpolation,
+    /// The points at which they are.
+    sampling: InterpolationSampling,
+    /// True if its flat colour is that of either end of a primitive.
+    either: bool,
     /// The number of textures that it reads.
     textures: usize,
     /// True if it samples its texture instead of fetching single texels.
@@ -58,6 +62,28 @@ struct Facts {
     coordinates: bool,
     /// True if it reads the fragment's depth.
     reads_depth: bool,
+    /// True if it reads 1 over the clip-space w.
+    reads_w: bool,
+}
+
+/// The interpolation of an attribute over a primitive (WGSL, Interpolation).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// Linear in space.
+    Perspective,
+    /// Linear in the window.
+    Linear,
+}
+
+/// The points at which attributes are interpolated (WGSL, Interpolation).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum InterpolationSampling {
+    /// The texel's centre.
+    Center,
+    /// Inside the part of the texel that the primitive covers.
+    Centroid,
+    /// The sample that is shaded.
+    Sample,
 }
 
 /// The use that a shader makes of the scene's pool.
@@ -90,7 +116,9 @@ impl Facts {
         params: false,
         position_only: false,
         uv: false,
-        centroid: false,
+        interpolation: Interpolation::Perspective,
+        sampling: InterpolationSampling::Center,
+        either: false,
         textures: 0,
         sampler: false,
         taps: false,
@@ -107,6 +135,7 @@ impl Facts {
         per_sample: false,
         coordinates: false,
         reads_depth: false,
+        reads_w: false,
     };
 }
 
@@ -251,10 +280,19 @@ impl Shader {
         self.facts().uv || self.facts().sampler
     }
 
-    /// True if the shader interpolates its texture coordinates inside the part of a texel that a
-    /// primitive covers.
-    pub fn interpolates_at_centroid(self) -> bool {
-        self.facts().centroid
+    /// The interpolation of the texture coordinates.
+    pub fn interpolation(self) -> Interpolation {
+        self.facts().interpolation
+    }
+
+    /// The points at which the texture coordinates are interpolated.
+    pub fn interpolation_sampling(self) -> InterpolationSampling {
+        self.facts().sampling
+    }
+
+    /// True if the flat vertex colour is that of either end of a primitive, whichever vertex provokes.
+    pub fn flat_from_either(self) -> bool {
+        self.facts().either
     }
 
     /// True if the shader writes a second source for blending.
@@ -278,6 +316,11 @@ impl Shader {
         self.facts().reads_depth
     }
 
+    /// True if the shader reads 1 over the clip-space w, the fragment coordinate's last part.
+    pub fn reads_w(self) -> bool {
+        self.facts().reads_w
+    }
+
     /// True if the shader reads the parameter block.
     pub fn uses_params(self) -> bool {
         self.facts().params
@@ -287,7 +330,7 @@ impl Shader {
 shaders! {
     /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
     /// not negative; `params.back_color` where it is.
-    Centroid = "centroid" { params: true, uv: true, centroid: true },
+    Centroid = "centroid" { params: true, uv: true, sampling: InterpolationSampling::Centroid },
     /// The vertex colour, flat; clipped by both texture coordinates.
     ClipFlat = "clip_flat" { clip_distances: 2 },
     /// `params.color`; clipped by the vertex colour, the texture coordinates, alpha less the first and
@@ -332,6 +375,8 @@ shaders! {
     FlatColor = "flat_color" {},
     /// `params.color`; writes the vertex colour's red as depth.
     FlatColorDepth = "flat_color_depth" { params: true, depth: Depth::VertexRed },
+    /// The vertex colour of either the first or the last vertex of a primitive, flat.
+    FlatEither = "flat_either" { either: true },
     /// The vertex colour, faded to `params.back_color` with the distance between the near and far
     /// planes in `params.color`'s red and green.
     Fog = "fog" { params: true, reads_depth: true },
@@ -388,6 +433,22 @@ shaders! {
     SampledColor = "sampled_color" { textures: 1, sampler: true },
     /// As `sampled_color`; discards where the alpha is below `params.color`'s.
     SampledDiscard = "sampled_discard" { params: true, textures: 1, sampler: true, discards: true },
+    /// The whole steps of the fragment coordinate's w and depth, times `params.color`'s red and green, as
+    /// colours: see `stepped_perspective`.
+    SteppedFragCoord = "stepped_frag_coord" { params: true, reads_depth: true, reads_w: true, position_only: true },
+    /// As `stepped_perspective`, interpolated linearly in the window.
+    SteppedLinear = "stepped_linear" { uv: true, interpolation: Interpolation::Linear },
+    /// As `stepped_linear`, inside the part of the texel that the primitive covers.
+    SteppedLinearCentroid = "stepped_linear_centroid" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Centroid },
+    /// As `stepped_linear`, at each sample. Runs once per sample.
+    SteppedLinearSample = "stepped_linear_sample" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Sample, per_sample: true },
+    /// The whole steps of the texture coordinates, 0 to 7: of the first as red, green and blue, of which neighbouring
+    /// steps differ in one, of the second as alpha, which is 1 where it is odd.
+    SteppedPerspective = "stepped_perspective" { uv: true },
+    /// As `stepped_perspective`, interpolated inside the part of the texel that the primitive covers.
+    SteppedPerspectiveCentroid = "stepped_perspective_centroid" { uv: true, sampling: InterpolationSampling::Centroid },
+    /// As `stepped_perspective`, interpolated at each sample. Runs once per sample.
+    SteppedPerspectiveSample = "stepped_perspective_sample" { uv: true, sampling: InterpolationSampling::Sample, per_sample: true },
     /// The vertex colour, opaque; discards where its alpha is below the channel of texture 0 that
     /// belongs to the sample. Runs once per sample.
     Stochastic = "stochastic" { textures: 1, discards: true, per_sample: true },
@@ -451,14 +512,19 @@ mod tests {
             let clips = has("@builtin(clip_distances)");
             assert_eq!((clips, has(&distances)), (clips, clips), "{name}");
             assert_eq!(clips, shader.clip_distances() > 0, "{name}");
-            assert_eq!(
-                shader.interpolates_at_centroid(),
-                has("centroid)"),
-                "{name}"
-            );
+            let sampling = match (has(", centroid)"), has(", sample)")) {
+                (true, _) => InterpolationSampling::Centroid,
+                (_, true) => InterpolationSampling::Sample,
+                _ => InterpolationSampling::Center,
+            };
+            assert_eq!(shader.interpolation_sampling(), sampling, "{name}");
+            let linear = shader.interpolation() == Interpolation::Linear;
+            assert_eq!(linear, has("@interpolate(linear"), "{name}");
+            assert_eq!(shader.flat_from_either(), has(", either)"), "{name}");
+            assert_eq!(shader.reads_w(), has("position.w"), "{name}");
             assert_eq!(
                 shader.runs_per_sample(),
-                has("@builtin(sample_index)"),
+                has("@builtin(sample_index)") || sampling == InterpolationSampling::Sample,
                 "{name}"
             );
         }

@@ -118,6 +118,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::FragmentShaderAbsent
         | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling
+        | Feature::LinearInterpolation
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
         | Feature::RasterizerDiscard

@@ -193,6 +193,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::DualSourceBlending,
             feature(Features::DUAL_SOURCE_BLENDING),
         ),
+        (Feature::LinearInterpolation, true),
         // Only the arguments of indirect draws need a feature of their own.
         (Feature::FirstInstance, true),
         // `@interpolate(flat)` is that of the first vertex (WGSL, Interpolation); there is no other.

@@ -256,9 +256,16 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::EdgeAlpha
         | Shader::LinearDepth
         | Shader::LogarithmicDepth => &ALL,
-        Shader::Centroid | Shader::Fxaa | Shader::SampledColor | Shader::SampledDiscard => {
-            &TEXTURED
-        }
+        Shader::Centroid
+        | Shader::Fxaa
+        | Shader::SampledColor
+        | Shader::SampledDiscard
+        | Shader::SteppedLinear
+        | Shader::SteppedLinearCentroid
+        | Shader::SteppedLinearSample
+        | Shader::SteppedPerspective
+        | Shader::SteppedPerspectiveCentroid
+        | Shader::SteppedPerspectiveSample => &TEXTURED,
         Shader::CountedDepth
         | Shader::DualPeel
         | Shader::ExpensiveColor
@@ -266,6 +273,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::ExpensiveDiscard
         | Shader::FlatColor
         | Shader::FlatColorDepth
+        | Shader::FlatEither
         | Shader::Fog
         | Shader::FragCoordDepth
         | Shader::ListAppend
@@ -294,6 +302,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::MomentResolve
         | Shader::SampleDepth
         | Shader::SampleIndex
+        | Shader::SteppedFragCoord
         | Shader::TexelColor
         | Shader::TexelColorAll
         | Shader::TexelDiscard

@@ -199,6 +199,10 @@ pub(crate) enum ClearMaskWire {
 #[serde(deny_unknown_fields)]
 pub(crate) struct DrawWire {
     pub(crate) mesh: MeshSource,
+    /// The factors of the vertices' positions, repeated as needed: w of what has 1, which leaves its place in the
+    /// picture if it is positive.
+    #[serde(default = "one")]
+    pub(crate) w: Vec<f32>,
     /// The path of the mesh's vertices to the pipeline.
     #[serde(default)]
     pub(crate) fetch: FetchWire,
@@ -276,6 +280,10 @@ pub(crate) struct TargetWire {
     pub(crate) blend: Option<BlendState>,
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,
+}
+
+fn one() -> Vec<f32> {
+    vec![1.0]
 }
 
 fn implicit() -> EarlyTests {

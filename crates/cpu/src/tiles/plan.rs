@@ -265,10 +265,15 @@ impl DrawPlan {
         let near = draw.mesh.vertices.iter().all(|v| {
             let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
             let texture = v.uv.iter().all(|c| c.is_finite());
-            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture
+            let front = v.position[3] > 0.0;
+            front && x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture
         });
         if !near {
-            return Err("far outside");
+            return Err("far outside, or behind the eye");
+        }
+        let w = draw.mesh.vertices.iter().map(|v| v.position[3]);
+        if draw.shader.uses_uv() && w.clone().any(|w| w != draw.mesh.vertices[0].position[3]) {
+            return Err("coordinates in perspective");
         }
         let clips = |v: &Vertex| Behind::of(v).is_some();
         let rejects = !draw.depth_clamp && draw.mesh.vertices.iter().any(clips);

@@ -266,7 +266,7 @@ impl Maker<'_> {
             let [l, t, r, b] = [place(), place(), 1.0 + place(), 1.0 + place()];
             return json!({ "kind": "cover", "z": z, "uv": [l, t, r, b] });
         }
-        let centroid = shader.interpolates_at_centroid();
+        let centroid = shader == Shader::Centroid;
         // The left side of what is interpolated at the centroid lies between the samples of a texel.
         let cut = f64::from(self.choices.below(w)) + 0.25;
         let left = if centroid { cut } else { -1.0 };

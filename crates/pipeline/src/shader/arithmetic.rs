@@ -88,3 +88,23 @@ pub(super) fn magnitude<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real {
     let turned = a.sub(zero, value);
     a.max(value, turned)
 }
+
+/// The most steps that [`stepped`] tells apart.
+const STEPS: u8 = 8;
+
+/// Returns the whole steps of two values as colours: of the first as three bits of which neighbouring steps differ in
+/// one, of the second as alpha, odd or even.
+pub(super) fn stepped<A: Arithmetic>(a: &mut A, [first, second]: [A::Real; 2]) -> [A::Real; 4] {
+    [0, 1, 2, 3].map(|channel| {
+        let (value, bits): (_, fn(u8) -> u8) = match channel {
+            3 => (second, |step| step << 3),
+            _ => (first, |step| step ^ (step >> 1)),
+        };
+        let bit = |step: u8| f32::from(bits(step) >> channel & 1);
+        let last = a.constant(bit(STEPS - 1));
+        (1..STEPS).rev().fold(last, |above, step| {
+            let (limit, below) = (a.constant(f32::from(step)), a.constant(bit(step - 1)));
+            a.select_less(value, limit, below, above)
+        })
+    })
+}

@@ -24,6 +24,8 @@ pub struct FragmentInput<'a, R> {
     pub taps: Taps<'a, R>,
     /// The list of the texel, where the shader reads it.
     pub list: List<'a, R>,
+    /// 1 over the clip-space w at the fragment, where [`etalon_scene::Shader::reads_w`].
+    pub reciprocal_w: R,
     /// The interpolated texture coordinates, where [`etalon_scene::Shader::uses_uv`]; zeros elsewhere.
     pub uv: [R; 2],
     /// The parameter block.

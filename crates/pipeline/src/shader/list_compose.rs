@@ -81,6 +81,7 @@ mod tests {
             texels: [[[0.0]; 4]; 2],
             taps: Taps::NONE,
             list: List::Known(&nodes),
+            reciprocal_w: [1.0],
             uv: [[0.0]; 2],
             params: &Params::default(),
         };

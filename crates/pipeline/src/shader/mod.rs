@@ -24,6 +24,7 @@ mod exported_facing;
 mod exported_sample;
 mod flat_color;
 mod flat_color_depth;
+mod flat_either;
 mod fog;
 mod frag_coord_color;
 mod frag_coord_depth;
@@ -46,6 +47,13 @@ mod sample_depth;
 mod sample_index;
 mod sampled_color;
 mod sampled_discard;
+mod stepped_frag_coord;
+mod stepped_linear;
+mod stepped_linear_centroid;
+mod stepped_linear_sample;
+mod stepped_perspective;
+mod stepped_perspective_centroid;
+mod stepped_perspective_sample;
 mod stochastic;
 mod texel_color;
 mod texel_color_all;
@@ -94,6 +102,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::ExportedSample => exported_sample::fragment(a, input),
         Shader::FlatColor => flat_color::fragment::<A>(input),
         Shader::FlatColorDepth => flat_color_depth::fragment(a, input),
+        Shader::FlatEither => flat_either::fragment::<A>(input),
         Shader::Fog => fog::fragment(a, input),
         Shader::FragCoordColor => frag_coord_color::fragment(a, input),
         Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
@@ -115,6 +124,13 @@ pub fn fragment<A: Arithmetic>(
         Shader::SampleIndex => sample_index::fragment(a, input),
         Shader::SampledColor => sampled_color::fragment::<A>(input),
         Shader::SampledDiscard => sampled_discard::fragment(a, input),
+        Shader::SteppedFragCoord => stepped_frag_coord::fragment(a, input),
+        Shader::SteppedLinear => stepped_linear::fragment(a, input),
+        Shader::SteppedLinearCentroid => stepped_linear_centroid::fragment(a, input),
+        Shader::SteppedLinearSample => stepped_linear_sample::fragment(a, input),
+        Shader::SteppedPerspective => stepped_perspective::fragment(a, input),
+        Shader::SteppedPerspectiveCentroid => stepped_perspective_centroid::fragment(a, input),
+        Shader::SteppedPerspectiveSample => stepped_perspective_sample::fragment(a, input),
         Shader::Stochastic => stochastic::fragment(a, input),
         Shader::TexelColor => texel_color::fragment::<A>(input),
         Shader::TexelColorAll => texel_color_all::fragment::<A>(input),

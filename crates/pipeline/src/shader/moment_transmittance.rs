@@ -131,6 +131,7 @@ mod tests {
             texels,
             taps: Taps::NONE,
             list: List::Unknown,
+            reciprocal_w: [1.0],
             uv: [[0.0]; 2],
             params,
         }

@@ -225,6 +225,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
             ]),
         ),
+        clips_points: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: a point outside of the clip volume is discarded",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the near and far planes is discarded",
+                "OpenGL 4.6: 13.7 Primitive Clipping: a point outside of the near and far planes is discarded",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

@@ -184,6 +184,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 16.2.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
             ]),
         ),
+        clips_points: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 2.18 Primitive Clipping: a point outside of the near and far planes is discarded",
+                "OpenGL ES 3.1: 12.4 Primitive Clipping: a point outside of the near and far planes is discarded",
+                "OpenGL ES 3.2: 12.5 Primitive Clipping: a point outside of the near and far planes is discarded",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

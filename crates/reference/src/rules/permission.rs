@@ -437,6 +437,8 @@ rules! {
     factor_clamp: FactorClamp,
     /// Averaging samples.
     resolve: Resolve,
+    /// True if a point outside of the clip volume is discarded; otherwise it may be.
+    clips_points: bool,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.

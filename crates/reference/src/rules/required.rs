@@ -155,6 +155,7 @@ fn vulkan(rows: &mut Vec<Required>) {
             Has(Feature::DepthBiasClamp),
             Has(Feature::DepthClamp),
             Has(Feature::IndependentBlend),
+            Has(Feature::LinearInterpolation),
             Has(Feature::SampleShading),
             Has(Feature::StorageCounters),
         ],

@@ -148,6 +148,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Resolve::CoarseAverage,
             "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),
+        clips_points: permit(
+            false,
+            "Vulkan: Primitive Clipping: a point outside of the clip volume may be discarded",
+        ),
         points_face_front: permit(
             true,
             "Vulkan: Fragment Shading, FrontFacing: fragments of other primitives than polygons are front-facing",

@@ -120,6 +120,10 @@ pub(super) fn rules() -> Rules {
             Resolve::Between,
             "WebGPU: GPURenderPassColorAttachment.resolveTarget: no resolve algorithm is stated",
         ),
+        clips_points: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
         points_face_front: permit(
             false,
             "WebGPU: 23.2.5: facing of points and lines is not asserted",

@@ -102,6 +102,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Direct3D 11.3: 17.6 Blending: as the API says",
         ),
         resolve: permit(Resolve::Average, "Direct3D 11.3: 19.2 Resolve: the average"),
+        clips_points: permit(
+            true,
+            "Yardstick: nothing outside of the clip volume is drawn",
+        ),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",

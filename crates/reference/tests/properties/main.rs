@@ -9,6 +9,7 @@ mod evidence;
 mod families;
 mod frames;
 mod golden;
+mod homogeneous;
 mod resolves;
 mod scenes;
 mod steps;

@@ -89,6 +89,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
         texels: inputs.texels.map(|texel| texel.map(|(v, _)| [v])),
         taps: Taps::NONE,
         list: List::Unknown,
+        reciprocal_w: [inputs.depth.0],
         uv: inputs.uv.map(|(v, _)| [v]),
         params: &inputs.params,
     };
@@ -150,6 +151,7 @@ proptest! {
                     texels: inputs.texels.map(|texel| texel.map(judged)),
                     taps: Taps::NONE,
         list: List::Unknown,
+                    reciprocal_w: judged(inputs.depth),
                     uv: inputs.uv.map(judged),
                     params: &inputs.params,
                 };

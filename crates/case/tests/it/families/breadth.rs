@@ -2,7 +2,9 @@
 
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::{ChannelEncoding, Feature, Requirement};
-use etalon_scene::{AdvancedBlend, Contents, LogicOperation, PrimitiveTopology, ProvokingVertex};
+use etalon_scene::{
+    AdvancedBlend, Contents, LogicOperation, PrimitiveTopology, ProvokingVertex, Shader,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The built-in cases below a path, all of them.
@@ -236,5 +238,64 @@ fn no_primitive_hides_which_vertex_provokes() {
                 case.id
             );
         }
+    }
+}
+
+#[test]
+fn clipping_meets_every_kind_of_w() {
+    let kinds: [(&str, fn(f32) -> bool); 6] = [
+        ("one", |w| w == 1.0),
+        ("another", |w| (2.0..=64.0).contains(&w)),
+        ("tiny", |w| w > 0.0 && w < 1e-5),
+        ("huge", |w| w > 1e5),
+        ("none", |w| w == 0.0),
+        ("behind", |w| w < 0.0),
+    ];
+    let cases = all_cases("cull/clipping/");
+    let vertices = || {
+        let draws = cases.iter().flat_map(|case| &case.scene.passes[0].draws);
+        draws.flat_map(|draw| {
+            draw.mesh
+                .vertices
+                .iter()
+                .map(move |v| (draw.topology, v.position))
+        })
+    };
+    for (kind, is_kind) in kinds {
+        assert!(vertices().any(|(_, [.., w])| is_kind(w)), "{kind}");
+    }
+    use PrimitiveTopology::{LineList, PointList, TriangleList};
+    for topology in [PointList, LineList, TriangleList] {
+        let own = || vertices().filter(|(t, _)| *t == topology);
+        assert!(
+            own().any(|(_, [_, _, z, w])| w > 0.0 && z < 0.0),
+            "{topology}: near"
+        );
+        assert!(
+            own().any(|(_, [_, _, z, w])| w > 0.0 && z > w),
+            "{topology}: far"
+        );
+        assert!(own().any(|(_, [.., w])| w < 0.0), "{topology}: behind");
+        assert!(
+            own().any(|(_, [x, _, _, w])| w > 0.0 && x.abs() > w),
+            "{topology}: side"
+        );
+    }
+    // 16 texels wide: half a million texels are 65,536 in clip space.
+    let reach = |[x, _, _, w]: [f32; 4]| if w > 0.0 { (x / w).abs() } else { 0.0 };
+    assert!(vertices().any(|(_, p)| reach(p) > 65_536.0));
+}
+
+#[test]
+fn interpolation_is_tried_in_every_way() {
+    let cases = all_cases("texture/interpolation/");
+    let draws = || cases.iter().flat_map(|case| &case.scene.passes[0].draws);
+    for shader in Shader::ALL {
+        let stepped = shader.name().starts_with("stepped_") || shader.flat_from_either();
+        let tried = draws().any(|draw| {
+            let w = draw.mesh.vertices.iter().map(|v| v.position[3]);
+            draw.shader == *shader && w.clone().any(|w| w != draw.mesh.vertices[0].position[3])
+        });
+        assert!(tried || !stepped, "{shader}");
     }
 }

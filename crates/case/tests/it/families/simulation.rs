@@ -97,7 +97,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
                     .mesh
                     .vertices
                     .iter()
-                    .all(|v| (0.0..=1.0).contains(&v.position[2]))
+                    .all(|v| (0.0..=1.0).contains(&v.position[2]) && v.position[3] == 1.0)
                 && draw.viewport.rect == [0.0, 0.0, size[0], size[1]]
                 && draw.viewport.depth == [0.0, 1.0]
                 && draw.scissor.is_none()

@@ -1,0 +1,228 @@
+//! Primitives that reach behind the eye, or farther than vertices are snapped.
+//!
+//! Triangles are not clipped: their edges are lines in homogeneous coordinates, and depths and attributes are those
+//! of the whole. Lines get new ends.
+
+use crate::linear::{UNITS, Varying};
+use crate::raster::{Planes, Vertex, plane_bias, viewport};
+use crate::steps::Steps;
+use etalon_frame::ChannelEncoding;
+use etalon_pipeline::{
+    CutEdge, DepthPlane, HomogeneousTriangle, Point, WindowVertex, clipped_segment, dot,
+    edge_value, front_facing, is_top_left, window_vertex,
+};
+use etalon_scene::{Draw, Interpolation};
+
+/// The farthest that a snapped vertex may lie from the corner of the picture, in sub-texel units.
+const FARTHEST: f64 = (1_u64 << 28) as f64;
+
+/// The texels beyond a viewport to which a line is drawn.
+const BEYOND: f64 = 64.0;
+
+fn window(draw: &Draw, vertex: &Vertex) -> WindowVertex {
+    window_vertex(vertex.position, &draw.viewport, UNITS as f64)
+}
+
+/// True if a vertex lies behind the eye or too far out to be snapped.
+pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
+    let [x, y, w] = window(draw, vertex);
+    let far = |v: f64| !((v / w).abs() <= FARTHEST);
+    w <= 0.0 || far(x) || far(y)
+}
+
+/// An edge with the side on which the triangle lies.
+enum Edge {
+    /// Between snapped vertices: clockwise on the screen.
+    Snapped([Point; 2]),
+    Cut(CutEdge),
+}
+
+/// A triangle that reaches behind the eye.
+pub(crate) struct CutTriangle {
+    vertices: [Vertex; 3],
+    homogeneous: HomogeneousTriangle,
+    edges: [Edge; 3],
+}
+
+impl CutTriangle {
+    /// Returns a triangle; `None` if all its vertices are snapped, or if it has no area.
+    pub(crate) fn new(draw: &Draw, vertices: [Vertex; 3]) -> Option<Self> {
+        let cut = vertices.each_ref().map(|v| is_cut(draw, v));
+        if cut == [false; 3] {
+            return None;
+        }
+        let homogeneous = HomogeneousTriangle::new(vertices.each_ref().map(|v| window(draw, v)));
+        let clockwise = homogeneous.determinant > 0.0;
+        let edges = [0, 1, 2].map(|i| {
+            let next = (i + 1) % 3;
+            if cut[i] || cut[next] {
+                return Edge::Cut(CutEdge::new(homogeneous.edge(i), clockwise));
+            }
+            let ends = [vertices[i].at, vertices[next].at];
+            Edge::Snapped(if clockwise { ends } else { [ends[1], ends[0]] })
+        });
+        Some(Self {
+            vertices,
+            homogeneous,
+            edges,
+        })
+    }
+
+    /// True if it faces front.
+    pub(crate) fn is_front(&self, draw: &Draw) -> bool {
+        let determinant = self.homogeneous.determinant;
+        // With y down it is negative where the area is positive.
+        let area = i64::from(determinant < 0.0) - i64::from(determinant > 0.0);
+        front_facing(area, draw.front_face)
+    }
+
+    /// The flat colour.
+    pub(crate) fn color(&self) -> [f32; 4] {
+        self.vertices[0].color
+    }
+
+    /// True if the sample at a point is covered.
+    pub(crate) fn covers(&self, at: Point) -> bool {
+        self.homogeneous.determinant != 0.0
+            && self.edges.iter().all(|edge| match edge {
+                Edge::Cut(edge) => edge.holds(at),
+                Edge::Snapped([p, q]) => {
+                    let value = edge_value(*p, *q, at);
+                    value > 0 || (value == 0 && is_top_left(*p, *q))
+                }
+            })
+    }
+
+    fn over_w(&self, value: impl Fn(&Vertex) -> f32) -> DepthPlane {
+        let values = self.vertices.each_ref().map(|v| f64::from(value(v)));
+        self.homogeneous.over_w(values)
+    }
+
+    /// Returns the greatest depth of what is seen, of clip space.
+    fn greatest_depth(&self, draw: &Draw) -> f64 {
+        let [left, top, right, bottom] = viewport(draw).map(|v| v as f64);
+        let w = self.homogeneous.vertices.map(|v| v[2]);
+        let z = self.vertices.each_ref().map(|v| f64::from(v.position[2]));
+        let each = |f: &dyn Fn(WindowVertex) -> f64| self.homogeneous.vertices.map(f);
+        let mut planes = vec![
+            w,
+            each(&|[x, _, w]| x - left * w),
+            each(&|[x, _, w]| right * w - x),
+            each(&|[_, y, w]| y - top * w),
+            each(&|[_, y, w]| bottom * w - y),
+        ];
+        if !draw.depth_clamp {
+            planes.extend([z, [0, 1, 2].map(|i| w[i] - z[i])]);
+        }
+        let corners = HomogeneousTriangle::clipped(planes).into_iter();
+        let depths = corners.map(|c| dot(c, z) / dot(c, w));
+        depths.filter(|z| z.is_finite()).fold(0.0, f64::max)
+    }
+
+    pub(crate) fn planes(
+        &self,
+        draw: &Draw,
+        interpolation: Interpolation,
+        encoding: Option<ChannelEncoding>,
+        steps: &impl Steps,
+    ) -> Planes {
+        let [near, far] = draw.viewport.depth;
+        let clip = self.over_w(|v| v.position[2]);
+        let [value, dx, dy] = clip.parts();
+        let (start, range) = (f64::from(near), f64::from(far) - f64::from(near));
+        let window = DepthPlane::of(start + range * value, range * dx, range * dy);
+        let largest = start + range * self.greatest_depth(draw);
+        let held = [near.min(far), near.max(far)];
+        let count = draw.clipping_distances().count_ones() as usize;
+        let negative = |n: &usize| self.vertices.iter().any(|v| v.distances[*n] < 0.0);
+        let distances = (0..count).filter(negative);
+        Planes {
+            window,
+            uv: draw.shader.uses_uv().then(|| {
+                [0, 1].map(|axis| match interpolation {
+                    Interpolation::Perspective => Varying::perspective(
+                        self.over_w(|v| v.uv[axis]),
+                        self.homogeneous.over_w([1.0; 3]),
+                    ),
+                    // No place behind the eye has a value that could be linear in the window.
+                    Interpolation::Linear => Varying::linear(DepthPlane::of(
+                        f64::from(self.vertices[0].uv[axis]),
+                        0.0,
+                        0.0,
+                    )),
+                })
+            }),
+            reciprocal_w: (draw.shader.reads_w())
+                .then(|| Varying::linear(self.homogeneous.over_w([1.0; 3]))),
+            clip,
+            range: if draw.depth_clamp {
+                [f32::MIN, f32::MAX]
+            } else {
+                held
+            },
+            clip_range: [f64::NEG_INFINITY, f64::INFINITY],
+            bias: plane_bias(draw, || window, largest, encoding, steps),
+            clamp: draw.depth_clamp.then_some(held),
+            clips: !draw.depth_clamp,
+            distances: distances.map(|n| self.over_w(|v| v.distances[n])).collect(),
+            leaves: true,
+            viewport: viewport(draw),
+        }
+    }
+}
+
+/// Returns a line with new ends where it reaches behind the eye, crosses the near or far plane or leads far out;
+/// `None` if nothing is left of it.
+pub(crate) fn line(draw: &Draw, ends: [Vertex; 2]) -> Option<[Vertex; 2]> {
+    let outside = |v: &Vertex| !draw.depth_clamp && !(0.0..=1.0).contains(&v.clip_z);
+    if !ends.iter().any(|v| is_cut(draw, v) || outside(v)) {
+        return Some(ends);
+    }
+    let windows = ends.each_ref().map(|v| window(draw, v));
+    let [left, top, right, bottom] = viewport(draw).map(|v| v as f64);
+    let beyond = BEYOND * UNITS as f64;
+    let each = |f: &dyn Fn(WindowVertex) -> f64| windows.map(f);
+    let mut planes = vec![
+        each(&|[_, _, w]| w),
+        each(&|[x, _, w]| x - (left - beyond) * w),
+        each(&|[x, _, w]| (right + beyond) * w - x),
+        each(&|[_, y, w]| y - (top - beyond) * w),
+        each(&|[_, y, w]| (bottom + beyond) * w - y),
+    ];
+    if !draw.depth_clamp {
+        planes.push(ends.each_ref().map(|v| f64::from(v.position[2])));
+        planes.push(
+            ends.each_ref()
+                .map(|v| f64::from(v.position[3]) - f64::from(v.position[2])),
+        );
+    }
+    let [near, far] = draw.viewport.depth.map(f64::from);
+    let cut = clipped_segment(planes)?.map(|t| {
+        let mix = |a: f64, b: f64| a * (1.0 - t) + b * t;
+        let [a, b] = &ends;
+        let both = |value: fn(&Vertex) -> f32| mix(f64::from(value(a)), f64::from(value(b)));
+        let [x, y, w] = [0, 1, 2].map(|axis| mix(windows[0][axis], windows[1][axis]));
+        let snap = |v: f64| (v / w + 0.5).floor() as i64;
+        let z = both(|v| v.position[2]) / w;
+        let mixed = |a: f32, b: f32| mix(f64::from(a), f64::from(b)) as f32;
+        Vertex {
+            position: std::array::from_fn(|i| mixed(a.position[i], b.position[i])),
+            at: Point {
+                x: snap(x),
+                y: snap(y),
+            },
+            z: (near + (far - near) * z) as f32,
+            clip_z: if draw.depth_clamp {
+                z
+            } else {
+                z.clamp(0.0, 1.0)
+            } as f32,
+            color: a.color,
+            uv: std::array::from_fn(|i| mixed(a.uv[i], b.uv[i])),
+            distances: std::array::from_fn(|n| mixed(a.distances[n], b.distances[n])),
+        }
+    });
+    cut.iter()
+        .all(|v| v.position[3] > 0.0 && v.z.is_finite())
+        .then_some(cut)
+}

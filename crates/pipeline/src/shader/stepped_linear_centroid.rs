@@ -1,0 +1,3 @@
+//! Twin of `shaders/stepped_linear_centroid.wgsl`.
+
+pub(super) use super::stepped_perspective::fragment;

@@ -1,0 +1,209 @@
+//! Values that are interpolated over a primitive, as far as snapping leaves them open.
+
+use crate::depth::Depth;
+use crate::interval::Interval;
+use crate::snap::SnapBox;
+use etalon_pipeline::{DepthPlane, Point};
+
+/// The roundings of a quotient of two interpolated values: both, and the quotient. Texts promise no other precision
+/// than that of floating-point (Vulkan, Basic Polygon Rasterization; OpenGL 4.6, 2.3.4.1 and 14.6.1).
+const ROUNDINGS: f64 = 4.0;
+
+/// A value over a primitive.
+#[derive(Clone, Debug)]
+pub(crate) enum Varying {
+    /// Linear over the window.
+    Linear(Depth),
+    /// Linear in space: a quotient of two values that are linear over the window.
+    Perspective(Perspective),
+}
+
+/// A value that is linear in space.
+#[derive(Clone, Debug)]
+pub(crate) struct Perspective {
+    /// The planes of the value over w and of 1 over w, for each of the positions that legal snapping allows.
+    choices: Vec<[DepthPlane; 2]>,
+    /// How far a position may be off besides, right or left and up or down.
+    off: [f64; 2],
+    error: f64,
+    /// The range of the vertices' values, with the error of interpolating between them.
+    hull: Interval,
+}
+
+impl Varying {
+    /// True if it is the same all over the primitive.
+    pub(crate) fn is_flat(&self) -> bool {
+        match self {
+            Self::Linear(depth) => depth.is_flat(),
+            Self::Perspective(_) => false,
+        }
+    }
+
+    /// The range of the vertices' values.
+    pub(crate) fn hull(&self) -> Interval {
+        match self {
+            Self::Linear(depth) => depth.hull,
+            Self::Perspective(value) => value.hull,
+        }
+    }
+
+    /// Returns the value at a point inside.
+    pub(crate) fn at(&self, point: Point) -> Interval {
+        match self {
+            Self::Linear(depth) => depth.at(point),
+            Self::Perspective(value) => value.within([point; 2]).clamp_to(value.hull),
+        }
+    }
+
+    /// Returns the hull over the texel that holds a point, inside of the primitive or not.
+    pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
+        match self {
+            Self::Linear(depth) => depth.over_texel(point, units),
+            Self::Perspective(value) => {
+                let corner = |v: i64| v.div_euclid(units) * units;
+                let [x, y] = [corner(point.x), corner(point.y)];
+                let (low, high) = (
+                    Point { x, y },
+                    Point {
+                        x: x + units,
+                        y: y + units,
+                    },
+                );
+                value.within([low, high])
+            }
+        }
+    }
+}
+
+impl Perspective {
+    /// The value over a triangle in front of the eye, from its values and w at the vertices. A quotient of functions
+    /// that are linear in each coordinate of a vertex alone, its extremes lie at the corners of the snapped positions.
+    pub(crate) fn over(
+        boxes: [SnapBox; 3],
+        w: [f64; 3],
+        values: [f64; 3],
+        grid: i64,
+        float_error: f64,
+    ) -> Self {
+        let corners = |b: SnapBox| {
+            let all = b.corners();
+            all.into_iter().take(if b.is_exact() { 1 } else { 4 })
+        };
+        let (value, whole) = ([0, 1, 2].map(|i| values[i] / w[i]), w.map(|w| 1.0 / w));
+        let choices = corners(boxes[0]).flat_map(|a| {
+            corners(boxes[1]).flat_map(move |b| {
+                corners(boxes[2]).map(move |c| {
+                    let points = [a, b, c];
+                    [
+                        DepthPlane::new(points, value),
+                        DepthPlane::new(points, whole),
+                    ]
+                })
+            })
+        });
+        // Positions may be interpolated before or after snapping: one step of the grid.
+        Self::of(choices.collect(), [grid as f64; 2], values, float_error)
+    }
+
+    /// The value with known planes of it over w and of 1 over w, at positions that may be off by so much.
+    pub(crate) fn of(
+        choices: Vec<[DepthPlane; 2]>,
+        off: [f64; 2],
+        values: [f64; 3],
+        float_error: f64,
+    ) -> Self {
+        let hull = values
+            .map(Interval::exact)
+            .into_iter()
+            .reduce(Interval::hull);
+        let hull = hull.unwrap_or(Interval::EVERYTHING);
+        let error = hull.low.abs().max(hull.high.abs()) * float_error * ROUNDINGS;
+        Self {
+            choices,
+            off,
+            error,
+            hull: hull.widen(error),
+        }
+    }
+
+    /// Returns the values over a rectangle: along each axis the quotient is monotone wherever w is positive.
+    fn within(&self, [low, high]: [Point; 2]) -> Interval {
+        let [right, down] = self.off;
+        let across = [low.x as f64 - right, high.x as f64 + right];
+        let along = [low.y as f64 - down, high.y as f64 + down];
+        let mut all: Option<Interval> = None;
+        for [value, whole] in &self.choices {
+            for x in across {
+                for y in along {
+                    let whole = at(whole, x, y);
+                    if whole <= 0.0 {
+                        return Interval::EVERYTHING;
+                    }
+                    let quotient = Interval::exact(at(value, x, y) / whole);
+                    all = Some(all.map_or(quotient, |all| all.hull(quotient)));
+                }
+            }
+        }
+        all.unwrap_or(self.hull).widen(self.error)
+    }
+}
+
+/// Returns the value of a plane at a point between units.
+fn at(plane: &DepthPlane, x: f64, y: f64) -> f64 {
+    let [value, dx, dy] = plane.parts();
+    value + x * dx + y * dy
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNITS: i64 = 256;
+
+    fn exact(x: i64, y: i64) -> SnapBox {
+        let at = Point {
+            x: x * UNITS,
+            y: y * UNITS,
+        };
+        SnapBox { low: at, high: at }
+    }
+
+    fn triangle(values: [f64; 3]) -> Perspective {
+        let boxes = [exact(0, 0), exact(16, 0), exact(0, 16)];
+        Perspective::over(boxes, [1.0, 4.0, 1.0], values, UNITS / 16, 1e-5)
+    }
+
+    #[test]
+    fn a_perspective_is_near_to_the_nearer_vertex() {
+        let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
+        // Halfway in the window is a fifth of the way in space.
+        let Interval { low, high } = value.at(Point { x: 8 * UNITS, y: 0 });
+        assert!(low < 2.0 && high > 2.0 && high - low < 0.1, "{low} {high}");
+        let end = value.at(Point {
+            x: 16 * UNITS,
+            y: 0,
+        });
+        assert!(end.high < 10.001 && end.low > 9.7);
+    }
+
+    #[test]
+    fn a_texel_holds_its_points() {
+        let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
+        let point = Point {
+            x: 8 * UNITS + 77,
+            y: 2 * UNITS + 30,
+        };
+        let (one, whole) = (value.at(point), value.over_texel(point, UNITS));
+        assert!(whole.low < one.low && one.high < whole.high);
+    }
+
+    #[test]
+    fn beyond_the_horizon_anything_is_open() {
+        let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
+        let far = Point {
+            x: 64 * UNITS,
+            y: 0,
+        };
+        assert_eq!(value.over_texel(far, UNITS), Interval::EVERYTHING);
+    }
+}

@@ -1,0 +1,19 @@
+// The whole steps of the texture coordinates, interpolated linearly in the window:
+// of the first as three bits of which neighbouring steps differ in one, of the second as alpha, odd or even.
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(linear, center) uv: vec2f,
+}
+
+@vertex
+fn vs(@location(0) position: vec4f, @location(2) uv: vec2f) -> Varying {
+    return Varying(position, uv);
+}
+
+@fragment
+fn fs(in: Varying) -> @location(0) vec4f {
+    let steps = vec2i(clamp(floor(in.uv), vec2f(0.0), vec2f(7.0)));
+    let bits = steps.x ^ (steps.x >> 1u);
+    return vec4f(vec4i(bits, bits >> 1u, bits >> 2u, steps.y) & vec4i(1));
+}
