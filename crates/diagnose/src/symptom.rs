@@ -8,8 +8,8 @@
 //! bug: the runner rechecks so many records of each, reports group by it.
 
 use etalon_frame::{
-    Aspect, Band, ChannelMismatch, CounterKind, Effect, Event, Operation, Rejection, Step, Story,
-    Target,
+    Aspect, Band, ChannelMismatch, CounterKind, Effect, ErrorKind, Event, Operation, Rejection,
+    Step, Story, Target,
 };
 use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
@@ -70,8 +70,8 @@ pub enum Subject {
         /// Its exit status.
         exit: Option<i32>,
     },
-    /// The backend failed: its error without numbers, which are addresses, sizes and times.
-    Error(String),
+    /// The backend failed.
+    Error(ErrorKind),
     /// Nothing but the verdict is known.
     Unknown,
 }
@@ -135,16 +135,8 @@ impl Symptom {
                 ..bare
             };
         }
-        let failed = matches!(
-            record.verdict,
-            Verdict::DeviceLost | Verdict::ResourceError | Verdict::InternalError
-        );
-        let words = record.message.chars().filter(|c| !c.is_ascii_digit());
-        let subject = if failed {
-            Subject::Error(words.collect())
-        } else {
-            Subject::Unknown
-        };
+        let error = record.error.clone();
+        let subject = error.map_or(Subject::Unknown, Subject::Error);
         Self { subject, ..bare }
     }
 
@@ -163,7 +155,7 @@ impl Symptom {
     }
 
     /// Returns the symptom that all cases of one bug have, in most of its cases: that of a picture in any attachment,
-    /// of an error in any words.
+    /// of any error with this verdict.
     pub fn broad(self) -> Self {
         let subject = match self.subject {
             Subject::Error(_) => Subject::Unknown,
@@ -193,7 +185,6 @@ impl Symptom {
     pub fn text(&self) -> String {
         let mut words = match &self.subject {
             Subject::Picture(aspect) => vec![aspect.name().to_owned()],
-            Subject::Error(words) => vec![words.clone()],
             Subject::Unknown => Vec::new(),
             other => vec![other.to_string()],
         };
@@ -244,7 +235,7 @@ impl fmt::Display for Subject {
                     (None, None) => Ok(()),
                 }
             }
-            Self::Error(words) => f.write_str(words),
+            Self::Error(kind) => kind.fmt(f),
             Self::Unknown => f.write_str("unknown"),
         }
     }
@@ -566,14 +557,22 @@ mod tests {
         crash.process.as_mut().unwrap().signal = Some(11);
         assert!(!died.covers(&Symptom::of(&crash)));
 
-        let error = |message: &str| {
+        let error = |condition: &str, message: &str| {
             let mut record = Record::new("a/b", "cpu", Verdict::InternalError);
+            let condition = condition.to_owned();
+            let code = None;
+            record.error = Some(ErrorKind::Internal { condition, code });
             record.message = message.to_owned();
             Symptom::of(&record)
         };
-        assert!(error("slot 3 is free").covers(&error("slot 12 is free")));
-        assert!(!error("slot 3 is free").covers(&error("slot 3 is taken")));
-        assert_eq!(error("a").broad(), error("b").broad());
+        let free = error("a slot is free", "slot 3");
+        assert!(free.covers(&error("a slot is free", "slot 12")));
+        assert!(!free.covers(&error("a slot is taken", "slot 3")));
+        assert_eq!(free.clone().broad(), error("b", "").broad());
+        assert_eq!(free.to_string(), "a slot is free");
+        let mut old = Record::new("a/b", "cpu", Verdict::InternalError);
+        old.message = "slot 3 is free".to_owned();
+        assert_eq!(Symptom::of(&old), free.broad());
     }
 
     /// The names of the operations that decide a colour of the attachment `c`.

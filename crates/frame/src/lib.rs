@@ -19,6 +19,7 @@ mod contents;
 mod counter;
 mod distance;
 mod encoding;
+mod error_kind;
 mod event;
 mod feature;
 mod format;
@@ -44,6 +45,7 @@ pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use distance::Distance;
 pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
+pub use error_kind::ErrorKind;
 pub use event::{
     BlendedChannel, Coverage, DepthTest, Effect, Event, Origin, Rejection, ResolveChoice,
     SceneName, Side, Step, Target,

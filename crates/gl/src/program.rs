@@ -1,7 +1,7 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
 use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT, STENCIL_EXPORT};
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
@@ -85,10 +85,7 @@ impl Programs {
         if let Some(program) = self.shaders.get(&key) {
             return Ok(*program);
         }
-        let fail = |message| BackendError::Shader {
-            shader: shader.name().to_owned(),
-            message,
-        };
+        let fail = |message: String| BackendError::shader(shader.name(), message);
         let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
@@ -396,17 +393,16 @@ fn link(
     stages: &[(u32, String)],
 ) -> Result<glow::Program, BackendError> {
     let gl = &context.gl;
-    let fail = |message: String| BackendError::Shader {
-        shader: name.to_owned(),
-        message,
-    };
+    let fail = |message: String| BackendError::shader(name, message);
     // SAFETY: the context is current and all objects are its own.
     unsafe {
-        let program = gl.create_program().map_err(|e| refused("a program", e))?;
+        let program = gl
+            .create_program()
+            .map_err(|e| BackendError::refused("a program", e))?;
         for (stage, source) in stages {
             let shader = gl
                 .create_shader(*stage)
-                .map_err(|e| refused("a shader", e))?;
+                .map_err(|e| BackendError::refused("a shader", e))?;
             gl.shader_source(shader, source);
             gl.compile_shader(shader);
             if !gl.get_shader_compile_status(shader) {

@@ -1,7 +1,7 @@
 //! Reading attachments back as codes.
 
 use crate::codes;
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::format::gl_format;
 use crate::pool::Pool;
 use crate::program::{Programs, Reader, View};
@@ -204,8 +204,8 @@ impl Reading<'_> {
         let context = self.context;
         let gl = &context.gl;
         let Storage::Texture(part) = surface.storage else {
-            return Err(BackendError::Internal(
-                "a renderbuffer cannot be fetched from".to_owned(),
+            return Err(BackendError::internal(
+                "a renderbuffer cannot be fetched from",
             ));
         };
         let samples = surface.samples();
@@ -221,7 +221,10 @@ impl Reading<'_> {
         let target = self.pool.surface(context, SurfaceKind::Fetched, size)?;
         if !target.is_complete() {
             target.delete(context);
-            return Err(refused("a framebuffer for reading back", "incomplete"));
+            return Err(BackendError::refused(
+                "a framebuffer for reading back",
+                "incomplete",
+            ));
         }
         state::reset(context);
         let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, ..) if f.has_stencil());

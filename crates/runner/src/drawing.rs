@@ -183,7 +183,7 @@ impl WorkerProcess {
             Some(error) => Err(Failure::Backend(error)),
             None if frames.len() == due.frames => Ok(frames),
             None => {
-                let error = BackendError::Internal("no frame came back".to_owned());
+                let error = BackendError::internal("no frame came back");
                 Err(Failure::Backend(error))
             }
         };

@@ -2,7 +2,7 @@
 //! without staging copies.
 
 use crate::device::Device;
-use crate::error::{Check, internal};
+use crate::error::Check;
 use crate::recording;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -122,10 +122,10 @@ impl Buffer {
         {
             return Ok(at);
         }
-        Err(internal(format!(
-            "{length} bytes at {offset} leave a buffer of {}",
-            self.size
-        )))
+        Err(BackendError::internal_of(
+            "a range leaves its buffer",
+            format!("{length} bytes at {offset} of {}", self.size),
+        ))
     }
 
     pub(crate) fn destroy(&self, device: &Device) {

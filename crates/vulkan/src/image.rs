@@ -1,7 +1,7 @@
 //! Images with their memory and views.
 
 use crate::device::Device;
-use crate::error::{Check, internal};
+use crate::error::Check;
 use crate::format;
 use crate::state;
 use ash::vk;
@@ -239,7 +239,7 @@ impl Image {
         let found = self.views.iter().find(|(aspects, _)| *aspects == mask);
         found
             .map(|(_, view)| *view)
-            .ok_or_else(|| internal(format!("no view of the aspects {mask:?}")))
+            .ok_or_else(|| BackendError::internal_of("no view of the aspects", format!("{mask:?}")))
     }
 
     /// Returns the view of all aspects.

@@ -434,9 +434,10 @@ fn attributes(
             1 => (vk::Format::R32G32B32A32_SFLOAT, offset_of!(Vertex, color)),
             2 => (vk::Format::R32G32_SFLOAT, offset_of!(Vertex, uv)),
             other => {
-                return Err(internal(format!(
-                    "no vertex attribute has location {other}"
-                )));
+                return Err(BackendError::internal_of(
+                    "no vertex attribute has this location",
+                    other.to_string(),
+                ));
             }
         };
         Ok(vk::VertexInputAttributeDescription {

@@ -35,10 +35,7 @@ pub(crate) struct Modules {
 
 /// Translates a WGSL file.
 pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendError> {
-    let fail = |message: String| BackendError::Shader {
-        shader: name.to_owned(),
-        message,
-    };
+    let fail = |message: String| BackendError::shader(name, message);
     let module =
         naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
     let capabilities = Capabilities::DUAL_SOURCE_BLENDING

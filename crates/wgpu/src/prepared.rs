@@ -364,8 +364,9 @@ impl Prepared for PreparedScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            let message = "read back before anything was drawn".to_owned();
-            return Err(BackendError::Internal(message));
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
+            ));
         }
         let source = |(index, end): &(usize, PathEnd)| {
             let attachment = &self.attachments[*index];

@@ -108,11 +108,8 @@ impl Faulty {
                 self.write(&[16, 0, 0, 0, 1, 0]);
                 std::process::exit(0)
             }
-            ProcessFault::Lost => Err(BackendError::DeviceLost(planted())),
-            ProcessFault::Refused => Err(BackendError::Resource {
-                what: "a buffer".to_owned(),
-                message: planted(),
-            }),
+            ProcessFault::Lost => Err(BackendError::lost(planted())),
+            ProcessFault::Refused => Err(BackendError::refused("a buffer", planted())),
             ProcessFault::Chatter => {
                 for line in 0..100_000 {
                     say!("line {line} of a long output");

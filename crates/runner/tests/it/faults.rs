@@ -56,15 +56,9 @@ fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
         }
         // The picture is changed behind it.
         "wrong" => Ok(()),
-        "lost" => Err(BackendError::DeviceLost(word())),
-        "resource" => Err(BackendError::Resource {
-            what: "a buffer".to_owned(),
-            message: word(),
-        }),
-        "shader" => Err(BackendError::Shader {
-            shader: "flat_color".to_owned(),
-            message: word(),
-        }),
+        "lost" => Err(BackendError::lost(word())),
+        "resource" => Err(BackendError::refused("a buffer", word())),
+        "shader" => Err(BackendError::shader("flat_color", word())),
         "not-supported" => {
             let feature = Feature::SeparateStencilMasks;
             Err(BackendError::NotSupported(Requirement::Feature(feature)))
