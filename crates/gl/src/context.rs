@@ -261,9 +261,9 @@ impl Names {
 
     /// Returns the part of `GL_VERSION` that names the driver's version: `Mesa 22.3.6`.
     pub(crate) fn driver_version(&self) -> &str {
-        let rest = self.version.trim_start_matches("OpenGL ES ");
-        let rest = rest.split_once(' ').map_or("", |(_, rest)| rest);
-        rest.trim_start_matches("(Core Profile) ").trim()
+        let version = self.version.trim_start_matches("OpenGL ES ");
+        let driver = version.split_once(' ').map_or("", |(_, driver)| driver);
+        driver.trim_start_matches("(Core Profile) ").trim()
     }
 }
 

@@ -150,8 +150,8 @@ impl Pool {
 
     /// Returns a query of a target.
     pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
-        if let Some(at) = self.queries.iter().position(|q| q.target == target) {
-            return Ok(self.queries.swap_remove(at));
+        if let Some(index) = self.queries.iter().position(|q| q.target == target) {
+            return Ok(self.queries.swap_remove(index));
         }
         // SAFETY: the context is current.
         let object = unsafe { context.gl.create_query() }

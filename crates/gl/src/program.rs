@@ -224,14 +224,14 @@ fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
         .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
         .map(str::len)
         .sum();
-    let (directives, rest) = body.split_at(directives);
+    let (directives, code) = body.split_at(directives);
     let extension = if context.caps.es && context.caps.version >= (3, 2) {
         String::new()
     } else {
         format!("#extension {ADVANCED_BLEND} : require\n")
     };
     let word = blend_support(mode);
-    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
+    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{code}")
 }
 
 /// Returns true if naga can write a shader in the context's GLSL.
@@ -349,9 +349,9 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
     let assigned = fragment
         .split_once("gl_SampleMask = ")
-        .and_then(|(before, rest)| Some((before, rest.split_once(';')?)));
-    let (before, (value, rest)) = assigned.ok_or("naga assigns no sample mask")?;
-    let text = format!("{before}gl_SampleMask[0] = int({value});{rest}");
+        .and_then(|(before, behind)| Some((before, behind.split_once(';')?)));
+    let (before, (value, behind)) = assigned.ok_or("naga assigns no sample mask")?;
+    let text = format!("{before}gl_SampleMask[0] = int({value});{behind}");
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
     Ok(if es && !text.contains(EXTENSION) {
         format!("{version}\n{EXTENSION}{body}")
@@ -364,10 +364,10 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
 /// naga knows nothing.
 fn with_reference(fragment: &str) -> Result<String, String> {
     let declared = format!("layout(location = {STENCIL_REFERENCE}) out int ");
-    let (before, rest) = fragment
+    let (before, behind) = fragment
         .split_once(&declared)
         .ok_or("naga declares no stencil reference")?;
-    let (name, after) = rest.split_once(';').ok_or("naga declares no output")?;
+    let (name, after) = behind.split_once(';').ok_or("naga declares no output")?;
     let text = format!("{before}{}", after.trim_start());
     let text = text.replace(&format!("{name} = "), "gl_FragStencilRefARB = ");
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;

@@ -195,10 +195,10 @@ impl Image {
         if !key.usage.intersects(viewed) {
             return Ok(());
         }
-        let all = format::aspect_mask(key.format);
-        let mut masks = vec![all];
+        let aspects = format::aspect_mask(key.format);
+        let mut masks = vec![aspects];
         let both = vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL;
-        if all == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
+        if aspects == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
             masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
         }
         for mask in masks {
@@ -206,7 +206,7 @@ impl Image {
             self.views.push((mask, view));
         }
         if let Some(format) = unconverted {
-            self.unconverted = Some(self.create_view(device, format, all)?);
+            self.unconverted = Some(self.create_view(device, format, aspects)?);
         }
         Ok(())
     }
