@@ -7,7 +7,7 @@ use crate::interruption::listen;
 use crate::reduction::{DriverOracle, confirm, file_name};
 use etalon_case::{Case, build};
 use etalon_diagnose::Symptom;
-use etalon_explore::{Candidate, Reduction};
+use etalon_explore::{Candidate, MOST_DRAWS, Reduction};
 use etalon_record::{Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use std::path::{Path, PathBuf};
@@ -88,7 +88,7 @@ pub(crate) fn smallest(
         let trials = Trials::new(launch.clone(), worker, timeout);
         let mut judge = DriverOracle::new(trials, record.clone(), timeout, Some(stop));
         judge.alone = alone;
-        let reduction = judge.reduce(failing.clone(), &limits);
+        let reduction = judge.reduce(failing.clone(), &limits, MOST_DRAWS);
         match judge.error {
             Some(error) => Err(Failure::incomplete(format!(
                 "the worker of {name} could not be started again: {error}"
@@ -189,13 +189,13 @@ fn repeat(
     let hung = |records: &[Record]| records.iter().any(|r| r.verdict == Verdict::Timeout);
     while processes < if hung(&records) { HUNG } else { PROCESSES } {
         processes += 1;
-        let mut own = match worker.take() {
+        let mut running = match worker.take() {
             Some(worker) => worker,
             None => Worker::start(launch).map_err(Failure::incomplete)?,
         };
         let mut ended = false;
         for _ in 0..DRAWINGS {
-            let (record, ends) = own.record(case, timeout);
+            let (record, ends) = running.record(case, timeout);
             if record.verdict == Verdict::NotSupported {
                 let (name, message) = (&launch.adapter, record.message);
                 return Err(Failure::usage(format!("{name} does not support {message}")));
@@ -207,7 +207,7 @@ fn repeat(
             }
         }
         if !ended {
-            warm.get_or_insert(own);
+            warm.get_or_insert(running);
         }
     }
     let worker = match warm {

@@ -265,6 +265,23 @@ pub(crate) fn names(operations: &[Operation]) -> String {
     names.join(", ")
 }
 
+/// Returns the clause that the driver violates: that of the last operation that cites one. Coverage cites one for
+/// primitives that lie elsewhere, and so is the last to be named. `None` if pictures must be the same, which no single
+/// operation decides.
+pub fn violated_clause(story: &Story) -> Option<&str> {
+    if invariance(&story.events).is_some() {
+        return None;
+    }
+    let cited = |coverage: bool| {
+        let mut events = story.events.iter().rev();
+        events.find_map(|event| {
+            let counts = (event.operation() == Operation::Coverage) == coverage;
+            event.citation.as_deref().filter(|_| counts)
+        })
+    };
+    cited(false).or_else(|| cited(true))
+}
+
 /// Returns the name of the invariance of a story about two pictures that must be the same.
 fn invariance(events: &[Event]) -> Option<String> {
     events.iter().find_map(|event| match &event.step {
@@ -275,8 +292,8 @@ fn invariance(events: &[Event]) -> Option<String> {
 
 /// Returns the side on which the wrong values of an aspect lie.
 fn direction(record: &Record, aspect: Aspect) -> Direction {
-    let all = record.wrong.iter().flat_map(|texel| &texel.channels);
-    let of_aspect = || all.clone().filter(|m| m.aspect == aspect);
+    let channels = record.wrong.iter().flat_map(|texel| &texel.channels);
+    let of_aspect = || channels.clone().filter(|m| m.aspect == aspect);
     let order = |m: &ChannelMismatch, code| m.encoding.order_of_code(code);
     let high = of_aspect().any(|m| order(m, m.actual) > order(m, m.high));
     let low = of_aspect().any(|m| order(m, m.actual) < order(m, m.low));
@@ -315,20 +332,20 @@ fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
         let stores = |e: &Event| matches!(&e.effect, Effect::Stores(target) if concerns(target));
         let keeps = |e: &Event| matches!(&e.effect, Effect::Keeps(target) if concerns(target));
         drawn = true;
-        if let Some(at) = group.iter().position(stores) {
+        if let Some(stored) = group.iter().position(stores) {
             deciding.clear();
             let ends = |e: &&Event| match &e.effect {
                 Effect::Stores(target) | Effect::Keeps(target) => target.aspect == aspect,
                 _ => false,
             };
-            let before = group[..at].iter().rev().take_while(|e| !ends(e));
+            let before = group[..stored].iter().rev().take_while(|e| !ends(e));
             let mut before = before.map(Event::operation);
             if aspect == Aspect::Color
                 && let Some(operation) = before.find(|o| COMPUTED.contains(o))
             {
                 add(&mut deciding, operation);
             }
-            add(&mut deciding, group[at].operation());
+            add(&mut deciding, group[stored].operation());
         } else if let Some(kept) = group.iter().find(|e| keeps(e)) {
             add(&mut deciding, kept.operation());
         } else if let Some(event) = rejection(group) {
@@ -531,9 +548,9 @@ mod tests {
 
     #[test]
     fn a_story_of_an_earlier_format_decides_nothing() {
-        let told = r#"[{"at":"pass 0, draw 0","operation":"blend","detail":"c holds 1"}]"#;
+        let sentences = r#"[{"at":"pass 0, draw 0","operation":"blend","detail":"c holds 1"}]"#;
         let mut old = record(30, Vec::new());
-        old.story = Some(serde_json::from_str(told).unwrap());
+        old.story = Some(serde_json::from_str(sentences).unwrap());
         assert_eq!(Symptom::of(&old).broad().text(), "color too high");
     }
 
@@ -674,6 +691,26 @@ mod tests {
             with(Returned::Wrote(Vec::new()), store(0, "c")),
             "logic operation, store color"
         );
+    }
+
+    #[test]
+    fn the_last_cited_operation_is_violated_and_coverage_only_alone() {
+        let cited = |event: Event, clause: &str| Event {
+            citation: Some(clause.to_owned()),
+            ..event
+        };
+        let mut events = vec![cited(coverage(0), "Coverage")];
+        let clause = |events: &[Event]| {
+            let story = story(events.to_vec());
+            violated_clause(&story).map(str::to_owned)
+        };
+        assert_eq!(clause(&events).as_deref(), Some("Coverage"));
+        events.insert(0, cited(blend(0), "Blending"));
+        events.push(store(0, "c"));
+        assert_eq!(clause(&events).as_deref(), Some("Blending"));
+        let relation = Step::Relation("repeat".to_owned());
+        events.push(event(Origin::Pass(0), relation, Effect::None));
+        assert_eq!(clause(&events), None);
     }
 
     #[test]

@@ -4,11 +4,12 @@ use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::output::{summarize, summarize_json};
 use crate::reducing::{Failing, smallest};
-use crate::reduction::{Shown, TIMEOUT};
+use crate::reduction::TIMEOUT;
 use clap::Args;
 use etalon_diagnose::Symptom;
 use etalon_explore::{Reduction, keys, leaves, states};
 use etalon_record::Record;
+use etalon_report::ReducedCase;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let document = candidate.document.clone();
     let timeout = Duration::from_secs_f64(arguments.timeout);
     let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
-    let told = Told {
+    let report = Told {
         arguments,
         before: &document["scene"],
         reduction: &smallest.reduction,
@@ -61,14 +62,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         seconds: smallest.seconds,
     };
     let path = arguments.out.join(format!("{name}.json"));
-    let text = serde_json::to_string_pretty(&told.document())
+    let text = serde_json::to_string_pretty(&report.document())
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
     fs::create_dir_all(&arguments.out)
         .and_then(|()| fs::write(&path, text + "\n"))
         .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
     match arguments.format {
-        Format::Text => summarize(&told.text(&path.display().to_string())),
-        Format::Json => summarize_json(&told.json(&path.display().to_string()))?,
+        Format::Text => summarize(&report.text(&path.display().to_string())),
+        Format::Json => summarize_json(&report.json(&path.display().to_string()))?,
     }
     Ok(0)
 }
@@ -90,19 +91,23 @@ impl Told<'_> {
         &self.reduction.smallest.document["scene"]
     }
 
-    fn shown(&self) -> Shown<'_> {
-        Shown {
-            document: &self.reduction.smallest.document,
+    fn reduced(&self) -> ReducedCase<'_> {
+        ReducedCase {
             record: self.record,
             symptom: self.symptom,
+            states: states(self.scene()),
         }
     }
 
     /// Returns the document with what it shows.
     fn document(&self) -> Value {
         let Arguments { case, adapter, .. } = self.arguments;
-        self.shown()
-            .described(&format!("Reduced from {case} on {adapter}."))
+        let about = self
+            .reduced()
+            .about(&format!("Reduced from {case} on {adapter}."));
+        let mut document = self.reduction.smallest.document.clone();
+        document["about"] = json!(about);
+        document
     }
 
     fn text(&self, path: &str) -> String {
@@ -124,16 +129,16 @@ impl Told<'_> {
             } else {
                 ", a limit: more may be left to reduce"
             },
-            self.shown().states(),
+            self.reduced().states(),
             if self.record.verdict.is_violation() {
                 "violated".to_owned()
             } else {
                 self.record.verdict.to_string()
             },
             self.symptom,
-            self.shown().sentence(),
+            self.reduced().sentence(),
         );
-        if let Some(clause) = self.shown().clause() {
+        if let Some(clause) = self.reduced().clause() {
             text.push_str(&format!("  [{clause}]\n"));
         }
         text.push_str(&format!("Case file: {path}\n"));
@@ -154,8 +159,8 @@ impl Told<'_> {
             "states": states(self.scene()),
             "first_violation": self.first.to_string(),
             "violation": self.symptom.to_string(),
-            "sentence": self.shown().sentence(),
-            "clause": self.shown().clause(),
+            "sentence": self.reduced().sentence(),
+            "clause": self.reduced().clause(),
         })
     }
 }
