@@ -146,8 +146,8 @@ impl Finding {
         ];
         for (key, empty) in parts {
             if empty {
-                let at = text.find(&format!("\"{key}\"")).unwrap_or(0);
-                let line = text[..at].matches('\n').count() + 1;
+                let start = text.find(&format!("\"{key}\"")).unwrap_or(0);
+                let line = text[..start].matches('\n').count() + 1;
                 return Err(fail(line, format!("\"{key}\" must say something")));
             }
         }
@@ -197,10 +197,10 @@ mod tests {
             r#"" "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" ""#,
             r#""seen""#,
         );
-        let told = Finding::parse(&text, Path::new("f.json")).unwrap();
-        assert_eq!(told.evidence, Evidence::Text("seen".to_owned()));
-        let again = Finding::parse(&told.to_text().unwrap(), Path::new("f.json")).unwrap();
-        assert_eq!(again, told);
+        let finding = Finding::parse(&text, Path::new("f.json")).unwrap();
+        assert_eq!(finding.evidence, Evidence::Text("seen".to_owned()));
+        let again = Finding::parse(&finding.to_text().unwrap(), Path::new("f.json")).unwrap();
+        assert_eq!(again, finding);
     }
 
     #[test]
@@ -219,10 +219,13 @@ mod tests {
             ("\"texel\": [1, 2]", "\"texels\": [1, 2]", 9, "texels"),
             ("The blend constant stays.", "", 2, "\"title\""),
         ] {
-            let told = error(from, to);
+            let message = error(from, to);
             let start = format!("ci/findings/f.json:{line}: ");
-            assert!(told.starts_with(&start) && told.contains(word), "{told}");
-            assert!(told.contains(REMEDY), "{told}");
+            assert!(
+                message.starts_with(&start) && message.contains(word),
+                "{message}"
+            );
+            assert!(message.contains(REMEDY), "{message}");
         }
     }
 }

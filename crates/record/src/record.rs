@@ -334,7 +334,7 @@ mod tests {
         for verdict in Verdict::ALL {
             let mut record = Record::new("selftest/a", "cpu", verdict);
             record.due_fail = true;
-            let due = matches!(
+            let caught = matches!(
                 verdict,
                 Verdict::Fail
                     | Verdict::RequiredByCts
@@ -342,7 +342,7 @@ mod tests {
                     | Verdict::NotSupported
                     | Verdict::Skipped
             );
-            assert_eq!(record.unexpected(), !due, "{verdict}");
+            assert_eq!(record.unexpected(), !caught, "{verdict}");
         }
     }
 

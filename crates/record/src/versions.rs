@@ -113,7 +113,7 @@ impl CaseVersions {
         let each = drawn
             .iter()
             .enumerate()
-            .map(|(i, own)| own.or_else(|| before(i).filter(|s| behind(i) == Some(*s))));
+            .map(|(i, standing)| standing.or_else(|| before(i).filter(|s| behind(i) == Some(*s))));
         each.collect()
     }
 

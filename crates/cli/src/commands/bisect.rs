@@ -168,8 +168,8 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
         let run = Run::read(folder).map_err(Failure::usage)?;
         let bad =
             |verdict: Verdict| matches!(Standing::from(verdict), Standing::Bad | Standing::Flaky);
-        let all = run.records.iter();
-        let failed = all.filter(|r| bad(r.verdict) && r.area() != "selftest");
+        let records = run.records.iter();
+        let failed = records.filter(|r| bad(r.verdict) && r.area() != "selftest");
         let before = globs.len();
         globs.extend(failed.map(|r| globset::escape(&r.case)));
         if globs.len() == before {

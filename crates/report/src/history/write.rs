@@ -82,7 +82,7 @@ pub fn write_history(
     }
     let states = history.triage_states()?;
     let series = times::read(history, &places, &states)?;
-    let told = places
+    let lines = places
         .timelines
         .iter()
         .zip(&courses)
@@ -91,8 +91,8 @@ pub fn write_history(
             courses,
             last: line.last(&places.runs),
         });
-    let told: Vec<Told<'_>> = told.collect();
-    let news = News::find(&places, &told, cases, &families, &looks, &series, &states);
+    let lines: Vec<Told<'_>> = lines.collect();
+    let news = News::find(&places, &lines, cases, &families, &looks, &series, &states);
 
     // The script compares ids in UTF-16.
     let mut order: Vec<usize> = (0..cases.len()).collect();
@@ -160,7 +160,7 @@ pub fn write_history(
         places: &places,
         families: &families,
         counted: &counted,
-        told: &told,
+        told: &lines,
         news: &news,
         cases: cases.len(),
         index: &index.to_string(),

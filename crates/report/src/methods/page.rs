@@ -192,8 +192,8 @@ fn broken_table<'m, 'a>(methods: &'m Methods<'a>) -> Table<'m, Broken<'m, 'a>> {
 
 /// The number of series with a parameter of which there is one value.
 fn single_values(methods: &Methods<'_>) -> u64 {
-    let all = methods.scenes().flat_map(|s| &s.series);
-    all.filter(|s| s.values().len() == 1).count() as u64
+    let series = methods.scenes().flat_map(|s| &s.series);
+    series.filter(|s| s.values().len() == 1).count() as u64
 }
 
 /// Links to the pictures on both sides of crossings.
@@ -204,8 +204,8 @@ fn beside(scene: &SceneSeries<'_>, anchor: &str, between: &[[Setting<'_>; 2]]) -
             @if i > 0 { "; " }
             @for (j, setting) in pair.iter().enumerate() {
                 @if j > 0 { " → " }
-                @let at = settings.iter().position(|s| s == setting);
-                a href={ "#" (anchor) } data-go=[at] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
+                @let number = settings.iter().position(|s| s == setting);
+                a href={ "#" (anchor) } data-go=[number] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
             }
         }
     }
@@ -379,8 +379,8 @@ fn unmeasured(
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     type Row<'s, 'a> = (&'s Series<'a>, &'s Point<'a>);
-    let time = |point: &Point<'_>, of: fn(&Times) -> Option<f64>| {
-        point.measured.time.as_ref().and_then(of).map(duration)
+    let time = |point: &Point<'_>, part: fn(&Times) -> Option<f64>| {
+        point.measured.time.as_ref().and_then(part).map(duration)
     };
     let mut table =
         Table::<Row<'_, '_>>::new("numbers").head("Method", |(series, _)| series.name());

@@ -233,9 +233,9 @@ impl<'s> AdapterRun<'s, '_> {
         let writer = &shared.frames;
         let drawn = etalon_truth::rgb8(image);
         measured.picture = Some(writer.write_picture(&record.case, image.size, &drawn)?);
-        let due = truth.rgb8();
+        let exact = truth.rgb8();
         measured.truth =
-            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &due)?);
+            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &exact)?);
         Ok(())
     }
 
