@@ -20,14 +20,12 @@ use std::path::Path;
 
 const STYLE: &str = include_str!("page/methods.css");
 
-/// The sliders, the legend's pins, other limits of breaks, and the enlarged pictures. All else needs no script.
+/// The sliders, the legend's pins and the enlarged pictures. All else needs no script.
 const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("../page/base.js"),
     include_str!("page/flip.js"),
-    include_str!("page/story.js"),
     include_str!("page/pictures.js"),
-    include_str!("page/breaks.js"),
     include_str!("page/settings.js"),
 );
 
@@ -139,17 +137,11 @@ fn breaks(methods: &Methods<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
     let single = single_values(methods);
     html! {
-        section id="breaks" data-curves=(stability::json(methods)) {
+        section id="breaks" {
             h2 { "Break points" }
             p {
-                "The parameter at which a method's RMSE crosses "
-                span #limit-text { "1 %" } " of full brightness, interpolated between the two values beside it that were drawn."
-            }
-            @if curves > 0 {
-                p #limit-field hidden {
-                    label for="limit" { "Limit of RMSE in percent " }
-                    input #limit type="number" value="1" min="0.001" max="100" step="any" inputmode="decimal";
-                }
+                "The parameter at which a method's RMSE crosses 1 % of full brightness, interpolated between the two values "
+                "beside it that were drawn."
             }
             @if curves == 0 {
                 p.u { "Not measured: no method was drawn at two values of its parameter." }
@@ -158,7 +150,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 div #break-rows { (broken_table(methods).page(broken)) }
             }
             @if !steady.is_empty() {
-                p.note #steady { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
+                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
             }
             @if curves > 0 && single > 0 {
                 p.note { "Not measured: " (count(single, "method")) " drawn at one value of a parameter only." }

@@ -2,7 +2,7 @@
 
 use super::breaks::{self, Break, LIMIT};
 use super::data::{Methods, Question, SceneSeries, Series, Setting};
-use super::name::{anchor, value_text};
+use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
     BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, polyline,
@@ -131,47 +131,6 @@ pub(super) fn charts<'a>(
         }
     }
     panels
-}
-
-/// The curves of the page, for other limits than the one that the page is written with.
-pub(super) fn json(methods: &Methods<'_>) -> serde_json::Value {
-    let mut lines = Vec::new();
-    for (q, question) in methods.questions.iter().enumerate() {
-        for (s, scene) in question.scenes.iter().enumerate() {
-            let settings = scene.settings();
-            for parameter in parameters(scene) {
-                let curves = curves(scene, parameter);
-                let log = matches!(scale(&curves), Scale::Log { .. });
-                for (series, (index, adapter)) in curves
-                    .iter()
-                    .flat_map(|c| methods.adapters.iter().enumerate().map(move |a| (c, a)))
-                {
-                    let curve = series.curve(index);
-                    if curve.len() < 2 {
-                        continue;
-                    }
-                    let label = |value: &f64| {
-                        let here = Setting {
-                            variant: series.variant.clone(),
-                            parameter: Some((parameter, *value)),
-                        };
-                        settings.iter().position(|s| *s == here)
-                    };
-                    lines.push(serde_json::json!({
-                        "scene": format!("{}/{}", question.name, scene.name),
-                        "anchor": anchor(q, s),
-                        "name": series.name(),
-                        "style": question.style(series.method),
-                        "parameter": parameter,
-                        "log": log,
-                        "adapter": adapter.name,
-                        "curve": curve.iter().map(|(v, e)| (*v, *e, label(v), value_text(*v))).collect::<Vec<_>>(),
-                    }));
-                }
-            }
-        }
-    }
-    serde_json::Value::Array(lines)
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
