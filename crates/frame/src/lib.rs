@@ -33,6 +33,7 @@ mod operation;
 mod path;
 mod property;
 mod samples;
+mod split_mix;
 mod story;
 mod version;
 mod work;
@@ -67,6 +68,7 @@ pub use path::{
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;
+pub use split_mix::{SplitMix64, mix};
 pub use story::{
     Allowed, Demand, Initial, Reason, Returned, Ruling, Source, Story, ToldLine, Values,
 };
