@@ -224,7 +224,7 @@ fn slug(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{FORMAT, Header, Machine, Settings};
+    use etalon_record::Header;
     use std::path::Path;
 
     fn run(verdicts: &[(&str, Verdict)], expectations: &Expectations) -> Run {
@@ -244,16 +244,8 @@ mod tests {
             records: records.collect(),
             truncated: false,
             header: Header {
-                format: FORMAT,
-                etalon: String::new(),
-                commit: None,
-                machine: Machine::default(),
                 started: "2026-01-01T00:00:00Z".to_owned(),
-                command: Vec::new(),
-                cases: verdicts.len() as u64,
-                settings: Settings::default(),
-                adapters: vec![adapter],
-                absent: Vec::new(),
+                ..Header::new(vec![adapter], verdicts.len() as u64)
             },
         }
     }

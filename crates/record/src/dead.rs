@@ -316,8 +316,8 @@ fn alternatives(glob: &str) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::adapter::AdapterRecord;
-    use crate::header::{FORMAT, Header, Settings};
-    use crate::machine::Machine;
+    use crate::header::Header;
+
     use crate::record::Record;
 
     const IDS: [&str; 4] = ["a/x=1/y=1", "a/x=1/y=2", "a/x=2/y=1", "b"];
@@ -345,18 +345,7 @@ mod tests {
         Run {
             records: records.collect(),
             truncated: false,
-            header: Header {
-                format: FORMAT,
-                etalon: String::new(),
-                commit: None,
-                machine: Machine::default(),
-                started: String::new(),
-                command: Vec::new(),
-                cases: ids.len() as u64,
-                settings: Settings::default(),
-                adapters: vec![adapter("gl:a")],
-                absent: Vec::new(),
-            },
+            header: Header::new(vec![adapter("gl:a")], ids.len() as u64),
         }
     }
 

@@ -206,21 +206,10 @@ fn escaped(text: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{Header, Machine, Record, Run, Settings};
+    use etalon_record::{Header, Record, Run};
 
     fn run(records: Vec<Record>) -> Run {
-        let header = Header {
-            format: etalon_record::FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
-            command: Vec::new(),
-            cases: records.len() as u64,
-            settings: Settings::default(),
-            adapters: Vec::new(),
-            absent: Vec::new(),
-        };
+        let header = Header::new(Vec::new(), records.len() as u64);
         Run {
             header,
             records,
