@@ -4,11 +4,10 @@ use crate::adapters::{Query, discover, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::flags::Format;
 use crate::output::{say, summarize, summarize_json};
 use crate::provenance;
-use crate::reducing::{Failing, smallest, started};
-use crate::reduction::TIMEOUT;
+use crate::reducing::{Failing, FailingArguments, smallest, started};
 use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
@@ -37,13 +36,7 @@ const RUNS: u32 = 20;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    pub(crate) file: AdapterFileArguments,
-    /// Id of the case
-    #[arg(value_name = "CASE")]
-    pub(crate) case: String,
-    /// The adapter on which it fails
-    #[arg(long, value_name = "NAME")]
-    pub(crate) adapter: String,
+    pub(crate) failing: FailingArguments,
     /// Line of drivers whose newest release draws the case too
     #[arg(long, value_name = "LINE")]
     pub(crate) latest: Option<String>,
@@ -53,32 +46,22 @@ pub(crate) struct Arguments {
     /// Replace the bundle of the same name
     #[arg(long)]
     pub(crate) force: bool,
-    /// Read case files from this folder instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
-    pub(crate) cases: Option<PathBuf>,
-    /// Seconds that a case may take
-    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
-    pub(crate) timeout: f64,
-    /// Form of the summary
-    #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
 }
 
 /// Reduces a failing case, and writes a program that shows the bug without the suite, and a report.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let file = arguments.file.adapter_file.as_deref();
-    let cases = arguments.cases.as_ref();
+    let failing = &arguments.failing;
     let Failing {
         name,
         candidate,
         launch,
         worker,
-    } = Failing::find(&arguments.case, &arguments.adapter, cases, file)?;
+    } = Failing::find(failing)?;
     let hello = worker.hello.clone();
     etalon_bundle::free(&arguments.out, &name, arguments.force).map_err(Failure::usage)?;
     let adapter = AdapterRecord::from(&worker);
-    let timeout = Duration::from_secs_f64(arguments.timeout);
-    let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
+    let timeout = failing.timeout();
+    let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
     let document = &smallest.reduction.smallest.document;
     let reduced = Reduced {
         arguments,
@@ -105,9 +88,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<(), Failure> {
-    let Arguments { case, adapter, .. } = arguments;
+    let FailingArguments { case, adapter, .. } = &arguments.failing;
     let [failed, runs] = report.frequency;
-    match arguments.format {
+    match arguments.failing.format {
         Format::Text => summarize(&format!(
             "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
             report.title,
@@ -175,7 +158,7 @@ struct Reduced<'a> {
     timeout: Duration,
 }
 
-/// What the driver does with the smallest case.
+/// The driver's results on the smallest case.
 struct Evidence {
     checks: Checks,
     recording: Recording,
@@ -190,7 +173,7 @@ struct Evidence {
 impl Reduced<'_> {
     /// Returns the error of a case that has no bundle.
     fn refused(&self, why: &str) -> Failure {
-        let Arguments { case, adapter, .. } = self.arguments;
+        let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         Failure {
             code: UNEXPECTED,
             message: format!(
@@ -219,7 +202,7 @@ impl Reduced<'_> {
             judged,
             due: demanded,
             frequency: self.frequency()?,
-            finding: finding(self.adapter, &self.arguments.case)?,
+            finding: finding(self.adapter, &self.arguments.failing.case)?,
             newest: newest.map(|line| self.newest(line)).transpose()?,
         })
     }
@@ -264,7 +247,7 @@ impl Reduced<'_> {
 
     /// Returns the files beside the program: the case and the pictures.
     fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
-        let Arguments { case, adapter, .. } = self.arguments;
+        let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let origin = format!("Reduced from {case} on {adapter}.");
         let mut document = self.document.clone();
         document["about"] = json!(self.described(evidence).about(&origin));
@@ -318,7 +301,7 @@ impl Reduced<'_> {
 
     /// Draws the case where the API checks each call.
     fn checks(&self) -> Result<Checks, Failure> {
-        let Arguments { adapter, file, .. } = self.arguments;
+        let FailingArguments { adapter, file, .. } = &self.arguments.failing;
         let opened = started(Query {
             names: std::slice::from_ref(adapter),
             file: file.adapter_file.as_deref(),
@@ -345,8 +328,8 @@ impl Reduced<'_> {
     /// Draws the case and records the calls.
     fn recorded(&self) -> Result<Recorded, Failure> {
         let (_, mut worker) = started(Query {
-            names: std::slice::from_ref(&self.arguments.adapter),
-            file: self.arguments.file.adapter_file.as_deref(),
+            names: std::slice::from_ref(&self.arguments.failing.adapter),
+            file: self.arguments.failing.adapter_file(),
             record: true,
             ..Query::default()
         })?;
@@ -458,7 +441,7 @@ impl Reduced<'_> {
 
     /// Returns the newest release of a line, and whether it draws the case wrong.
     fn newest(&self, line: &str) -> Result<(String, bool), Failure> {
-        let file = self.arguments.file.adapter_file.as_deref();
+        let file = self.arguments.failing.adapter_file();
         let mut releases = releases_of(file, line)?;
         let Some((name, release)) = releases.pop() else {
             return Err(Failure::usage(format!("line {line} has no release")));

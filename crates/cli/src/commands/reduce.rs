@@ -1,10 +1,9 @@
 //! `etalon reduce`.
 
 use crate::failure::Failure;
-use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::flags::Format;
 use crate::output::{summarize, summarize_json};
-use crate::reducing::{Failing, smallest};
-use crate::reduction::TIMEOUT;
+use crate::reducing::{Failing, FailingArguments, smallest};
 use clap::Args;
 use etalon_diagnose::Symptom;
 use etalon_explore::{Reduction, keys, leaves, states};
@@ -13,45 +12,28 @@ use etalon_report::ReducedCase;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
-use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    pub(crate) file: AdapterFileArguments,
-    /// Id of the case
-    #[arg(value_name = "CASE")]
-    pub(crate) case: String,
-    /// The adapter on which it fails
-    #[arg(long, value_name = "NAME")]
-    pub(crate) adapter: String,
+    pub(crate) failing: FailingArguments,
     /// Folder into which the reduced case file is written; `--cases` takes it
     #[arg(long, value_name = "DIR", default_value = "reports/reduced")]
     pub(crate) out: PathBuf,
-    /// Read case files from this folder instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
-    pub(crate) cases: Option<PathBuf>,
-    /// Seconds that a case may take
-    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
-    pub(crate) timeout: f64,
-    /// Form of the summary
-    #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
 }
 
 /// Reduces a case that fails on an adapter, and writes what is left as a case file.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let file = arguments.file.adapter_file.as_deref();
-    let cases = arguments.cases.as_ref();
+    let failing = &arguments.failing;
     let Failing {
         name,
         candidate,
         launch,
         worker,
-    } = Failing::find(&arguments.case, &arguments.adapter, cases, file)?;
+    } = Failing::find(failing)?;
     let document = candidate.document.clone();
-    let timeout = Duration::from_secs_f64(arguments.timeout);
-    let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
+    let timeout = failing.timeout();
+    let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
     let report = Told {
         arguments,
         before: &document["scene"],
@@ -67,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     fs::create_dir_all(&arguments.out)
         .and_then(|()| fs::write(&path, text + "\n"))
         .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
-    match arguments.format {
+    match arguments.failing.format {
         Format::Text => summarize(&report.text(&path.display().to_string())),
         Format::Json => summarize_json(&report.json(&path.display().to_string()))?,
     }
@@ -101,7 +83,7 @@ impl Told<'_> {
 
     /// Returns the document with what it shows.
     fn document(&self) -> Value {
-        let Arguments { case, adapter, .. } = self.arguments;
+        let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let about = self
             .reduced()
             .about(&format!("Reduced from {case} on {adapter}."));
@@ -118,8 +100,8 @@ impl Told<'_> {
         };
         let mut text = format!(
             "{} on {}\n  keys: {}\n  values: {}\n  draws: {} in {:.1} s{}\n  states: {}\n  {}: {}\n  {}\n",
-            self.arguments.case,
-            self.arguments.adapter,
+            self.arguments.failing.case,
+            self.arguments.failing.adapter,
             share(keys),
             share(leaves),
             self.reduction.draws,
@@ -148,8 +130,8 @@ impl Told<'_> {
     fn json(&self, path: &str) -> Value {
         let count = |count: fn(&Value) -> usize| json!([count(self.before), count(self.scene())]);
         json!({
-            "case": self.arguments.case,
-            "adapter": self.arguments.adapter,
+            "case": self.arguments.failing.case,
+            "adapter": self.arguments.failing.adapter,
             "file": path,
             "keys": count(keys),
             "values": count(leaves),
