@@ -123,7 +123,7 @@ pub enum BackendError {
     /// The backend or its driver failed.
     #[error("{}", failed(kind, message))]
     Failed {
-        /// What failed.
+        /// The kind of the failure.
         kind: ErrorKind,
         /// The driver's message, or what this scene adds to the kind; can be empty.
         message: String,

@@ -24,7 +24,7 @@ const SUB_PIXEL_BITS: u8 = 4;
 /// One case, checked.
 pub(crate) struct CheckedCase {
     pub(crate) id: String,
-    /// What the legal set and the yardstick assert, per aspect; empty where the case is measured, not judged.
+    /// The assertions of the legal set and of the yardstick, per aspect; empty if the case is measured, not judged.
     pub(crate) assertions: Vec<Assertion>,
     /// The channels that are read back and of which nothing is asserted, with all that are read back.
     pub(crate) channels: BTreeMap<AttachmentChannel, bool>,

@@ -22,7 +22,7 @@ const DRAWS: usize = 400;
 /// One way to fail.
 pub(crate) type Group = etalon_diagnose::Group<Kept>;
 
-/// What is left of the first scene of a group.
+/// The first scene of a group, reduced.
 pub(crate) struct Kept {
     pub(crate) adapter: String,
     /// The number of the scene.

@@ -121,7 +121,7 @@ struct Seen<C> {
     traits: Traits,
 }
 
-/// What is left of a case.
+/// A reduced case.
 struct Reduced<C> {
     case: C,
     symptom: Symptom,

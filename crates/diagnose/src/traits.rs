@@ -22,7 +22,7 @@ pub struct Traits {
     pub words: Signature,
 }
 
-/// What is wrong, without names of attachments and without what was there before.
+/// The wrong part of an outcome, without names of attachments and without earlier contents.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Violation {
     subject: Subject,

@@ -19,7 +19,7 @@ pub const MOST_DRAWS: usize = 1000;
 const MOST_LOST: usize = 200;
 const LOST_TIME: Duration = Duration::from_secs(60);
 
-/// What a reduction may cost.
+/// The most that a reduction can cost.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget<'a> {
     /// The most candidates that are drawn.

@@ -40,7 +40,7 @@ pub(crate) struct Programs {
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
-/// What a draw asks of a fragment shader beside its function.
+/// The needs of a draw that change its fragment shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct FragmentForm {
     pub(crate) tests: EarlyTests,

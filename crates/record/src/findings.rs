@@ -37,7 +37,7 @@ pub struct Finding {
     /// The document, version and section that the driver breaks; empty only while the finding is unread.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub clause: String,
-    /// What was seen.
+    /// The observation.
     pub evidence: Evidence,
     /// The bug report's address.
     #[serde(default, skip_serializing_if = "Option::is_none")]

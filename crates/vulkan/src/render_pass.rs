@@ -10,7 +10,7 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 
-/// What two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
+/// The properties that two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Compatible {
     /// The subpass that draws.

@@ -129,7 +129,7 @@ impl Shape {
     }
 }
 
-/// What an adapter does by default with attachments of a format.
+/// The default reading of attachments of a format.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     /// Depth and stencil can be copied.

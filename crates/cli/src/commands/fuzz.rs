@@ -224,7 +224,7 @@ fn free(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What stays the same for all adapters.
+/// The part of a search that all adapters share.
 struct Search<'a> {
     arguments: &'a Arguments,
     expectations: &'a Expectations,

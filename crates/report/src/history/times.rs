@@ -109,7 +109,7 @@ struct Measured<'a> {
     /// The places of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    /// What people said of its steps, by the place of the run.
+    /// People's words on its steps, by the place of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
 

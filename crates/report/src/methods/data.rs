@@ -219,7 +219,7 @@ impl<'a> SceneSeries<'a> {
         Some(best.swap_remove(best.len() / 2))
     }
 
-    /// What was drawn at a setting.
+    /// Returns the points drawn at a setting.
     pub(crate) fn at<'s>(
         &'s self,
         setting: &'s Setting<'a>,

@@ -101,9 +101,10 @@ impl News {
                 }
                 match was {
                     Some(was) if was_bad => {
-                        let note = match was.verdict == record.verdict {
-                            true => "as before".to_owned(),
-                            false => format!("{} before", was.verdict.name()),
+                        let note = if was.verdict == record.verdict {
+                            "as before".to_owned()
+                        } else {
+                            format!("{} before", was.verdict.name())
                         };
                         news.old.push(entry(note));
                     }

@@ -20,7 +20,7 @@ use std::time::SystemTime;
 /// The entries of each kind that are printed.
 const PRINTED: usize = 40;
 
-/// What people say of a change.
+/// A person's word on a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum State {
     /// Nobody has looked yet.
