@@ -29,7 +29,7 @@ pub use recording::{
 };
 pub use tree::Tree;
 
-use etalon_frame::{Frame, Limits, Requirement};
+use etalon_frame::{ErrorKind, Frame, Limits, Requirement};
 use etalon_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -120,28 +120,77 @@ pub enum BackendError {
     /// occurs only if a driver denies what it advertises.
     #[error("not supported: {0}")]
     NotSupported(Requirement),
+    /// The backend or its driver failed.
+    #[error("{}", failed(kind, message))]
+    Failed {
+        /// The kind of the failure.
+        kind: ErrorKind,
+        /// The driver's message, or what this scene adds to the kind; can be empty.
+        message: String,
+    },
+}
+
+impl BackendError {
     /// The device was lost.
-    #[error("the device was lost: {0}")]
-    DeviceLost(String),
-    /// The driver refused an allocation or an object.
-    #[error("the driver refused {what}: {message}")]
-    Resource {
-        /// The object.
-        what: String,
-        /// The driver's message.
-        message: String,
-    },
-    /// A shader could not be translated or compiled.
-    #[error("shader {shader}: {message}")]
-    Shader {
-        /// The shader's name.
-        shader: String,
-        /// The log of the translator or the driver.
-        message: String,
-    },
+    pub fn lost(message: impl Into<String>) -> Self {
+        Self::failed(ErrorKind::DeviceLost, message)
+    }
+
+    /// The driver refused an object or an allocation.
+    pub fn refused(object: impl Into<String>, message: impl Into<String>) -> Self {
+        let object = object.into();
+        Self::failed(ErrorKind::Resource { object, code: None }, message)
+    }
+
+    /// A shader could not be translated or compiled. The message is the log of the translator or the driver.
+    pub fn shader(shader: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::failed(ErrorKind::Shader(shader.into()), message)
+    }
+
     /// A condition that the backend's own logic rules out.
-    #[error("internal error: {0}")]
-    Internal(String),
+    pub fn internal(condition: impl Into<String>) -> Self {
+        Self::internal_of(condition, "")
+    }
+
+    /// The same, with what is not the same in every scene.
+    pub fn internal_of(condition: impl Into<String>, message: impl Into<String>) -> Self {
+        let condition = condition.into();
+        let code = None;
+        Self::failed(ErrorKind::Internal { condition, code }, message)
+    }
+
+    /// An error of this kind.
+    pub fn failed(kind: ErrorKind, message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self::Failed { kind, message }
+    }
+
+    /// Adds the API's result code.
+    #[must_use]
+    pub fn with_code(mut self, value: impl Into<String>) -> Self {
+        if let Self::Failed {
+            kind: ErrorKind::Resource { code, .. } | ErrorKind::Internal { code, .. },
+            ..
+        } = &mut self
+        {
+            *code = Some(value.into());
+        }
+        self
+    }
+}
+
+fn failed(kind: &ErrorKind, message: &str) -> String {
+    let what = match kind {
+        ErrorKind::DeviceLost => "the device was lost".to_owned(),
+        ErrorKind::Resource { object, .. } => format!("the driver refused {object}"),
+        ErrorKind::Shader(shader) => format!("shader {shader}"),
+        ErrorKind::Internal { condition, .. } => format!("internal error: {condition}"),
+    };
+    if message.is_empty() {
+        what
+    } else {
+        format!("{what}: {message}")
+    }
 }
 
 /// The reason why an adapter cannot be used, and a remedy.

@@ -26,7 +26,7 @@ impl Tree {
     pub fn field(&self, name: &str) -> Option<&Tree> {
         match self {
             Self::Structure(_, fields) => {
-                let field = fields.iter().find(|(of, _)| of == name);
+                let field = fields.iter().find(|(label, _)| label == name);
                 field.map(|(_, value)| value)
             }
             _ => None,
@@ -61,7 +61,7 @@ impl Tree {
     /// Returns the values of a list.
     pub fn list(&self) -> &[Tree] {
         match self {
-            Self::List(all) => all,
+            Self::List(values) => values,
             _ => &[],
         }
     }

@@ -154,11 +154,14 @@ mod tests {
             entry.read_to_end(&mut content).unwrap();
             found.push((entry.path().unwrap().display().to_string(), content));
         }
-        let due = [
+        let expected = [
             ("name/a.txt", b"one".to_vec()),
             ("name/b.bin", vec![0, 255]),
         ];
-        assert_eq!(found, due.map(|(name, content)| (name.to_owned(), content)));
+        assert_eq!(
+            found,
+            expected.map(|(name, content)| (name.to_owned(), content))
+        );
     }
 
     #[test]

@@ -161,10 +161,10 @@ impl Declarations {
     }
 
     /// Returns a definition of `head`, which finds the functions and those of `own`: `find` is what a name is appended to.
-    pub(crate) fn load(&self, head: &str, find: &str, own: &[&str]) -> String {
+    pub(crate) fn load(&self, head: &str, find: &str, functions: &[&str]) -> String {
         let mut text = format!("\nstatic void {head}\n{{\n");
         let called = self.functions.keys().map(String::as_str);
-        for name in own.iter().copied().chain(called) {
+        for name in functions.iter().copied().chain(called) {
             let _ = writeln!(text, "    *(void **)&{name} = {find}\"{name}\");");
         }
         text + "}\n"

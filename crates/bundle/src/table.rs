@@ -103,13 +103,13 @@ fn place(
     texel: &DueTexel,
     channel: &DueChannel,
 ) -> Result<CheckedChannel, BundleError> {
-    let of = |i: &&etalon_backend::RecordedImage| {
+    let is_image = |i: &&etalon_backend::RecordedImage| {
         i.attachment == channel.attachment && i.aspect == channel.aspect
     };
     let image = recording
         .images
         .iter()
-        .find(of)
+        .find(is_image)
         .ok_or_else(|| unread(channel))?;
     let plane = image
         .planes

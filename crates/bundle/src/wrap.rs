@@ -31,7 +31,7 @@ fn brackets(line: &str) -> Option<(usize, usize, Vec<usize>)> {
     let mut longest: Option<(usize, usize, Vec<usize>)> = None;
     let (mut depth, mut open, mut commas) = (0, 0, Vec::new());
     let (mut quoted, mut comment, mut before) = (false, false, ' ');
-    for (at, c) in line.char_indices() {
+    for (index, c) in line.char_indices() {
         match c {
             '"' if !comment && before != '\\' => quoted = !quoted,
             '*' if before == '/' && !quoted => comment = true,
@@ -39,18 +39,18 @@ fn brackets(line: &str) -> Option<(usize, usize, Vec<usize>)> {
             _ if quoted || comment => {}
             '(' | '[' | '{' => {
                 if depth == 0 {
-                    (open, commas) = (at, Vec::new());
+                    (open, commas) = (index, Vec::new());
                 }
                 depth += 1;
             }
             ')' | ']' | '}' => {
                 depth -= 1;
                 let length = |(open, close, _): &(usize, usize, Vec<usize>)| close - open;
-                if depth == 0 && longest.as_ref().is_none_or(|l| length(l) < at - open) {
-                    longest = Some((open, at, std::mem::take(&mut commas)));
+                if depth == 0 && longest.as_ref().is_none_or(|l| length(l) < index - open) {
+                    longest = Some((open, index, std::mem::take(&mut commas)));
                 }
             }
-            ',' if depth == 1 => commas.push(at),
+            ',' if depth == 1 => commas.push(index),
             _ => {}
         }
         before = c;

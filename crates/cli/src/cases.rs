@@ -80,9 +80,12 @@ pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result
     let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
     let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
     let library = library(arguments.cases.as_ref())?;
-    let all = etalon_runner::select(&library, Profile::Full, &arguments.globs);
-    let all = all.map_err(Failure::usage)?;
-    let same = all.cases.iter().filter(|c| areas.contains(&area(&c.id())));
+    let matching = etalon_runner::select(&library, Profile::Full, &arguments.globs);
+    let matching = matching.map_err(Failure::usage)?;
+    let same = matching
+        .cases
+        .iter()
+        .filter(|c| areas.contains(&area(&c.id())));
     Ok((same.count() - selected.len()) as u64)
 }
 
@@ -168,8 +171,8 @@ pub(crate) fn build(
 
 /// Returns the cases of a library with these ids, built.
 pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<Case>, Failure> {
-    let all = library.cases(Profile::Full);
-    let named: Vec<CaseRef<'_>> = all
+    let cases = library.cases(Profile::Full);
+    let named: Vec<CaseRef<'_>> = cases
         .filter(|case| ids.contains(case.id().as_str()))
         .collect();
     build_each(&named)
@@ -196,9 +199,9 @@ fn build_each(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, Failure> {
 
 /// Returns the round trips that cases lean on: those of the folder, and built-in ones where it holds none.
 pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Vec<Case>, Failure> {
-    let own = folder.map(|_| library(folder)).transpose()?;
+    let given = folder.map(|_| library(folder)).transpose()?;
     let built_in = library(None)?;
-    let libraries: Vec<&Library> = own.iter().chain([&built_in]).collect();
+    let libraries: Vec<&Library> = given.iter().chain([&built_in]).collect();
     etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
 }
 

@@ -24,7 +24,7 @@ const SUB_PIXEL_BITS: u8 = 4;
 /// One case, checked.
 pub(crate) struct CheckedCase {
     pub(crate) id: String,
-    /// What the legal set and the yardstick assert, per aspect; empty where the case is measured, not judged.
+    /// The assertions of the legal set and of the yardstick, per aspect; empty if the case is measured, not judged.
     pub(crate) assertions: Vec<Assertion>,
     /// The channels that are read back and of which nothing is asserted, with all that are read back.
     pub(crate) channels: BTreeMap<AttachmentChannel, bool>,
@@ -105,19 +105,19 @@ fn build_all(file: &CaseFile) -> Vec<CaseError> {
 }
 
 /// Applies a function to all of a list, on all cores; the results stand in the order of the list.
-fn in_parallel<T: Sync, R: Send>(all: &[T], one: impl Fn(&T) -> R + Sync) -> Vec<R> {
+fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = processors();
-    let share = all.len().div_ceil(4 * threads).max(1);
-    let parts: Vec<&[T]> = all.chunks(share).collect();
+    let share = items.len().div_ceil(4 * threads).max(1);
+    let parts: Vec<&[T]> = items.chunks(share).collect();
     let next = std::sync::atomic::AtomicUsize::new(0);
-    let (one, parts, next) = (&one, &parts, &next);
+    let (one, parts, next) = (&work, &parts, &next);
     let mut done: Vec<(usize, Vec<R>)> = thread::scope(|scope| {
         let work = || {
             let mut mine = Vec::new();
-            while let at = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
-                && let Some(part) = parts.get(at)
+            while let index = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
+                && let Some(part) = parts.get(index)
             {
-                mine.push((at, part.iter().map(one).collect()));
+                mine.push((index, part.iter().map(one).collect()));
             }
             mine
         };
@@ -126,7 +126,7 @@ fn in_parallel<T: Sync, R: Send>(all: &[T], one: impl Fn(&T) -> R + Sync) -> Vec
         done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
             .collect()
     });
-    done.sort_by_key(|(at, _)| *at);
+    done.sort_by_key(|(index, _)| *index);
     done.into_iter().flat_map(|(_, part)| part).collect()
 }
 
@@ -200,11 +200,11 @@ fn assertions(judgement: &Judgement) -> Vec<Assertion> {
     let legal = judgement.legal.statistics().iter();
     legal
         .map(|(aspect, legal)| {
-            let own = yardstick.iter().find(|(other, _)| other == aspect);
+            let channel = yardstick.iter().find(|(other, _)| other == aspect);
             Assertion::new(
                 *aspect,
                 *legal,
-                own.map_or_else(Default::default, |(_, own)| *own),
+                channel.map_or_else(Default::default, |(_, codes)| *codes),
             )
         })
         .collect()
@@ -215,9 +215,9 @@ fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<AttachmentChannel, bo
     for image in &legal.images {
         let sets = legal.groups[image.group].distinct();
         for (channel, encoding) in image.channels.iter().enumerate() {
-            let all = CodeInterval::new(encoding.min_order(), encoding.max_order()).count();
+            let codes = CodeInterval::new(encoding.min_order(), encoding.max_order()).count();
             let asserted = sets.iter().any(|(set, times)| {
-                *times > 0 && !set.is_open() && set.count(image.first_channel + channel) < all
+                *times > 0 && !set.is_open() && set.count(image.first_channel + channel) < codes
             });
             let key = AttachmentChannel {
                 attachment: image.attachment.clone(),
@@ -231,10 +231,10 @@ fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<AttachmentChannel, bo
 
 /// Returns the warnings that follow from a file's cases.
 fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
-    let mut all = Vec::new();
+    let mut errors = Vec::new();
     let silent: Vec<&CheckedCase> = cases.iter().filter(|c| !c.asserts).collect();
     if let Some(first) = silent.first() {
-        all.push(file.warning(
+        errors.push(file.warning(
             &[file.scene_key()],
             format!(
                 "{} of {} judged cases assert nothing and can be no more than open, {} for one: choose inputs that \
@@ -254,22 +254,22 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
         .iter()
         .filter(|(_, asserted)| !**asserted && silent.is_empty())
     {
-        all.push(file.warning(
+        errors.push(file.warning(
             &[file.scene_key(), "read"],
             format!("no case asserts anything of {channel}: make its inputs exact, or do not read it back"),
         ));
     }
-    let mut told: Vec<[usize; 2]> = Vec::new();
+    let mut places: Vec<[usize; 2]> = Vec::new();
     // What is drawn filled and as an outline has its vertices where outlines want them.
     let filled = !cases.iter().any(|c| c.outlines);
     for case in cases.iter().filter(|_| filled) {
         let Some(near) = &case.near else {
             continue;
         };
-        if told.contains(&near.draw) {
+        if places.contains(&near.draw) {
             continue;
         }
-        told.push(near.draw);
+        places.push(near.draw);
         let [pass, draw] = near.draw;
         let keys = [
             file.scene_key(),
@@ -279,7 +279,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
             &draw.to_string(),
             "mesh",
         ];
-        all.push(file.warning(
+        errors.push(file.warning(
             &keys,
             format!(
                 "an edge passes at {:.3} texels from the centre of texel {},{}, so that drivers may cover it or not, in \
@@ -288,7 +288,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
             ),
         ));
     }
-    all
+    errors
 }
 
 impl std::fmt::Display for AttachmentChannel {

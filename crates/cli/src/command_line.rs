@@ -37,7 +37,7 @@ pub(crate) enum Command {
     Run(run::Arguments),
     /// Rebuild the reports of run and bench folders
     Report(report::Arguments),
-    /// Put the pages of recorded folders, and the documents, into one static folder
+    /// Put the pages of recorded folders into one static folder
     Site(site::Arguments),
     /// Combine shards, or runs on several adapters, into one run and name what is missing
     Merge(merge::Arguments),

@@ -2,11 +2,12 @@
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
-use crate::reduction::{Reducer, Shown, confirm, file_name};
+use crate::reduction::{Reducer, confirm, file_name};
 use etalon_case::Case;
 use etalon_diagnose::{Groups, Key, KnownBugs, Symptom};
-use etalon_explore::{Candidate, Oracle, RandomScene, keys};
+use etalon_explore::{Candidate, Oracle, RandomScene, keys, states};
 use etalon_record::Record;
+use etalon_report::ReducedCase;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ const DRAWS: usize = 400;
 /// One way to fail.
 pub(crate) type Group = etalon_diagnose::Group<Kept>;
 
-/// What is left of the first scene of a group.
+/// The first scene of a group, reduced.
 pub(crate) struct Kept {
     pub(crate) adapter: String,
     /// The number of the scene.
@@ -125,8 +126,8 @@ impl<'a> FailingScenes<'a> {
 
     /// Adds failing scenes. When the search is being stopped, scenes are kept as they are.
     pub(crate) fn add(&mut self, failing: Vec<(RandomScene, Record)>) -> Result<(), Failure> {
-        let mut all = failing.into_iter();
-        all.try_for_each(|(scene, record)| self.add_one(scene, record))
+        let mut scenes = failing.into_iter();
+        scenes.try_for_each(|(scene, record)| self.add_one(scene, record))
     }
 
     fn add_one(&mut self, scene: RandomScene, record: Record) -> Result<(), Failure> {
@@ -168,7 +169,7 @@ impl<'a> FailingScenes<'a> {
         let seen = if again.is_none() {
             whole(candidate, oracle.record.clone(), "only behind other scenes")
         } else {
-            let reduction = oracle.reduce_by(candidate, &self.reducer.limits, DRAWS);
+            let reduction = oracle.reduce(candidate, &self.reducer.limits, DRAWS);
             let symptom = oracle.symptom.clone();
             Seen {
                 key: Key::reduced(&reduction.smallest.document, &symptom),
@@ -187,13 +188,14 @@ impl<'a> FailingScenes<'a> {
     fn keep(&mut self, seen: Seen) -> Result<(), Failure> {
         let adapter = self.reducer.launch.adapter.clone();
         let document = &seen.scene.document;
-        let shown = Shown {
-            document,
+        let reduced = ReducedCase {
             record: &seen.record,
             symptom: &seen.symptom,
+            states: states(&document["scene"]),
         };
         let about = document["about"].as_str().unwrap_or_default();
-        let described = shown.described(&format!("{about} On {adapter}."));
+        let mut described = document.clone();
+        described["about"] = json!(reduced.about(&format!("{about} On {adapter}.")));
         let id = format!("{adapter}-{}", seen.scene.case.id.replace("found/", ""));
         let name = file_name(&id, "");
         let found = &self.folders.found;
@@ -203,9 +205,9 @@ impl<'a> FailingScenes<'a> {
         let kept = Kept {
             adapter,
             index: seen.index,
-            sentence: shown.sentence(),
-            clause: shown.clause(),
-            states: shown.states(),
+            sentence: reduced.sentence(),
+            clause: reduced.clause(),
+            states: reduced.states(),
             keys: [seen.keys, keys(&document["scene"])],
             file,
             unconfirmed: None,

@@ -20,8 +20,8 @@ pub(crate) fn listen() -> Result<&'static AtomicBool, Failure> {
 
 /// Returns the command that resumes this run, quoted for a shell.
 pub(crate) fn how_to_resume() -> String {
-    let own = provenance::command();
-    let own = own.iter().map(String::as_str);
+    let command = provenance::command();
+    let own = command.iter().map(String::as_str);
     let words = own.filter(|word| *word != "--force" && *word != "--resume");
     // Quoting fails for a zero byte alone, which no argument contains.
     let command = shlex::try_join(words.chain(["--resume"])).unwrap_or_default();

@@ -6,10 +6,12 @@ const PROPOSED: usize = 3;
 /// Returns `; did you mean …?` with the nearest of the known words; nothing where none is near.
 pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let most = (word.chars().count() / 3).clamp(1, 8);
-    let all = known
+    let distances = known
         .into_iter()
         .map(|other| (distance(word, other, most), other));
-    let mut near: Vec<(usize, &str)> = all.filter(|(distance, _)| *distance <= most).collect();
+    let mut near: Vec<(usize, &str)> = distances
+        .filter(|(distance, _)| *distance <= most)
+        .collect();
     near.sort_unstable();
     near.dedup();
     // Beside a near one, those much farther only confuse.

@@ -5,7 +5,7 @@ use crate::report_files;
 use etalon_record::{Bench, FolderKind, FolderLock, RecordError, Run, clear};
 use std::path::Path;
 
-/// What a command is told to do with what its folder holds.
+/// The treatment of the present content of a command's folder.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Out<'a> {
     pub(crate) folder: &'a Path,

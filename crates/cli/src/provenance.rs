@@ -19,9 +19,9 @@ pub(crate) fn now() -> String {
 
 /// Returns the words of the command line, with the name of the program instead of its path.
 pub(crate) fn command() -> Vec<String> {
-    let own = std::env::args_os().skip(1);
+    let arguments = std::env::args_os().skip(1);
     std::iter::once("etalon".to_owned())
-        .chain(own.map(|word| word.to_string_lossy().into_owned()))
+        .chain(arguments.map(|word| word.to_string_lossy().into_owned()))
         .collect()
 }
 

@@ -3,11 +3,13 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::interruption::listen;
-use crate::reduction::{DriverOracle, confirm, file_name};
+use crate::reduction::{DriverOracle, TIMEOUT, confirm, file_name};
+use clap::Args;
 use etalon_case::{Case, build};
 use etalon_diagnose::Symptom;
-use etalon_explore::{Candidate, Reduction};
+use etalon_explore::{Candidate, MOST_DRAWS, Reduction};
 use etalon_record::{Record, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use std::path::{Path, PathBuf};
@@ -33,6 +35,40 @@ pub(crate) struct Smallest {
     pub(crate) seconds: f64,
 }
 
+/// A case that fails on an adapter, as a user names both.
+#[derive(Debug, Args)]
+pub(crate) struct FailingArguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Id of the case
+    #[arg(value_name = "CASE")]
+    pub(crate) case: String,
+    /// The adapter on which it fails
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: String,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    /// Seconds that a case may take
+    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
+    timeout: f64,
+    /// Form of the summary
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+impl FailingArguments {
+    /// Returns the time that a case may take.
+    pub(crate) fn timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.timeout)
+    }
+
+    /// Returns the file of adapters.
+    pub(crate) fn adapter_file(&self) -> Option<&Path> {
+        self.file.adapter_file.as_deref()
+    }
+}
+
 /// A case that is to be reduced, and the adapter on which it fails.
 pub(crate) struct Failing {
     /// The name of its file, which is also its id.
@@ -43,21 +79,19 @@ pub(crate) struct Failing {
 }
 
 impl Failing {
-    /// Finds a case by its id, and starts the adapter. `cases` is a folder of case files, `adapters` a file of adapters.
-    pub(crate) fn find(
-        id: &str,
-        adapter: &String,
-        cases: Option<&PathBuf>,
-        adapters: Option<&Path>,
-    ) -> Result<Self, Failure> {
-        let library = library(cases)?;
+    /// Finds a case by its id, and starts the adapter.
+    pub(crate) fn find(arguments: &FailingArguments) -> Result<Self, Failure> {
+        let FailingArguments {
+            case: id, adapter, ..
+        } = arguments;
+        let library = library(arguments.cases.as_ref())?;
         let document = find(&library, id)?.document().map_err(Failure::usage)?;
         let name = file_name(id, adapter);
         let case = build(&name, &document).map_err(|e| {
             let message = format!("the scene of `{id}` cannot be written as a case file: {e}");
             Failure::usage(message)
         })?;
-        let (launch, worker) = start(adapter, adapters)?;
+        let (launch, worker) = start(adapter, arguments.adapter_file())?;
         if let Some(missing) = worker.hello.limits.missing(&case.requirements()) {
             let message = format!("{adapter} does not support {missing}");
             return Err(Failure::usage(message));
@@ -88,7 +122,7 @@ pub(crate) fn smallest(
         let trials = Trials::new(launch.clone(), worker, timeout);
         let mut judge = DriverOracle::new(trials, record.clone(), timeout, Some(stop));
         judge.alone = alone;
-        let reduction = judge.reduce(failing.clone(), &limits);
+        let reduction = judge.reduce(failing.clone(), &limits, MOST_DRAWS);
         match judge.error {
             Some(error) => Err(Failure::incomplete(format!(
                 "the worker of {name} could not be started again: {error}"
@@ -189,13 +223,13 @@ fn repeat(
     let hung = |records: &[Record]| records.iter().any(|r| r.verdict == Verdict::Timeout);
     while processes < if hung(&records) { HUNG } else { PROCESSES } {
         processes += 1;
-        let mut own = match worker.take() {
+        let mut running = match worker.take() {
             Some(worker) => worker,
             None => Worker::start(launch).map_err(Failure::incomplete)?,
         };
         let mut ended = false;
         for _ in 0..DRAWINGS {
-            let (record, ends) = own.record(case, timeout);
+            let (record, ends) = running.record(case, timeout);
             if record.verdict == Verdict::NotSupported {
                 let (name, message) = (&launch.adapter, record.message);
                 return Err(Failure::usage(format!("{name} does not support {message}")));
@@ -207,7 +241,7 @@ fn repeat(
             }
         }
         if !ended {
-            warm.get_or_insert(own);
+            warm.get_or_insert(running);
         }
     }
     let worker = match warm {

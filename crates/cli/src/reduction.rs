@@ -1,19 +1,18 @@
-//! Reductions on a driver: the judge as oracle, and the sentences on what is left.
+//! Reductions on a driver: the judge as oracle.
 //!
 //! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
-//! way. Each such candidate costs a process, and each that hangs its time, so that both are bounded.
+//! way. Each such candidate costs a process, and each that hangs its time.
 
 use crate::failure::Failure;
 use etalon_case::{Case, CaseRef, build};
-use etalon_diagnose::{Driver, Subject, Symptom, Traits};
-use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, reduce, states};
-use etalon_frame::{Limits, Operation};
+use etalon_diagnose::{Driver, Symptom, Traits};
+use etalon_explore::{Budget, Candidate, MOST_DRAWS, Oracle, Reduction, keys, reduce};
+use etalon_frame::Limits;
 use etalon_record::{Record, Verdict};
-use etalon_report::{judged_by, sentence};
 use etalon_runner::{Launch, Trials, Worker};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
 pub(crate) fn file_name(case: &str, adapter: &str) -> String {
@@ -34,10 +33,7 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
 
 /// The time that a case may take.
 pub(crate) const TIMEOUT: &str = "20";
-/// Where each candidate may cost a process: the most candidates, the time for all of them, and the time of one where
-/// the case does not end.
-const MOST_LOST: usize = 200;
-const LOST_TIME: Duration = Duration::from_secs(60);
+/// The time of a candidate, if the case does not end.
 const HUNG_TIME: Duration = Duration::from_secs(2);
 /// The most keys of a scene that is reduced for a comparison.
 const MOST_KEYS: usize = 600;
@@ -70,10 +66,6 @@ pub(crate) struct DriverOracle<'a> {
     pub(crate) error: Option<String>,
     /// Set when the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// The time at which no further candidate is tried.
-    until: Option<Instant>,
-    /// True if candidates were left.
-    late: bool,
     /// Starts the process in which each candidate that fails is drawn once more, alone: for drivers on which a failure
     /// leaves something behind that makes the next case fail.
     pub(crate) alone: Option<Launch>,
@@ -93,42 +85,30 @@ impl<'a> DriverOracle<'a> {
         } else {
             timeout
         };
-        let ends = !record.verdict.is_violation();
         Self {
             trials,
             symptom: Symptom::of(&record),
             record,
             error: None,
             stop,
-            until: ends.then(|| Instant::now() + LOST_TIME),
-            late: false,
             alone: None,
         }
     }
 
-    /// Reduces the case.
-    pub(crate) fn reduce(&mut self, failing: Candidate, limits: &Limits) -> Reduction {
-        self.reduce_by(failing, limits, MOST_DRAWS)
-    }
-
     /// Reduces the case with so many draws at most.
-    pub(crate) fn reduce_by(
+    pub(crate) fn reduce(
         &mut self,
         failing: Candidate,
         limits: &Limits,
-        most: usize,
+        draws: usize,
     ) -> Reduction {
         let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-        let most = if self.until.is_some() {
-            MOST_LOST
+        let budget = if self.record.verdict.is_violation() {
+            Budget::draws(draws)
         } else {
-            most
+            Budget::of_processes()
         };
-        let reduction = reduce(failing, most, &can_draw, self);
-        Reduction {
-            finished: reduction.finished && !self.late,
-            ..reduction
-        }
+        reduce(failing, budget.with_stop(self.stop), &can_draw, self)
     }
 }
 
@@ -139,19 +119,13 @@ impl Oracle for DriverOracle<'_> {
             symptom,
             record,
             error,
-            stop,
-            until,
-            late,
             alone,
+            ..
         } = self;
         if error.is_some() {
             return None;
         }
-        let mut next = || {
-            *late |= until.is_some_and(|until| Instant::now() >= until)
-                || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
-            if *late { None } else { candidates.next() }
-        };
+        let mut next = || candidates.next();
         let timeout = trials.timeout;
         let mut found = |candidate: &Candidate, judged: Record| {
             let seen = Symptom::of(&judged);
@@ -284,7 +258,7 @@ impl<'a> Driver for Reducer<'a> {
         record: Record,
     ) -> Result<(Candidate, Symptom, Traits), Failure> {
         let mut oracle = self.oracle(record)?;
-        let smallest = oracle.reduce(case, &self.limits).smallest;
+        let smallest = oracle.reduce(case, &self.limits, MOST_DRAWS).smallest;
         let symptom = oracle.symptom.clone();
         self.give_back(oracle)?;
         let traits = Traits::of(&smallest.document, &symptom);
@@ -293,70 +267,5 @@ impl<'a> Driver for Reducer<'a> {
 
     fn is_steady(&self, case: &Candidate, symptom: &Symptom) -> bool {
         confirm(&self.launch, &case.case, symptom, self.timeout).is_ok()
-    }
-}
-
-/// A reduced case, and what is wrong with it.
-pub(crate) struct Shown<'a> {
-    /// Its document.
-    pub(crate) document: &'a Value,
-    /// Its record.
-    pub(crate) record: &'a Record,
-    /// Its symptom.
-    pub(crate) symptom: &'a Symptom,
-}
-
-impl Shown<'_> {
-    /// Returns the sentence on the wrong sample or counter.
-    pub(crate) fn sentence(&self) -> String {
-        let sentence = self.record.story.as_ref().and_then(sentence);
-        sentence.unwrap_or_else(|| self.record.message.clone())
-    }
-
-    /// Returns the clause that is violated: that of the last operation that cites one. Coverage cites one for
-    /// primitives that lie elsewhere, and so is the last to be named.
-    pub(crate) fn clause(&self) -> Option<String> {
-        let story = self.record.story.as_ref()?;
-        if matches!(self.symptom.subject, Subject::Relation(_)) {
-            return judged_by(story);
-        }
-        let cited = |coverage: bool| {
-            let mut events = story.events.iter().rev();
-            events.find_map(|event| {
-                let counts = (event.operation() == Operation::Coverage) == coverage;
-                event.citation.clone().filter(|_| counts)
-            })
-        };
-        let clause = cited(false).or_else(|| cited(true));
-        clause.or_else(|| judged_by(story))
-    }
-
-    /// Returns the states that are not the default.
-    pub(crate) fn states(&self) -> String {
-        match states(&self.document["scene"]) {
-            all if all.is_empty() => "none but the defaults".to_owned(),
-            all => all.join(", "),
-        }
-    }
-
-    /// Returns the document with what it shows, behind a sentence on its origin.
-    pub(crate) fn described(&self, origin: &str) -> Value {
-        let word = if self.record.verdict.is_violation() {
-            "Violated".to_owned()
-        } else {
-            format!("Ends by {}", self.record.verdict)
-        };
-        let mut about = format!(
-            "{origin} States: {}. {word}: {}: {}",
-            self.states(),
-            self.symptom,
-            self.sentence()
-        );
-        if let Some(clause) = self.clause() {
-            about.push_str(&format!(" [{clause}]"));
-        }
-        let mut document = self.document.clone();
-        document["about"] = json!(about);
-        document
     }
 }

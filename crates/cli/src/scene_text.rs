@@ -132,21 +132,21 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
         }
     }
     let names = |indices: &[usize]| -> String {
-        let all = indices.iter().map(|i| scene.attachments[*i].name.clone());
-        all.collect::<Vec<_>>().join(", ")
+        let names = indices.iter().map(|i| scene.attachments[*i].name.clone());
+        names.collect::<Vec<_>>().join(", ")
     };
     if !draw.textures.is_empty() {
         add(format!("textures {}", names(&draw.textures)));
     }
-    let mut own = draw.clone();
-    own.mesh = NO_MESH;
-    own.targets.clear();
-    own.textures.clear();
-    let mut own = serde_json::to_value(own).unwrap_or_default();
+    let mut changed = draw.clone();
+    changed.mesh = NO_MESH;
+    changed.targets.clear();
+    changed.textures.clear();
+    let mut state = serde_json::to_value(changed).unwrap_or_default();
     for field in LISTED_APART {
-        own[field] = PLAIN[field].clone();
+        state[field] = PLAIN[field].clone();
     }
-    differences(&own, &PLAIN).into_iter().for_each(add);
+    differences(&state, &PLAIN).into_iter().for_each(add);
     lines
 }
 
@@ -166,22 +166,25 @@ static PLAIN: LazyLock<Value> = LazyLock::new(|| {
 });
 
 /// The fields of a state that differ from the default's.
-fn changes<T: Serialize + PartialEq>(own: &T, plain: &T) -> impl Iterator<Item = String> + use<T> {
-    let differing = if own == plain {
+fn changes<T: Serialize + PartialEq>(
+    value: &T,
+    plain: &T,
+) -> impl Iterator<Item = String> + use<T> {
+    let differing = if value == plain {
         Vec::new()
     } else {
-        let [own, plain] = [own, plain].map(|t| serde_json::to_value(t).unwrap_or_default());
-        differences(&own, &plain)
+        let [values, plain] = [value, plain].map(|t| serde_json::to_value(t).unwrap_or_default());
+        differences(&values, &plain)
     };
     differing.into_iter()
 }
 
 /// The fields of one value that differ from another's.
-fn differences(own: &Value, plain: &Value) -> Vec<String> {
-    let Value::Object(own) = own else {
+fn differences(value: &Value, plain: &Value) -> Vec<String> {
+    let Value::Object(members) = value else {
         return Vec::new();
     };
-    let changed = own
+    let changed = members
         .iter()
         .filter(|(key, value)| plain.get(key.as_str()) != Some(*value));
     changed
@@ -242,11 +245,11 @@ mod tests {
         let library = Library::built_in().unwrap();
         for file in library.files() {
             let case = file.cases(Profile::Full).next().unwrap().build().unwrap();
-            let all = lines(&case.scene);
-            assert!(all.len() >= 2, "{}", case.id);
+            let text = lines(&case.scene);
+            assert!(text.len() >= 2, "{}", case.id);
             assert!(
-                all.iter().all(|line| line.chars().count() < 400),
-                "{}: {all:#?}",
+                text.iter().all(|line| line.chars().count() < 400),
+                "{}: {text:#?}",
                 case.id
             );
         }

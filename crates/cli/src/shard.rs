@@ -138,11 +138,11 @@ pub(crate) fn from_environment(
             "JOB_COMPLETIONS",
         )?;
     }
-    if let [(one, a), (other, b), ..] = found.as_slice()
+    if let [(first, a), (other, b), ..] = found.as_slice()
         && a != b
     {
         return Err(Failure::usage(format!(
-            "{one} sets shard {a}, {other} shard {b}; give --shard M/N, or 1/1 for all"
+            "{first} sets shard {a}, {other} shard {b}; give --shard M/N, or 1/1 for all"
         )));
     }
     Ok(FromEnvironment {

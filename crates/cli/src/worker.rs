@@ -58,8 +58,8 @@ fn set_up() -> Result<String, Failure> {
     if missing.is_empty() {
         return Ok(setup.open);
     }
-    let own = std::env::current_exe()?;
-    let mut command = Command::new(&own);
+    let program = std::env::current_exe()?;
+    let mut command = Command::new(&program);
     command.args(["worker", "--open", &setup.open]);
     for (name, value) in missing {
         match value {
@@ -67,25 +67,25 @@ fn set_up() -> Result<String, Failure> {
             None => command.env_remove(name),
         };
     }
-    Err(become_other(command, &own))
+    Err(become_other(command, &program))
 }
 
 /// Replaces this process; returns only if that fails.
 #[cfg(unix)]
-fn become_other(mut command: Command, own: &Path) -> Failure {
+fn become_other(mut command: Command, program: &Path) -> Failure {
     let error = std::os::unix::process::CommandExt::exec(&mut command);
     Failure::usage(format!(
         "{} cannot be started with the environment that the adapter needs: {error}",
-        own.display()
+        program.display()
     ))
 }
 
 /// Returns the reason for which no process can be replaced.
 #[cfg(not(unix))]
-fn become_other(_: Command, own: &Path) -> Failure {
+fn become_other(_: Command, program: &Path) -> Failure {
     Failure::usage(format!(
         "{}: the launcher does not pass the environment on; put `env NAME=VALUE` behind it",
-        own.display()
+        program.display()
     ))
 }
 
@@ -150,8 +150,9 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
 
 /// Returns the hardware devices; software drivers are described in the data file.
 fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
-    let infos = |all: Vec<etalon_backend::AdapterInfo>| {
-        all.into_iter()
+    let infos = |found: Vec<etalon_backend::AdapterInfo>| {
+        found
+            .into_iter()
             .enumerate()
             .filter(|(_, info)| !info.software)
             .map(|(device, info)| HardwareDevice {

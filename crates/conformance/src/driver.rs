@@ -30,7 +30,7 @@ pub const GALLIUM_INSTALL: &str = "apt-get install libegl1 libgl1-mesa-dri mesa-
 
 /// One way to a driver, and what the tests know of it.
 pub struct Driver<'a> {
-    /// What it lacks and does wrong.
+    /// Its missing features and its known faults.
     pub known: Known,
     /// Variables of the process that opens it; none where it is opened in this process.
     pub environment: Vec<(&'a str, String)>,

@@ -19,14 +19,14 @@ pub(crate) const MIP_LEVELS: &str = "mip levels";
 /// The names of defects that are no check's.
 pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASKS, MIP_LEVELS];
 
-/// What is known of a driver.
+/// The known faults and missing features of a driver.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// The adapter's name.
     pub name: &'static str,
     /// The API whose rules bind it.
     pub api: Api,
-    /// What it lacks; anything, where nothing is known.
+    /// Its missing features; any feature, if nothing is known.
     pub lacks: Option<Lacks>,
     /// Checks that it fails. They are not run.
     pub defects: &'static [&'static [Defect]],
@@ -51,7 +51,7 @@ impl Known {
     }
 }
 
-/// What is known of the adapter of this name.
+/// Returns the known faults of the adapter of this name.
 ///
 /// # Panics
 /// When nothing is.

@@ -23,7 +23,7 @@ pub(crate) enum Prediction {
     Skips,
 }
 
-/// What a check does on a driver that lacks this and nothing else; none where nothing is known of the
+/// The result of a check on a driver that lacks this and nothing else; none if nothing is known of the
 /// driver.
 pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
     let backend = Undrawn {

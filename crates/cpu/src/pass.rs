@@ -61,9 +61,8 @@ pub(crate) fn run<S: Steps>(
     for (source, target) in pass.color.iter().zip(&pass.resolve) {
         if let Some(target) = target {
             let both = surfaces.get_disjoint_mut([*source, *target]);
-            let [source, target] = both.map_err(|_| {
-                BackendError::Internal("an attachment is resolved to itself".to_owned())
-            })?;
+            let [source, target] =
+                both.map_err(|_| BackendError::internal("an attachment is resolved to itself"))?;
             target.resolve_from(source, |encoding, codes| steps.resolve(encoding, codes));
         }
     }
@@ -71,7 +70,7 @@ pub(crate) fn run<S: Steps>(
         let format = scene.attachments[source].format;
         let both = surfaces.get_disjoint_mut([source, resolve.to]);
         let [source, target] =
-            both.map_err(|_| BackendError::Internal("depth is resolved to itself".to_owned()))?;
+            both.map_err(|_| BackendError::internal("depth is resolved to itself"))?;
         if let Some(encoding) = depth_encoding(format) {
             let depth = |codes: &[u32]| steps.resolve_depth(resolve.depth, encoding, codes);
             target.resolve_depth_from(source, resolve.depth, depth);

@@ -62,8 +62,8 @@ impl<S: Steps> Prepared for PreparedScene<S> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if self.surfaces.is_empty() {
-            return Err(BackendError::Internal(
-                "read back before anything was drawn".to_owned(),
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
             ));
         }
         let mut frame = Frame::default();

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub struct Benchmark {
     /// The name under which a service follows it.
     pub name: String,
-    /// What was measured.
+    /// The name of the measurement.
     pub times: BTreeMap<Time, Figure>,
     /// Further facts for people, or empty.
     pub extra: String,

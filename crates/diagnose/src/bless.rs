@@ -60,8 +60,8 @@ pub fn bless(
         }
         // It is expected as soon as its round trip is.
         let follows = record.blocked_by.iter().any(|id| {
-            let mut all = run.records.iter();
-            all.any(|r| r.adapter == record.adapter && r.case == *id)
+            let mut records = run.records.iter();
+            records.any(|r| r.adapter == record.adapter && r.case == *id)
         });
         if !record.verdict.is_bad() {
             blessing.unblessed += 1;
@@ -137,8 +137,8 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
 /// same cases, so that none is excused that was not seen.
 fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Finding)> {
     let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
-    for one in new {
-        let (record, entry) = one;
+    for symptom in new {
+        let (record, entry) = symptom;
         let file = record.case_file();
         let key = (
             &entry.driver,
@@ -148,7 +148,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             &entry.adapter,
             Symptom::of(record).broad(),
         );
-        groups.entry(key).or_default().push(one);
+        groups.entry(key).or_default().push(symptom);
     }
     let mut found: Vec<(String, Finding)> = Vec::new();
     for ((driver, version, verdict, file, adapter, kind), group) in groups {
@@ -225,7 +225,7 @@ fn slug(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{FORMAT, Header, Machine, Settings};
+    use etalon_record::Header;
     use std::path::Path;
 
     fn run(verdicts: &[(&str, Verdict)], expectations: &Expectations) -> Run {
@@ -245,16 +245,8 @@ mod tests {
             records: records.collect(),
             truncated: false,
             header: Header {
-                format: FORMAT,
-                etalon: String::new(),
-                commit: None,
-                machine: Machine::default(),
                 started: "2026-01-01T00:00:00Z".to_owned(),
-                command: Vec::new(),
-                cases: verdicts.len() as u64,
-                settings: Settings::default(),
-                adapters: vec![adapter],
-                absent: Vec::new(),
+                ..Header::new(vec![adapter], verdicts.len() as u64)
             },
         }
     }
@@ -271,8 +263,8 @@ mod tests {
         &run.header.adapters[0]
     }
 
-    fn ids(all: &[&str]) -> Vec<String> {
-        all.iter().map(|id| (*id).to_owned()).collect()
+    fn ids(names: &[&str]) -> Vec<String> {
+        names.iter().map(|id| (*id).to_owned()).collect()
     }
 
     #[test]
@@ -369,9 +361,9 @@ mod tests {
     #[test]
     fn an_entry_goes_when_all_that_it_names_is_better() {
         let entry = read("a/*");
-        let all = ids(&["a/1", "a/2", "b/1"]);
+        let drawn = ids(&["a/1", "a/2", "b/1"]);
         let bless = |verdicts: &[(&str, Verdict)], whole: bool| {
-            let blessing = bless(&entry, &run(verdicts, &entry), &all, whole, "d");
+            let blessing = bless(&entry, &run(verdicts, &entry), &drawn, whole, "d");
             (
                 blessing.removed.len(),
                 blessing.to_narrow.len(),

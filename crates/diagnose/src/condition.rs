@@ -165,15 +165,15 @@ mod tests {
     use super::*;
 
     fn ids() -> Vec<String> {
-        let mut all = Vec::new();
+        let mut ids = Vec::new();
         for dst in ["one", "one-minus-dst", "one-minus-src", "zero"] {
             for format in ["rgba8snorm", "rgba8unorm"] {
                 for src in ["one", "zero"] {
-                    all.push(format!("blend/f/dst={dst}/format={format}/src={src}"));
+                    ids.push(format!("blend/f/dst={dst}/format={format}/src={src}"));
                 }
             }
         }
-        all
+        ids
     }
 
     #[test]
@@ -183,15 +183,18 @@ mod tests {
         let failing = |keep: &dyn Fn(&str) -> bool| -> Vec<&str> {
             drawn.iter().copied().filter(|id| keep(id)).collect()
         };
-        let due = failing(&|id| id.contains("snorm") && id.contains("one-minus"));
-        let found = Condition::of(&due, &drawn);
+        let failed = failing(&|id| id.contains("snorm") && id.contains("one-minus"));
+        let found = Condition::of(&failed, &drawn);
         assert_eq!(
             found.text(),
             "all of dst=one-minus-dst|one-minus-src, format=rgba8snorm: 4 of 4, none else"
         );
-        let globs = found.globs("blend/f", &due).unwrap();
+        let globs = found.globs("blend/f", &failed).unwrap();
         for glob in &globs {
-            assert!(due.iter().any(|id| names(glob, id)), "{glob} names nothing");
+            assert!(
+                failed.iter().any(|id| names(glob, id)),
+                "{glob} names nothing"
+            );
         }
         for id in &drawn {
             assert_eq!(
@@ -200,9 +203,9 @@ mod tests {
                 "{id}: {globs:?}"
             );
         }
-        let all = Condition::of(&drawn, &drawn);
+        let whole = Condition::of(&drawn, &drawn);
         assert_eq!(
-            (all.text(), all.globs("blend/f", &drawn)),
+            (whole.text(), whole.globs("blend/f", &drawn)),
             (
                 "all that were drawn: 16".to_owned(),
                 Some(vec!["blend/f/*".to_owned()])
@@ -219,10 +222,10 @@ mod tests {
             .flat_map(|x| ["a", "b"].map(|y| format!("f/back-mode={x}/mode={y}")))
             .collect();
         let drawn: Vec<&str> = ids.iter().map(String::as_str).collect();
-        let of = |failing: &[&str]| Condition::of(failing, &drawn).globs("f", failing);
-        let back = of(&[drawn[0], drawn[1]]);
+        let globs = |failing: &[&str]| Condition::of(failing, &drawn).globs("f", failing);
+        let back = globs(&[drawn[0], drawn[1]]);
         assert_eq!(back, Some(vec!["f/back-mode=a/*".to_owned()]));
-        let front = of(&[drawn[0], drawn[2]]);
+        let front = globs(&[drawn[0], drawn[2]]);
         assert_eq!(front, Some(vec!["f/*/mode=a".to_owned()]));
     }
 }

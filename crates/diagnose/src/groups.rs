@@ -44,7 +44,7 @@ impl Key {
 
 /// One way to fail, with what its first scene left.
 pub struct Group<S> {
-    /// What is left of its first scene.
+    /// Its first scene, reduced.
     pub scene: S,
     /// The number of scenes.
     pub count: u64,

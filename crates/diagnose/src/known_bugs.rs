@@ -97,8 +97,8 @@ impl Part {
             let color = !format.starts_with("depth") && !format.starts_with("stencil");
             color == (self == Self::Color)
         };
-        let all = scene["read"].as_array().into_iter().flatten();
-        let read: Vec<Value> = all.filter(shown).cloned().collect();
+        let reads = scene["read"].as_array().into_iter().flatten();
+        let read: Vec<Value> = reads.filter(shown).cloned().collect();
         if read.is_empty() {
             return None;
         }
@@ -121,7 +121,7 @@ struct Seen<C> {
     traits: Traits,
 }
 
-/// What is left of a case.
+/// A reduced case.
 struct Reduced<C> {
     case: C,
     symptom: Symptom,
@@ -192,11 +192,12 @@ impl<D: Driver> KnownBugs<D> {
         let part = Part::of(traits);
         if steady && verdict.is_violation() {
             for number in self.may_leave(traits) {
-                let at = (number, part);
-                self.reduced(at, traits)?;
-                if self.likeness(at, verdict, traits) == Some(Likeness::Same) && self.is_steady(at)
+                let place = (number, part);
+                self.reduced(place, traits)?;
+                if self.likeness(place, verdict, traits) == Some(Likeness::Same)
+                    && self.is_steady(place)
                 {
-                    return Ok(Some(self.matched(at, verdict, traits, None)));
+                    return Ok(Some(self.matched(place, verdict, traits, None)));
                 }
             }
         }
@@ -213,12 +214,13 @@ impl<D: Driver> KnownBugs<D> {
         if self.driver.is_stopped() {
             return Ok(None);
         }
-        let all = self.tried.keys().copied();
-        let alike = all.filter_map(|at| Some((at, self.likeness(at, verdict, traits)?)));
+        let places = self.tried.keys().copied();
+        let alike =
+            places.filter_map(|place| Some((place, self.likeness(place, verdict, traits)?)));
         let mut alike: Vec<((usize, Part), Likeness)> = alike.collect();
         // The one that says most of the failure.
-        alike.sort_by_key(|(at, likeness)| {
-            let known = self.left(*at).map(|r| &r.traits);
+        alike.sort_by_key(|(place, likeness)| {
+            let known = self.left(*place).map(|r| &r.traits);
             let way = known.is_none_or(|k| k.way != traits.way);
             let shared = known.map_or(0, |k| k.words.shared(&traits.words));
             (*likeness, way, Reverse(shared))
@@ -227,28 +229,33 @@ impl<D: Driver> KnownBugs<D> {
         alike.retain(|(_, likeness)| steady || *likeness != Likeness::Elsewhere);
         // Some drivers leave behind what a failure is made of.
         let mut alike = alike.into_iter();
-        let best = alike.find(|(at, _)| !steady || self.is_steady(*at));
-        Ok(best.map(|(at, likeness)| {
+        let best = alike.find(|(place, _)| !steady || self.is_steady(*place));
+        Ok(best.map(|(place, likeness)| {
             if steady && likeness == Likeness::Same && verdict.is_violation() {
-                return self.matched(at, verdict, traits, None);
+                return self.matched(place, verdict, traits, None);
             }
-            let known = self.left(at).map(|r| &r.traits);
+            let known = self.left(place).map(|r| &r.traits);
             let beyond = known.map(|k| Beyond {
                 states: traits.states.without(&k.states),
                 violation: (likeness == Likeness::Elsewhere).then(|| k.way.to_string()),
             });
-            self.matched(at, verdict, traits, beyond)
+            self.matched(place, verdict, traits, beyond)
         }))
     }
 
     /// Returns what was left of a case.
-    fn left(&self, at: (usize, Part)) -> Option<&Reduced<D::Case>> {
-        self.tried.get(&at)?.reduced.as_ref()?.as_ref()
+    fn left(&self, place: (usize, Part)) -> Option<&Reduced<D::Case>> {
+        self.tried.get(&place)?.reduced.as_ref()?.as_ref()
     }
 
-    fn likeness(&self, at: (usize, Part), verdict: Verdict, traits: &Traits) -> Option<Likeness> {
-        self.finding(at.0, verdict)?;
-        traits.likeness(&self.left(at)?.traits)
+    fn likeness(
+        &self,
+        place: (usize, Part),
+        verdict: Verdict,
+        traits: &Traits,
+    ) -> Option<Likeness> {
+        self.finding(place.0, verdict)?;
+        traits.likeness(&self.left(place)?.traits)
     }
 
     /// Returns the first finding that names a case and excuses a verdict.
@@ -260,17 +267,19 @@ impl<D: Driver> KnownBugs<D> {
 
     fn matched(
         &self,
-        at: (usize, Part),
+        place: (usize, Part),
         verdict: Verdict,
         traits: &Traits,
         beyond: Option<Beyond>,
     ) -> Match {
-        let known = self.finding(at.0, verdict);
-        let states = self.left(at).map_or(&traits.states, |r| &r.traits.states);
+        let known = self.finding(place.0, verdict);
+        let states = self
+            .left(place)
+            .map_or(&traits.states, |r| &r.traits.states);
         Match {
             finding: known.map(Known::name).unwrap_or_default(),
             title: known.map(|k| k.reason.clone()).unwrap_or_default(),
-            case: self.named[at.0].id.clone(),
+            case: self.named[place.0].id.clone(),
             states: states.clone(),
             beyond,
         }
@@ -279,32 +288,32 @@ impl<D: Driver> KnownBugs<D> {
     /// Returns the cases from which a failure may be left, the likeliest first: those that have all its states.
     fn may_leave(&self, traits: &Traits) -> Vec<usize> {
         // A reduction replaces formats and meshes by simpler ones.
-        let due = traits.states.without_formats().without_vertices();
-        let has = |n: &usize| due.is_empty() || due.is_within(&self.named[*n].states);
-        let mut all: Vec<usize> = (0..self.named.len()).filter(has).collect();
-        all.sort_by_key(|n| {
+        let wanted = traits.states.without_formats().without_vertices();
+        let has = |n: &usize| wanted.is_empty() || wanted.is_within(&self.named[*n].states);
+        let mut likely: Vec<usize> = (0..self.named.len()).filter(has).collect();
+        likely.sort_by_key(|n| {
             let words = &self.named[*n].words;
             (Reverse(words.shared(&traits.words)), words.len())
         });
         let mut of_each: BTreeMap<&[usize], usize> = BTreeMap::new();
-        all.retain(|n| {
+        likely.retain(|n| {
             let count = of_each.entry(&self.named[*n].findings).or_default();
             *count += 1;
             *count <= TRIED_OF_EACH
         });
-        all.truncate(TRIED);
-        all
+        likely.truncate(TRIED);
+        likely
     }
 
     /// Draws a case and reduces it, if it fails by the finding and is of use for a failure with these traits.
-    fn reduced(&mut self, at: (usize, Part), traits: &Traits) -> Result<(), D::Error> {
+    fn reduced(&mut self, place: (usize, Part), traits: &Traits) -> Result<(), D::Error> {
         if self.driver.is_stopped() {
             return Ok(());
         }
-        if !self.tried.contains_key(&at) {
-            let seen = self.drawn(at)?;
+        if !self.tried.contains_key(&place) {
+            let seen = self.drawn(place)?;
             let reduced = seen.is_none().then_some(None);
-            self.tried.insert(at, Tried { seen, reduced });
+            self.tried.insert(place, Tried { seen, reduced });
         }
         // What is left may be like a failure that has more, or in another violation.
         let of_use = |seen: &mut Seen<D::Case>| {
@@ -312,13 +321,13 @@ impl<D: Driver> KnownBugs<D> {
                 || seen.traits.may_be_left_of(traits)
                 || traits.aspect().is_some() && seen.traits.aspect().is_some()
         };
-        let tried = self.tried.get_mut(&at);
+        let tried = self.tried.get_mut(&place);
         let seen = tried.and_then(|tried| tried.seen.take_if(of_use));
         if let Some(seen) = seen {
             let left = self.reduce(seen)?;
             let reduced = Some(Some(left));
             self.tried.insert(
-                at,
+                place,
                 Tried {
                     seen: None,
                     reduced,
@@ -329,8 +338,8 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Draws a part of a case. Returns it if it fails as a finding says.
-    fn drawn(&mut self, at: (usize, Part)) -> Result<Option<Seen<D::Case>>, D::Error> {
-        let (number, part) = at;
+    fn drawn(&mut self, place: (usize, Part)) -> Result<Option<Seen<D::Case>>, D::Error> {
+        let (number, part) = place;
         let document = self.driver.document(&self.named[number].case);
         let Some(document) = document.and_then(|document| part.of_document(document)) else {
             return Ok(None);
@@ -365,8 +374,8 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// True if what is left of a case fails in a new process.
-    fn is_steady(&mut self, at: (usize, Part)) -> bool {
-        let tried = self.tried.get_mut(&at);
+    fn is_steady(&mut self, place: (usize, Part)) -> bool {
+        let tried = self.tried.get_mut(&place);
         let reduced = tried.and_then(|t| t.reduced.as_mut()?.as_mut());
         let Some(Reduced {
             case,
@@ -389,10 +398,10 @@ fn standing<N>(named: &[Named<N>]) -> Vec<usize> {
             of_each.entry(*finding).or_default().push(number);
         }
     }
-    let each = of_each.values().flat_map(|all| {
-        let count = all.len().min(STANDING);
-        (0..count).map(move |i| all[i * (all.len() - 1) / count.max(2).saturating_sub(1)])
+    let each = of_each.values().flat_map(|numbers| {
+        let count = numbers.len().min(STANDING);
+        (0..count).map(move |i| numbers[i * (numbers.len() - 1) / count.max(2).saturating_sub(1)])
     });
-    let all: BTreeSet<usize> = each.collect();
-    all.into_iter().collect()
+    let alike: BTreeSet<usize> = each.collect();
+    alike.into_iter().collect()
 }

@@ -25,5 +25,5 @@ pub use groups::{Group, Groups, Key};
 pub use known_bugs::{Driver, KnownBugs};
 pub use matching::{Beyond, Match};
 pub use signature::Signature;
-pub use symptom::{Direction, Subject, Symptom};
+pub use symptom::{Direction, Subject, Symptom, violated_clause};
 pub use traits::{Likeness, Traits, Violation};

@@ -13,11 +13,11 @@ pub struct Match {
     pub case: String,
     /// The states that are left of the case.
     pub states: Signature,
-    /// What is different; `None` where the failure is the same.
+    /// The difference; `None` if the failure is the same.
     pub beyond: Option<Beyond>,
 }
 
-/// What tells a failure from one that it is like.
+/// The difference between two failures that are alike.
 #[derive(Clone, Debug)]
 pub struct Beyond {
     /// The states that are not left of the case.

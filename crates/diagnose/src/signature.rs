@@ -51,23 +51,23 @@ impl Signature {
     }
 
     fn with(document: &Value, detail: Detail) -> Self {
-        let mut all = BTreeSet::new();
-        let add = |all: &mut BTreeSet<String>, path: &str, value: &Value| {
-            add(all, path, value, detail);
+        let mut states = BTreeSet::new();
+        let add = |states: &mut BTreeSet<String>, path: &str, value: &Value| {
+            add(states, path, value, detail);
         };
         let scene = &document["scene"];
         for attachment in scene["attachments"].as_object().into_iter().flatten() {
             let format = attachment.1["format"].as_str().unwrap_or_default();
             if format != "rgba8unorm" {
-                all.insert(format!("format={format}"));
+                states.insert(format!("format={format}"));
             }
             for key in ["samples", "texels"] {
                 match attachment.1.get(key) {
                     Some(count) if key == "samples" && detail == Detail::Words => {
-                        all.insert(format!("{key}={count}"));
+                        states.insert(format!("{key}={count}"));
                     }
                     Some(_) => {
-                        all.insert(key.to_owned());
+                        states.insert(key.to_owned());
                     }
                     None => {}
                 }
@@ -76,11 +76,11 @@ impl Signature {
         for pass in list(scene, "passes") {
             for (key, value) in pass.as_object().into_iter().flatten() {
                 if !["color", "depth_stencil", "draws", "resolve"].contains(&key.as_str()) {
-                    add(&mut all, key, value);
+                    add(&mut states, key, value);
                 }
             }
             if pass.get("resolve").is_some() {
-                all.insert("resolve".to_owned());
+                states.insert("resolve".to_owned());
             }
             for (key, value) in list(pass, "draws")
                 .iter()
@@ -89,28 +89,28 @@ impl Signature {
             {
                 match key.as_str() {
                     "params" if detail == Detail::Words => {
-                        add_sides(&mut all, key, value);
+                        add_sides(&mut states, key, value);
                     }
                     "params" | "textures" | "counters" => {}
                     // Nearly everything is drawn with these.
                     "shader" if value == "uniform_color" || value == "flat_color" => {}
                     "mesh" if value["kind"] != "vertices" => {}
-                    key => add(&mut all, key, value),
+                    key => add(&mut states, key, value),
                 }
             }
         }
         if let Some(kinds) = scene["counters"].as_object() {
             kinds
                 .values()
-                .for_each(|kind| add(&mut all, "counter", kind));
+                .for_each(|kind| add(&mut states, "counter", kind));
         }
         if let Some(path) = scene.get("path") {
-            add(&mut all, "path", path);
+            add(&mut states, "path", path);
         }
         if document.get("submissions").is_some() {
-            all.insert("submissions".to_owned());
+            states.insert("submissions".to_owned());
         }
-        Self(all)
+        Self(states)
     }
 
     /// True if another signature has all keys of this one, so that its scene may show the same. A signature without keys
@@ -178,8 +178,8 @@ impl Signature {
 
 impl fmt::Display for Signature {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<&str> = self.0.iter().map(String::as_str).collect();
-        f.write_str(&all.join(", "))
+        let states: Vec<&str> = self.0.iter().map(String::as_str).collect();
+        f.write_str(&states.join(", "))
     }
 }
 
@@ -189,49 +189,49 @@ fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
 }
 
 /// Adds the keys below a value with their words.
-fn add(all: &mut BTreeSet<String>, path: &str, value: &Value, detail: Detail) {
+fn add(states: &mut BTreeSet<String>, path: &str, value: &Value, detail: Detail) {
     let words = detail == Detail::Words;
     match value {
         Value::Object(map) => {
             for (key, value) in map {
-                add(all, &format!("{path}.{key}"), value, detail);
+                add(states, &format!("{path}.{key}"), value, detail);
             }
         }
         Value::Array(list) if list.iter().any(Value::is_object) => {
             for value in list {
-                add(all, path, value, detail);
+                add(states, path, value, detail);
             }
         }
         Value::String(word) if words || KEPT.iter().any(|key| path.starts_with(key)) => {
-            all.insert(format!("{path}={word}"));
+            states.insert(format!("{path}={word}"));
         }
         Value::Bool(value) if words => {
-            all.insert(format!("{path}={value}"));
+            states.insert(format!("{path}={value}"));
         }
         Value::Null => {}
         _ => {
-            all.insert(path.to_owned());
+            states.insert(path.to_owned());
             for word in value.as_array().into_iter().flatten() {
                 if let (true, Some(word)) = (words, word.as_str()) {
-                    all.insert(format!("{path}={word}"));
+                    states.insert(format!("{path}={word}"));
                 }
             }
             if words && VALUES.iter().any(|key| path.starts_with(key)) {
-                add_sides(all, path, value);
+                add_sides(states, path, value);
             }
         }
     }
 }
 
 /// Adds whether numbers below a value lie below 0 or above 1.
-fn add_sides(all: &mut BTreeSet<String>, path: &str, value: &Value) {
+fn add_sides(states: &mut BTreeSet<String>, path: &str, value: &Value) {
     match value {
         // Rectangles are no values.
         Value::Object(map) => map
             .iter()
             .filter(|(key, _)| *key != "rect")
-            .for_each(|(_, value)| add_sides(all, path, value)),
-        Value::Array(list) => list.iter().for_each(|value| add_sides(all, path, value)),
+            .for_each(|(_, value)| add_sides(states, path, value)),
+        Value::Array(list) => list.iter().for_each(|value| add_sides(states, path, value)),
         Value::Number(number) if !path.ends_with(".rect") => {
             let number = number.as_f64().unwrap_or_default();
             let side = match (number < 0.0, number > 1.0) {
@@ -239,7 +239,7 @@ fn add_sides(all: &mut BTreeSet<String>, path: &str, value: &Value) {
                 (_, true) => ">1",
                 _ => return,
             };
-            all.insert(format!("{path}{side}"));
+            states.insert(format!("{path}{side}"));
         }
         _ => {}
     }
@@ -259,16 +259,16 @@ mod tests {
 
     #[test]
     fn keys_tell_failures_apart_and_values_do_not() {
-        let of = |logic: &str, red: f64, topology: &str| {
+        let signature = |logic: &str, red: f64, topology: &str| {
             Signature::of(&document(json!({
                 "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": logic,
                 "params": { "color": [red, 0, 0, 0] }, "topology": topology
             })))
         };
-        let one = of("xor", 0.5, "line-list");
-        assert_eq!(one, of("nor", 0.25, "line-list"));
-        assert_ne!(one, of("xor", 0.5, "point-list"));
-        assert_eq!(one.to_string(), "logic, topology=line-list");
+        let lines = signature("xor", 0.5, "line-list");
+        assert_eq!(lines, signature("nor", 0.25, "line-list"));
+        assert_ne!(lines, signature("xor", 0.5, "point-list"));
+        assert_eq!(lines.to_string(), "logic, topology=line-list");
     }
 
     #[test]
@@ -288,19 +288,22 @@ mod tests {
     #[test]
     fn the_exact_signature_has_words_and_sides_and_no_numbers() {
         let exact = |draw: Value| Signature::exact(&document(draw));
-        let of = |logic: &str, red: f64, write: bool| {
+        let signature = |logic: &str, red: f64, write: bool| {
             exact(json!({
                 "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": logic,
                 "params": { "color": [red, 0, 0, 0] }, "depth": { "compare": "less", "write": write },
                 "scissor": [0, 0, 4, 4]
             }))
         };
-        let one = of("xor", 0.5, true);
-        assert_eq!(one, of("xor", 0.25, true));
-        assert_ne!(one, of("nor", 0.5, true));
-        assert_ne!(one, of("xor", 0.5, false));
-        assert_ne!(one, of("xor", -0.5, true));
-        assert_eq!(of("xor", 1.5, true).without(&one).to_string(), "params>1",);
+        let written = signature("xor", 0.5, true);
+        assert_eq!(written, signature("xor", 0.25, true));
+        assert_ne!(written, signature("nor", 0.5, true));
+        assert_ne!(written, signature("xor", 0.5, false));
+        assert_ne!(written, signature("xor", -0.5, true));
+        assert_eq!(
+            signature("xor", 1.5, true).without(&written).to_string(),
+            "params>1",
+        );
         let sampler = json!({ "sampler": { "address": ["repeat", "mirror-repeat"] } });
         assert_eq!(
             exact(sampler).to_string(),
@@ -321,27 +324,30 @@ mod tests {
 
     #[test]
     fn signatures_are_compared_by_what_they_share() {
-        let of = |draw: Value| Signature::of(&document(draw));
-        let small = of(json!({ "cull": "back" }));
-        let large = of(json!({ "cull": "back", "logic": "xor" }));
+        let signature = |draw: Value| Signature::of(&document(draw));
+        let small = signature(json!({ "cull": "back" }));
+        let large = signature(json!({ "cull": "back", "logic": "xor" }));
         assert!(small.is_within(&large) && !large.is_within(&small));
         assert_eq!((small.shared(&large), large.len()), (1, 2));
         let stencil = |key: &str| {
-            of(
+            signature(
                 json!({ "stencil": { "front": { "compare": "always", key: "zero" } },
                 "topology": "point-list" }),
             )
         };
-        let [one, other] = ["fail_op", "pass_op"].map(stencil);
-        assert!(!one.is_within(&other) && one.coarse() == other.coarse());
-        assert_eq!(one.coarse().to_string(), "stencil, topology=point-list");
-        let mut own = document(json!({ "logic": "xor", "mesh": { "kind": "vertices" } }));
-        own["scene"]["attachments"]["c"]["format"] = json!("r8unorm");
-        let own = Signature::of(&own);
-        assert_eq!(own.to_string(), "format=r8unorm, logic, mesh.kind");
-        assert_eq!(own.without_vertices().to_string(), "format=r8unorm, logic");
-        assert_eq!(own.without_formats().to_string(), "logic, mesh.kind");
-        let none = of(json!({}));
+        let [first, other] = ["fail_op", "pass_op"].map(stencil);
+        assert!(!first.is_within(&other) && first.coarse() == other.coarse());
+        assert_eq!(first.coarse().to_string(), "stencil, topology=point-list");
+        let mut reduced = document(json!({ "logic": "xor", "mesh": { "kind": "vertices" } }));
+        reduced["scene"]["attachments"]["c"]["format"] = json!("r8unorm");
+        let reduced = Signature::of(&reduced);
+        assert_eq!(reduced.to_string(), "format=r8unorm, logic, mesh.kind");
+        assert_eq!(
+            reduced.without_vertices().to_string(),
+            "format=r8unorm, logic"
+        );
+        assert_eq!(reduced.without_formats().to_string(), "logic, mesh.kind");
+        let none = signature(json!({}));
         assert!(none.is_empty() && !none.is_within(&large));
     }
 }

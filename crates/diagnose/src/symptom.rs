@@ -8,8 +8,8 @@
 //! bug: the runner rechecks so many records of each, reports group by it.
 
 use etalon_frame::{
-    Aspect, Band, ChannelMismatch, CounterKind, Effect, Event, Operation, Rejection, Step, Story,
-    Target,
+    Aspect, Band, ChannelMismatch, CounterKind, Effect, ErrorKind, Event, Operation, Rejection,
+    Step, Story, Target,
 };
 use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
@@ -70,8 +70,8 @@ pub enum Subject {
         /// Its exit status.
         exit: Option<i32>,
     },
-    /// The backend failed: its error without numbers, which are addresses, sizes and times.
-    Error(String),
+    /// The backend failed.
+    Error(ErrorKind),
     /// Nothing but the verdict is known.
     Unknown,
 }
@@ -135,16 +135,8 @@ impl Symptom {
                 ..bare
             };
         }
-        let failed = matches!(
-            record.verdict,
-            Verdict::DeviceLost | Verdict::ResourceError | Verdict::InternalError
-        );
-        let words = record.message.chars().filter(|c| !c.is_ascii_digit());
-        let subject = if failed {
-            Subject::Error(words.collect())
-        } else {
-            Subject::Unknown
-        };
+        let error = record.error.clone();
+        let subject = error.map_or(Subject::Unknown, Subject::Error);
         Self { subject, ..bare }
     }
 
@@ -163,7 +155,7 @@ impl Symptom {
     }
 
     /// Returns the symptom that all cases of one bug have, in most of its cases: that of a picture in any attachment,
-    /// of an error in any words.
+    /// of any error with this verdict.
     pub fn broad(self) -> Self {
         let subject = match self.subject {
             Subject::Error(_) => Subject::Unknown,
@@ -193,7 +185,6 @@ impl Symptom {
     pub fn text(&self) -> String {
         let mut words = match &self.subject {
             Subject::Picture(aspect) => vec![aspect.name().to_owned()],
-            Subject::Error(words) => vec![words.clone()],
             Subject::Unknown => Vec::new(),
             other => vec![other.to_string()],
         };
@@ -244,7 +235,7 @@ impl fmt::Display for Subject {
                     (None, None) => Ok(()),
                 }
             }
-            Self::Error(words) => f.write_str(words),
+            Self::Error(kind) => kind.fmt(f),
             Self::Unknown => f.write_str("unknown"),
         }
     }
@@ -274,6 +265,23 @@ pub(crate) fn names(operations: &[Operation]) -> String {
     names.join(", ")
 }
 
+/// Returns the clause that the driver violates: that of the last operation that cites one. Coverage cites one for
+/// primitives that lie elsewhere, and so is the last to be named. `None` if pictures must be the same, which no single
+/// operation decides.
+pub fn violated_clause(story: &Story) -> Option<&str> {
+    if invariance(&story.events).is_some() {
+        return None;
+    }
+    let cited = |coverage: bool| {
+        let mut events = story.events.iter().rev();
+        events.find_map(|event| {
+            let counts = (event.operation() == Operation::Coverage) == coverage;
+            event.citation.as_deref().filter(|_| counts)
+        })
+    };
+    cited(false).or_else(|| cited(true))
+}
+
 /// Returns the name of the invariance of a story about two pictures that must be the same.
 fn invariance(events: &[Event]) -> Option<String> {
     events.iter().find_map(|event| match &event.step {
@@ -284,8 +292,8 @@ fn invariance(events: &[Event]) -> Option<String> {
 
 /// Returns the side on which the wrong values of an aspect lie.
 fn direction(record: &Record, aspect: Aspect) -> Direction {
-    let all = record.wrong.iter().flat_map(|texel| &texel.channels);
-    let of_aspect = || all.clone().filter(|m| m.aspect == aspect);
+    let channels = record.wrong.iter().flat_map(|texel| &texel.channels);
+    let of_aspect = || channels.clone().filter(|m| m.aspect == aspect);
     let order = |m: &ChannelMismatch, code| m.encoding.order_of_code(code);
     let high = of_aspect().any(|m| order(m, m.actual) > order(m, m.high));
     let low = of_aspect().any(|m| order(m, m.actual) < order(m, m.low));
@@ -324,20 +332,20 @@ fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
         let stores = |e: &Event| matches!(&e.effect, Effect::Stores(target) if concerns(target));
         let keeps = |e: &Event| matches!(&e.effect, Effect::Keeps(target) if concerns(target));
         drawn = true;
-        if let Some(at) = group.iter().position(stores) {
+        if let Some(stored) = group.iter().position(stores) {
             deciding.clear();
             let ends = |e: &&Event| match &e.effect {
                 Effect::Stores(target) | Effect::Keeps(target) => target.aspect == aspect,
                 _ => false,
             };
-            let before = group[..at].iter().rev().take_while(|e| !ends(e));
+            let before = group[..stored].iter().rev().take_while(|e| !ends(e));
             let mut before = before.map(Event::operation);
             if aspect == Aspect::Color
                 && let Some(operation) = before.find(|o| COMPUTED.contains(o))
             {
                 add(&mut deciding, operation);
             }
-            add(&mut deciding, group[at].operation());
+            add(&mut deciding, group[stored].operation());
         } else if let Some(kept) = group.iter().find(|e| keeps(e)) {
             add(&mut deciding, kept.operation());
         } else if let Some(event) = rejection(group) {
@@ -540,9 +548,9 @@ mod tests {
 
     #[test]
     fn a_story_of_an_earlier_format_decides_nothing() {
-        let told = r#"[{"at":"pass 0, draw 0","operation":"blend","detail":"c holds 1"}]"#;
+        let sentences = r#"[{"at":"pass 0, draw 0","operation":"blend","detail":"c holds 1"}]"#;
         let mut old = record(30, Vec::new());
-        old.story = Some(serde_json::from_str(told).unwrap());
+        old.story = Some(serde_json::from_str(sentences).unwrap());
         assert_eq!(Symptom::of(&old).broad().text(), "color too high");
     }
 
@@ -566,14 +574,22 @@ mod tests {
         crash.process.as_mut().unwrap().signal = Some(11);
         assert!(!died.covers(&Symptom::of(&crash)));
 
-        let error = |message: &str| {
+        let error = |condition: &str, message: &str| {
             let mut record = Record::new("a/b", "cpu", Verdict::InternalError);
+            let condition = condition.to_owned();
+            let code = None;
+            record.error = Some(ErrorKind::Internal { condition, code });
             record.message = message.to_owned();
             Symptom::of(&record)
         };
-        assert!(error("slot 3 is free").covers(&error("slot 12 is free")));
-        assert!(!error("slot 3 is free").covers(&error("slot 3 is taken")));
-        assert_eq!(error("a").broad(), error("b").broad());
+        let free = error("a slot is free", "slot 3");
+        assert!(free.covers(&error("a slot is free", "slot 12")));
+        assert!(!free.covers(&error("a slot is taken", "slot 3")));
+        assert_eq!(free.clone().broad(), error("b", "").broad());
+        assert_eq!(free.to_string(), "a slot is free");
+        let mut old = Record::new("a/b", "cpu", Verdict::InternalError);
+        old.message = "slot 3 is free".to_owned();
+        assert_eq!(Symptom::of(&old), free.broad());
     }
 
     /// The names of the operations that decide a colour of the attachment `c`.
@@ -675,6 +691,26 @@ mod tests {
             with(Returned::Wrote(Vec::new()), store(0, "c")),
             "logic operation, store color"
         );
+    }
+
+    #[test]
+    fn the_last_cited_operation_is_violated_and_coverage_only_alone() {
+        let cited = |event: Event, clause: &str| Event {
+            citation: Some(clause.to_owned()),
+            ..event
+        };
+        let mut events = vec![cited(coverage(0), "Coverage")];
+        let clause = |events: &[Event]| {
+            let story = story(events.to_vec());
+            violated_clause(&story).map(str::to_owned)
+        };
+        assert_eq!(clause(&events).as_deref(), Some("Coverage"));
+        events.insert(0, cited(blend(0), "Blending"));
+        events.push(store(0, "c"));
+        assert_eq!(clause(&events).as_deref(), Some("Blending"));
+        let relation = Step::Relation("repeat".to_owned());
+        events.push(event(Origin::Pass(0), relation, Effect::None));
+        assert_eq!(clause(&events), None);
     }
 
     #[test]

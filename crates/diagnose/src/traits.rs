@@ -22,7 +22,7 @@ pub struct Traits {
     pub words: Signature,
 }
 
-/// What is wrong, without names of attachments and without what was there before.
+/// The wrong part of an outcome, without names of attachments and without earlier contents.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Violation {
     subject: Subject,
@@ -177,27 +177,27 @@ mod tests {
     #[test]
     fn the_same_words_and_violation_are_the_same() {
         let logics = ["logic operation", "store color"];
-        let one = traits(Aspect::Color, &logics, logic("xor"));
-        assert_eq!(one.way.to_string(), "color (logic operation, store color)");
-        assert_eq!(one.likeness(&one), Some(Likeness::Same));
+        let xor = traits(Aspect::Color, &logics, logic("xor"));
+        assert_eq!(xor.way.to_string(), "color (logic operation, store color)");
+        assert_eq!(xor.likeness(&xor), Some(Likeness::Same));
         let other = traits(Aspect::Color, &logics, logic("nor"));
-        assert_eq!(one.likeness(&other), Some(Likeness::Alike));
+        assert_eq!(xor.likeness(&other), Some(Likeness::Alike));
     }
 
     #[test]
     fn another_violation_is_alike_where_several_states_are() {
-        let of = |aspect, operations: &[&str], points: bool| {
+        let signature = |aspect, operations: &[&str], points: bool| {
             let mut draw = logic("xor");
             if points {
                 draw["topology"] = json!("point-list");
             }
             traits(aspect, operations, draw)
         };
-        let one = |points| of(Aspect::Color, &["logic operation"], points);
+        let drawn = |points| signature(Aspect::Color, &["logic operation"], points);
         for (aspect, operation) in [(Aspect::Color, "clear"), (Aspect::Depth, "store depth")] {
-            let other = |points| of(aspect, &[operation], points);
-            assert_eq!(other(false).likeness(&one(false)), None);
-            let likeness = other(true).likeness(&one(true));
+            let other = |points| signature(aspect, &[operation], points);
+            assert_eq!(other(false).likeness(&drawn(false)), None);
+            let likeness = other(true).likeness(&drawn(true));
             assert_eq!(likeness, Some(Likeness::Elsewhere));
         }
     }
@@ -207,9 +207,9 @@ mod tests {
         let mut draw = logic("xor");
         let simple = traits(Aspect::Color, &["store color"], draw.clone());
         draw["mesh"] = json!({ "kind": "vertices", "positions": [[0.5, 0.5, 0]] });
-        let own = traits(Aspect::Color, &["store color"], draw);
-        assert_eq!(simple.likeness(&own), Some(Likeness::Same));
-        assert_eq!(own.likeness(&simple), Some(Likeness::Alike));
+        let stored = traits(Aspect::Color, &["store color"], draw);
+        assert_eq!(simple.likeness(&stored), Some(Likeness::Same));
+        assert_eq!(stored.likeness(&simple), Some(Likeness::Alike));
     }
 
     #[test]

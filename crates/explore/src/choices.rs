@@ -4,6 +4,7 @@
 //! seed must give the same scenes in every release of one. Smaller scenes come from edits of the document and not
 //! from fewer choices, since a document is what is kept.
 
+use etalon_frame::SplitMix64;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A state and its value, as a number that tells it from others.
@@ -12,8 +13,7 @@ pub(crate) type State = u64;
 /// Answers by chance.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices {
-    /// The state of a SplitMix64 generator (Steele, Lea, Flood 2014).
-    seed: u64,
+    random: SplitMix64,
     /// The states that were chosen: those of the whole scene, then those of each draw.
     scopes: Vec<Vec<State>>,
 }
@@ -22,18 +22,14 @@ impl Choices {
     /// The choices of a seed.
     pub(crate) fn by_seed(seed: u64) -> Self {
         Self {
-            seed,
+            random: SplitMix64(seed),
             scopes: vec![Vec::new()],
         }
     }
 
     /// Returns a number below `bound`; the answer 0 even where there is no choice.
     pub(crate) fn below(&mut self, bound: u32) -> u32 {
-        self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.seed;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % u64::from(bound.max(1))) as u32
+        (self.random.roll() % u64::from(bound.max(1))) as u32
     }
 
     /// Returns a number from `low` to `high`, both included; `low` is the simplest.

@@ -29,12 +29,12 @@ pub fn states(scene: &Value) -> Vec<String> {
     const DRAWN: [&str; 4] = ["mesh", "params", "shader", "textures"];
     /// The keys of a pass that name its parts.
     const PARTS: [&str; 5] = ["clears", "color", "depth_stencil", "draws", "read"];
-    let mut all: Vec<String> = Vec::new();
+    let mut states: Vec<String> = Vec::new();
     let mut add = |value: &Value, without: &[&str]| {
         for (key, value) in value.as_object().into_iter().flatten() {
             let state = format!("{key} {value}");
-            if !without.contains(&key.as_str()) && !all.contains(&state) {
-                all.push(state);
+            if !without.contains(&key.as_str()) && !states.contains(&state) {
+                states.push(state);
             }
         }
     };
@@ -50,7 +50,7 @@ pub fn states(scene: &Value) -> Vec<String> {
     if let Some(path) = scene.get("path") {
         add(&serde_json::json!({ "path": path }), &[]);
     }
-    all
+    states
 }
 
 /// Returns the items of a list; none where there is no list.
@@ -61,14 +61,14 @@ pub(crate) fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
 /// Returns the parts of a list of so many items that are taken away together: all, both halves, quarters, down
 /// to one.
 pub(crate) fn parts(length: usize) -> Vec<Range<usize>> {
-    let mut all = Vec::new();
+    let mut ranges = Vec::new();
     let mut size = length;
     while size > 0 {
         let starts = (0..length).step_by(size);
-        all.extend(starts.map(|start| start..(start + size).min(length)));
+        ranges.extend(starts.map(|start| start..(start + size).min(length)));
         size /= 2;
     }
-    all
+    ranges
 }
 
 /// Returns the number of a scene's passes.
@@ -111,11 +111,11 @@ mod tests {
             "passes": [{ "color": ["c"], "depth_stencil_read_only": true, "draws": [draw, draw] }],
             "path": { "state": "dynamic" }
         });
-        let due = [
+        let expected = [
             "depth_stencil_read_only true",
             "logic \"xor\"",
             "path {\"state\":\"dynamic\"}",
         ];
-        assert_eq!(states(&scene), due);
+        assert_eq!(states(&scene), expected);
     }
 }

@@ -130,8 +130,8 @@ mod tests {
             replace: vec![(place!["a", 3], json!(9)), (place!["b", "d"], json!(2))],
             remove: vec![place!["a", 0], place!["a", 2], place!["b", "c"]],
         };
-        let due = json!({ "a": [1, 9], "b": { "d": 2 } });
-        assert_eq!(edit.apply(&document), Some(due));
+        let expected = json!({ "a": [1, 9], "b": { "d": 2 } });
+        assert_eq!(edit.apply(&document), Some(expected));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::reduce::Candidate;
 use crate::scenes::{self, Made};
 use crate::space::Space;
 use etalon_case::{Case, build};
+use etalon_frame::mix;
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 
@@ -118,10 +119,7 @@ fn document(seed: u64, index: u64, made: &Made) -> Value {
 /// Returns a number from several, of which neighbouring ones share nothing.
 fn mixed(parts: [u64; 3]) -> u64 {
     parts.into_iter().fold(0, |seed, part| {
-        let mut z = seed ^ part.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        mix(seed ^ part.wrapping_add(0x9e37_79b9_7f4a_7c15))
     })
 }
 

@@ -22,5 +22,5 @@ mod space;
 
 pub use document::{keys, leaves, states};
 pub use fuzz::{Fuzzer, RandomScene};
-pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce};
+pub use reduce::{Budget, Candidate, MOST_DRAWS, Oracle, Reduction, reduce};
 pub use space::Space;

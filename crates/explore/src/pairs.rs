@@ -77,9 +77,9 @@ fn each_pair(scopes: &[Vec<State>], mut pair: impl FnMut(State, State)) {
     let Some((scene, draws)) = scopes.split_first() else {
         return;
     };
-    let mut among = |own: &[State]| {
-        for (i, a) in own.iter().enumerate() {
-            own[..i].iter().for_each(|b| pair(*a, *b));
+    let mut among = |states: &[State]| {
+        for (i, a) in states.iter().enumerate() {
+            states[..i].iter().for_each(|b| pair(*a, *b));
         }
     };
     among(scene);

@@ -10,9 +10,55 @@ use crate::passes::PASSES;
 use etalon_case::{Case, build};
 use serde_json::Value;
 use std::collections::HashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// The most candidates that a reduction draws.
 pub const MOST_DRAWS: usize = 1000;
+/// If each candidate can cost a process: the most candidates, and the time for all of them.
+const MOST_LOST: usize = 200;
+const LOST_TIME: Duration = Duration::from_secs(60);
+
+/// The most that a reduction can cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget<'a> {
+    /// The most candidates that are drawn.
+    pub draws: usize,
+    /// The time from which on no candidate is tried.
+    pub until: Option<Instant>,
+    /// Set when the search is being stopped.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+impl<'a> Budget<'a> {
+    /// So many drawings, whatever time they take.
+    pub fn draws(draws: usize) -> Self {
+        Self {
+            draws,
+            until: None,
+            stop: None,
+        }
+    }
+
+    /// The budget of a case that ends its process.
+    pub fn of_processes() -> Self {
+        Self {
+            until: Some(Instant::now() + LOST_TIME),
+            ..Self::draws(MOST_LOST)
+        }
+    }
+
+    /// The same, until the search is being stopped.
+    #[must_use]
+    pub fn with_stop(self, stop: Option<&'a AtomicBool>) -> Self {
+        Self { stop, ..self }
+    }
+
+    fn is_over(&self) -> bool {
+        self.until.is_some_and(|until| Instant::now() >= until)
+            || self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+}
 
 /// A smaller case that may still fail.
 #[derive(Clone, Debug)]
@@ -41,15 +87,14 @@ pub struct Reduction {
     pub smallest: Candidate,
     /// The number of candidates that were drawn.
     pub draws: usize,
-    /// True if nothing smaller was left to try; false if it ended at the limit.
+    /// True if nothing smaller was left to try; false if the budget ended it.
     pub finished: bool,
 }
 
-/// Reduces a case that fails by the oracle, with `most` draws at most. Cases that cannot be drawn are not asked
-/// about.
+/// Reduces a case that fails by the oracle. Cases that cannot be drawn are not asked about.
 pub fn reduce(
     failing: Candidate,
-    most: usize,
+    budget: Budget<'_>,
     can_draw: &dyn Fn(&Case) -> bool,
     oracle: &mut dyn Oracle,
 ) -> Reduction {
@@ -59,7 +104,8 @@ pub fn reduce(
         current: failing,
         seen: HashSet::new(),
         draws: 0,
-        most,
+        budget,
+        is_over: false,
     };
     state.seen.insert(state.current.document.to_string());
     loop {
@@ -67,12 +113,12 @@ pub fn reduce(
         for pass in PASSES {
             state.exhaust(*pass, oracle);
         }
-        if state.draws >= most || state.current.document == before {
+        if state.draws >= budget.draws || state.current.document == before {
             break;
         }
     }
     Reduction {
-        finished: state.draws < most,
+        finished: state.draws < budget.draws && !state.is_over,
         smallest: state.current,
         draws: state.draws,
     }
@@ -85,7 +131,9 @@ struct State<'a> {
     /// The documents that were tried.
     seen: HashSet<String>,
     draws: usize,
-    most: usize,
+    budget: Budget<'a>,
+    /// True if candidates were left when the budget was used up.
+    is_over: bool,
 }
 
 impl State<'_> {
@@ -104,13 +152,18 @@ impl State<'_> {
                 current,
                 seen,
                 draws,
-                most,
+                budget,
+                is_over,
             } = self;
-            let mut at = start;
+            let mut index = start;
             let mut candidates = std::iter::from_fn(|| {
-                while same.is_none() && *draws < *most {
-                    let edit = edits.get(at)?;
-                    at += 1;
+                while same.is_none() && *draws < budget.draws {
+                    let edit = edits.get(index)?;
+                    *is_over |= budget.is_over();
+                    if *is_over {
+                        return None;
+                    }
+                    index += 1;
                     let Some(document) = edit.apply(&current.document) else {
                         continue;
                     };
@@ -122,14 +175,14 @@ impl State<'_> {
                     };
                     let candidate = Candidate { document, case };
                     if is_same(&candidate.case, &current.case) {
-                        same = Some((at - 1, candidate));
+                        same = Some((index - 1, candidate));
                         return None;
                     }
                     if !can_draw(&candidate.case) {
                         continue;
                     }
                     *draws += 1;
-                    drawn.push(at - 1);
+                    drawn.push(index - 1);
                     return Some(candidate);
                 }
                 None
@@ -138,8 +191,8 @@ impl State<'_> {
             let kept = match (found, same) {
                 (Some(candidate), _) => {
                     let made = |i: &usize| edits[*i].apply(&self.current.document);
-                    let due = Some(&candidate.document);
-                    let edit = drawn.iter().find(|i| made(i).as_ref() == due);
+                    let kept = Some(&candidate.document);
+                    let edit = drawn.iter().find(|i| made(i).as_ref() == kept);
                     edit.map(|edit| (*edit, candidate))
                 }
                 (None, same) => same,
@@ -193,8 +246,8 @@ mod tests {
     fn random(flavor: &str, seed: u64) -> Candidate {
         let library = etalon_case::Library::built_in().unwrap();
         let id = format!("combined/{flavor}/seed={seed}");
-        let all = etalon_case::Profile::Full;
-        let case = library.cases(all).find(|c| c.id() == id).unwrap();
+        let profile = etalon_case::Profile::Full;
+        let case = library.cases(profile).find(|c| c.id() == id).unwrap();
         let document = case.document().unwrap();
         let case = build("t", &document).unwrap();
         Candidate { document, case }
@@ -207,7 +260,7 @@ mod tests {
     ) -> (Reduction, Vec<Value>) {
         let asked = Vec::new();
         let mut oracle = Condition { holds, asked };
-        let reduction = reduce(failing.clone(), most, &|_| true, &mut oracle);
+        let reduction = reduce(failing.clone(), Budget::draws(most), &|_| true, &mut oracle);
         assert_eq!(reduction.draws, oracle.asked.len());
         (reduction, oracle.asked)
     }
@@ -234,38 +287,38 @@ mod tests {
         };
         let (reduction, _) = reduced(&failing, MOST_DRAWS, holds);
         assert!(reduction.finished);
-        let due = json!({
+        let expected = json!({
             "attachments": { "color": { "format": "rgba8unorm", "size": [1, 1] } },
             "passes": [{ "color": ["color"], "draws": [
                 { "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": "copy" }
             ] }],
             "read": ["color"]
         });
-        assert_eq!(reduction.smallest.document["scene"], due);
+        assert_eq!(reduction.smallest.document["scene"], expected);
     }
 
     #[test]
     fn a_nested_state_keeps_its_value_and_loses_its_neighbours() {
         let failing = random("common", 3);
         let op = |d: &Value| d["stencil"]["front"]["pass_op"].clone();
-        let due = draws(&failing.document)
+        let operation = draws(&failing.document)
             .into_iter()
             .map(op)
             .find(|v| *v != "keep");
-        let due = due.unwrap();
+        let operation = operation.unwrap();
         let holds = |d: &Value| {
             let read = d["scene"]["read"]
                 .as_array()
                 .is_some_and(|r| r.contains(&json!("depth")));
-            read && draws(d).iter().any(|d| op(d) == due)
+            read && draws(d).iter().any(|d| op(d) == operation)
         };
         let (reduction, _) = reduced(&failing, MOST_DRAWS, holds);
         let document = &reduction.smallest.document;
-        let all = draws(document);
-        assert_eq!(all.len(), 1);
-        let due = json!({ "front": { "compare": "always", "pass_op": due } });
-        assert_eq!(all[0]["stencil"], due);
-        assert_eq!(all[0].as_object().unwrap().len(), 3);
+        let drawn = draws(document);
+        assert_eq!(drawn.len(), 1);
+        let expected = json!({ "front": { "compare": "always", "pass_op": operation } });
+        assert_eq!(drawn[0]["stencil"], expected);
+        assert_eq!(drawn[0].as_object().unwrap().len(), 3);
         assert_eq!(document["scene"]["read"], json!(["depth"]));
         assert_eq!(
             document["scene"]["attachments"]["depth"]["format"],
@@ -277,9 +330,9 @@ mod tests {
     fn a_reduction_is_the_same_every_time_and_asks_nothing_twice() {
         let failing = random("multisample", 7);
         let holds = |d: &Value| d.to_string().contains("alpha_to_") && draws(d).len() > 1;
-        let (one, asked) = reduced(&failing, MOST_DRAWS, holds);
+        let (first, asked) = reduced(&failing, MOST_DRAWS, holds);
         let (other, again) = reduced(&failing, MOST_DRAWS, holds);
-        assert_eq!(one.smallest.document, other.smallest.document);
+        assert_eq!(first.smallest.document, other.smallest.document);
         assert_eq!(asked, again);
         let texts: HashSet<String> = asked.iter().map(Value::to_string).collect();
         assert_eq!(texts.len(), asked.len());
@@ -307,7 +360,7 @@ mod tests {
             asked: Vec::new(),
         };
         let can_draw = |case: &Case| case.scene.passes.iter().any(|p| p.draws.len() > 1);
-        let reduction = reduce(failing, MOST_DRAWS, &can_draw, &mut oracle);
+        let reduction = reduce(failing, Budget::draws(MOST_DRAWS), &can_draw, &mut oracle);
         assert_eq!(draws(&reduction.smallest.document).len(), 2);
         assert!(oracle.asked.iter().all(|d| draws(d).len() > 1));
     }

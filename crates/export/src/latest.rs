@@ -16,8 +16,8 @@ pub(crate) fn write_bencher(
     runs: &HashSet<RunId>,
     dir: &Path,
 ) -> Result<ExportSize, ExportError> {
-    let all = benchmarks(history, runs)?;
-    write(dir, BENCHER_FILE, all.len(), bencher(&all))
+    let benches = benchmarks(history, runs)?;
+    write(dir, BENCHER_FILE, benches.len(), bencher(&benches))
 }
 
 /// `benchmark-action.json`: wall times for github-action-benchmark's `customSmallerIsBetter`.
@@ -26,24 +26,24 @@ pub(crate) fn write_action(
     runs: &HashSet<RunId>,
     dir: &Path,
 ) -> Result<ExportSize, ExportError> {
-    let mut all = benchmarks(history, runs)?;
-    all.retain(|benchmark| benchmark.times.contains_key(&Time::Wall));
-    write(dir, ACTION_FILE, all.len(), action(&all))
+    let mut benches = benchmarks(history, runs)?;
+    benches.retain(|benchmark| benchmark.times.contains_key(&Time::Wall));
+    write(dir, ACTION_FILE, benches.len(), action(&benches))
 }
 
 /// The times of each series in the latest of these runs that has it.
 fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>, ExportError> {
-    let mut all = Vec::new();
+    let mut benches = Vec::new();
     for key in history.series_keys()? {
         let points = history.series(&key)?;
         let Some(point) = points.iter().rfind(|p| runs.contains(&p.run)) else {
             continue;
         };
         let times = Time::ALL.into_iter().filter_map(|time| {
-            let told = point.times.point(time)?;
+            let seconds = point.times.point(time)?;
             let figure = Figure {
-                median: told.median,
-                interval: told.interval,
+                median: seconds.median,
+                interval: seconds.interval,
             };
             Some((time, figure))
         });
@@ -54,7 +54,7 @@ fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>
         let run = history.run(point.run);
         let adapter = history.adapter(point.run, &key.timeline);
         let extra = run.zip(adapter);
-        all.push(Benchmark {
+        benches.push(Benchmark {
             name: name(history, &key)?,
             times,
             extra: extra.map_or(String::new(), |(run, adapter)| {
@@ -62,7 +62,7 @@ fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>
             }),
         });
     }
-    Ok(all)
+    Ok(benches)
 }
 
 /// Machines differ in speed, so each has its own benchmark.

@@ -91,8 +91,8 @@ pub(crate) fn write(
         .map_err(&wrong)?;
         for key in history.series_keys()? {
             for (labels, samples) in samples(history, &key, runs, metric)? {
-                for (at, seconds) in samples {
-                    writeln!(out, "{metric}{{{labels}}} {seconds} {at}").map_err(&wrong)?;
+                for (time, seconds) in samples {
+                    writeln!(out, "{metric}{{{labels}}} {seconds} {time}").map_err(&wrong)?;
                     rows += 1;
                 }
             }
@@ -113,7 +113,7 @@ fn samples(
 ) -> Result<Vec<(String, Samples)>, ExportError> {
     let case = history.case_name(key.case)?;
     let machine = machine(history, key.machine);
-    let mut all = Vec::new();
+    let mut found = Vec::new();
     for (ruler, points) in history.series_by_ruler(key)? {
         // The later of two runs at one time stands for both.
         let mut by_time: BTreeMap<i64, FrameTimes> = BTreeMap::new();
@@ -130,10 +130,10 @@ fn samples(
         labels.extend(ruler.map(|ruler| label("ruler", ruler)));
         let labels = labels.join(",");
         let mut push = |labels: String, median: &dyn Fn(&FrameTimes) -> Option<f64>| {
-            let values = by_time
-                .iter()
-                .filter_map(|(at, times)| Some((*at, median(times).filter(|m| m.is_finite())?)));
-            all.push((labels, values.collect()));
+            let values = by_time.iter().filter_map(|(time, times)| {
+                Some((*time, median(times).filter(|m| m.is_finite())?))
+            });
+            found.push((labels, values.collect()));
         };
         if metric == RULER {
             push(labels, &FrameTimes::ruler_median);
@@ -144,7 +144,7 @@ fn samples(
             push(labels, &|times| times.median(time));
         }
     }
-    Ok(all)
+    Ok(found)
 }
 
 fn machine(history: &History, id: MachineId) -> String {

@@ -184,12 +184,12 @@ struct Times {
 
 impl Times {
     fn flush(&mut self, table: &mut Table) -> Result<(), ExportError> {
-        let all = std::mem::take(self);
-        let mut columns: Vec<Column> = all.texts.map(Column::Text).into();
-        columns.insert(1, Column::Integer(all.time));
-        columns.push(Column::Text(all.cases));
-        columns.push(Column::Integer(all.frames));
-        columns.extend(all.numbers.map(Column::Number));
+        let times = std::mem::take(self);
+        let mut columns: Vec<Column> = times.texts.map(Column::Text).into();
+        columns.insert(1, Column::Integer(times.time));
+        columns.push(Column::Text(times.cases));
+        columns.push(Column::Integer(times.frames));
+        columns.extend(times.numbers.map(Column::Number));
         table.add(&columns)
     }
 }

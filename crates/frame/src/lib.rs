@@ -19,6 +19,7 @@ mod contents;
 mod counter;
 mod distance;
 mod encoding;
+mod error_kind;
 mod event;
 mod feature;
 mod format;
@@ -32,6 +33,7 @@ mod operation;
 mod path;
 mod property;
 mod samples;
+mod split_mix;
 mod story;
 mod version;
 mod work;
@@ -44,6 +46,7 @@ pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use distance::Distance;
 pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
+pub use error_kind::ErrorKind;
 pub use event::{
     BlendedChannel, Coverage, DepthTest, Effect, Event, Origin, Rejection, ResolveChoice,
     SceneName, Side, Step, Target,
@@ -65,6 +68,7 @@ pub use path::{
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;
+pub use split_mix::{SplitMix64, mix};
 pub use story::{
     Allowed, Demand, Initial, Reason, Returned, Ruling, Source, Story, ToldLine, Values,
 };

@@ -24,7 +24,7 @@ pub(crate) struct Caps {
     pub(crate) indexed_blend: bool,
     /// Blend factors may use the fragment shader's second source.
     pub(crate) dual_source: bool,
-    /// What draws have written is seen by advanced blends without a barrier.
+    /// Advanced blends see the writes of earlier draws without a barrier.
     pub(crate) coherent_blend: bool,
     /// 32-bit float attachments can be blended.
     pub(crate) float_blend: bool,

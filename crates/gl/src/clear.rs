@@ -34,10 +34,10 @@ impl ClearCall {
 
     /// Returns the clears that a pass's load operations stand for.
     pub(crate) fn loads(pass: &Pass, integers: &[bool]) -> Vec<Self> {
-        let mut all = Vec::new();
+        let mut targets = Vec::new();
         for location in 0..pass.color.len() {
             if let LoadOperation::Clear(value) = pass.color_operations(location).load {
-                all.push(ClearTarget::Color {
+                targets.push(ClearTarget::Color {
                     location,
                     value,
                     write_mask: 0b1111,
@@ -47,7 +47,7 @@ impl ClearCall {
         let depth = pass.operations.depth.load.clear_value();
         let stencil = pass.operations.stencil.load.clear_value();
         if depth.is_some() || stencil.is_some() {
-            all.push(ClearTarget::DepthStencil {
+            targets.push(ClearTarget::DepthStencil {
                 depth,
                 stencil,
                 depth_write: true,
@@ -59,7 +59,7 @@ impl ClearCall {
             target,
             rect: None,
         };
-        let each = all.into_iter();
+        let each = targets.into_iter();
         each.map(|target| Self::new(&whole(target), integers))
             .collect()
     }

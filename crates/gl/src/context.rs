@@ -98,9 +98,9 @@ impl Context {
     pub(crate) fn make_current(&self) -> Result<(), BackendError> {
         self.egl.make_current().map_err(|(lost, message)| {
             if lost {
-                BackendError::DeviceLost(message)
+                BackendError::lost(message)
             } else {
-                BackendError::Internal(format!("eglMakeCurrent failed: {message}"))
+                BackendError::internal_of("eglMakeCurrent failed", message)
             }
         })
     }
@@ -205,11 +205,11 @@ impl Context {
                     break;
                 }
                 glow::OUT_OF_MEMORY => {
-                    result = Err(refused(what, "GL_OUT_OF_MEMORY"));
+                    result = Err(BackendError::refused(what, "GL_OUT_OF_MEMORY"));
                 }
                 _ if result.is_ok() => {
-                    let message = format!("{what}: {}", error_name(code));
-                    result = Err(BackendError::Internal(message));
+                    let name = error_name(code);
+                    result = Err(BackendError::internal_of(what, &name).with_code(&name));
                 }
                 _ => {}
             }
@@ -261,22 +261,14 @@ impl Names {
 
     /// Returns the part of `GL_VERSION` that names the driver's version: `Mesa 22.3.6`.
     pub(crate) fn driver_version(&self) -> &str {
-        let rest = self.version.trim_start_matches("OpenGL ES ");
-        let rest = rest.split_once(' ').map_or("", |(_, rest)| rest);
-        rest.trim_start_matches("(Core Profile) ").trim()
-    }
-}
-
-/// Returns the error of an object that the driver refused to create.
-pub(crate) fn refused(what: &str, message: impl Into<String>) -> BackendError {
-    BackendError::Resource {
-        what: what.to_owned(),
-        message: message.into(),
+        let version = self.version.trim_start_matches("OpenGL ES ");
+        let driver = version.split_once(' ').map_or("", |(_, driver)| driver);
+        driver.trim_start_matches("(Core Profile) ").trim()
     }
 }
 
 fn lost(what: &str) -> BackendError {
-    BackendError::DeviceLost(format!("{what}: the context was lost"))
+    BackendError::lost(format!("{what}: the context was lost"))
 }
 
 fn unusable(what: &str) -> Unavailable {

@@ -1,6 +1,6 @@
 //! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
 
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::pool::Pool;
 use crate::query::{Query, query_target};
 use crate::recording;
@@ -105,7 +105,10 @@ impl Counters {
             // ES has no other way to read a buffer.
             let mapped = gl.map_buffer_range(target, 0, size as i32, glow::MAP_READ_BIT);
             if mapped.is_null() {
-                return Err(refused("the counts of shader runs", "glMapBufferRange"));
+                return Err(BackendError::refused(
+                    "the counts of shader runs",
+                    "glMapBufferRange",
+                ));
             }
             bytes.copy_from_slice(std::slice::from_raw_parts(mapped, size));
             gl.unmap_buffer(target);

@@ -28,7 +28,7 @@ pub(crate) struct Inputs {
 impl Inputs {
     /// Returns all buffers.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
-        let all = [
+        let buffers = [
             self.vertices,
             self.indices,
             self.params,
@@ -36,7 +36,7 @@ impl Inputs {
             self.runs,
             self.pool,
         ];
-        all.into_iter().flatten()
+        buffers.into_iter().flatten()
     }
 }
 

@@ -32,14 +32,14 @@ pub(crate) fn mask(target: &ColorTarget) -> [bool; 4] {
 pub(crate) type Equation = (u32, u32, u32);
 
 pub(crate) fn equations(blend: BlendState) -> (Equation, Equation) {
-    let one = |c: BlendComponent| {
+    let equation = |c: BlendComponent| {
         (
             blend_operation(c.operation),
             factor(c.src_factor),
             factor(c.dst_factor),
         )
     };
-    (one(blend.color), one(blend.alpha))
+    (equation(blend.color), equation(blend.alpha))
 }
 
 pub(crate) fn compare(function: CompareFunction) -> u32 {

@@ -253,45 +253,48 @@ mod tests {
             stencil: ShaderStencil::None,
         });
         let color = TextureFormat::Rgba8Unorm;
-        let of = |format, samples, due, support| {
+        let found_target = |format, samples, wanted, support| {
             target(
-                &scene(format, samples, due, PathEnd::Store),
+                &scene(format, samples, wanted, PathEnd::Store),
                 0,
                 Some(support),
             )
         };
-        for due in PathTarget::ALL.iter().copied() {
-            assert_eq!(of(color, 1, due, &copied), due);
-            assert_eq!(of(color, 4, due, &copied), PathTarget::Plain);
+        for wanted in PathTarget::ALL.iter().copied() {
+            assert_eq!(found_target(color, 1, wanted, &copied), wanted);
+            assert_eq!(found_target(color, 4, wanted, &copied), PathTarget::Plain);
         }
         let near = TextureFormat::Depth24Plus;
-        for (due, found) in [
+        for (wanted, found) in [
             (PathTarget::ArrayLayer, PathTarget::ArrayLayer),
             (PathTarget::Slice3d, PathTarget::Plain),
             (PathTarget::CubeFace, PathTarget::Plain),
             (PathTarget::Renderbuffer, PathTarget::Plain),
         ] {
-            assert_eq!(of(near, 1, due, &fetched), found);
+            assert_eq!(found_target(near, 1, wanted, &fetched), found);
         }
     }
 
     #[test]
     fn what_would_round_is_read_by_default() {
-        let of = |format, samples, due| {
-            let scene = scene(format, samples, PathTarget::Plain, due);
+        let found_end = |format, samples, wanted| {
+            let scene = scene(format, samples, PathTarget::Plain, wanted);
             end(&scene, 0, &support(ReadPlan::Packed))
         };
         let unorm = TextureFormat::Rgba8Unorm;
-        assert_eq!(of(unorm, 1, PathEnd::Blit), PathEnd::Store);
+        assert_eq!(found_end(unorm, 1, PathEnd::Blit), PathEnd::Store);
         let float = TextureFormat::Rgba16Float;
-        assert_eq!(of(float, 1, PathEnd::Blit), PathEnd::Blit);
-        assert_eq!(of(float, 4, PathEnd::Blit), PathEnd::Store);
-        assert_eq!(of(unorm, 1, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        assert_eq!(found_end(float, 1, PathEnd::Blit), PathEnd::Blit);
+        assert_eq!(found_end(float, 4, PathEnd::Blit), PathEnd::Store);
+        assert_eq!(
+            found_end(unorm, 1, PathEnd::ShaderRead),
+            PathEnd::ShaderRead
+        );
         let snorm = TextureFormat::Rgba8Snorm;
-        assert_eq!(of(snorm, 1, PathEnd::ShaderRead), PathEnd::Store);
-        assert_eq!(of(snorm, 1, PathEnd::Part), PathEnd::Part);
+        assert_eq!(found_end(snorm, 1, PathEnd::ShaderRead), PathEnd::Store);
+        assert_eq!(found_end(snorm, 1, PathEnd::Part), PathEnd::Part);
         let stencil = TextureFormat::Stencil8;
-        assert_eq!(of(stencil, 1, PathEnd::ShaderRead), PathEnd::Store);
+        assert_eq!(found_end(stencil, 1, PathEnd::ShaderRead), PathEnd::Store);
     }
 
     #[test]

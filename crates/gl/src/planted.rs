@@ -79,8 +79,8 @@ macro_rules! functions {
                 $(stringify!($name) $(| stringify!($alias))? => {
                     type Function = unsafe extern "system" fn($($kind),*);
                     // SAFETY: the specification gives this name this type, and the address is not null.
-                    let own = unsafe { std::mem::transmute::<Pointer, Function>(address) };
-                    planted.driver.$name = Some(own);
+                    let function = unsafe { std::mem::transmute::<Pointer, Function>(address) };
+                    planted.driver.$name = Some(function);
                     faulty::$name as Pointer
                 })+
                 _ => address,
@@ -256,8 +256,8 @@ functions! {
             driver!(driver, glDrawArraysInstancedBaseInstance(mode, first, numbers.count, instances, base));
         });
     }
-    instead glDrawElements(mode: u32, count: i32, kind: u32, at: Pointer) |planted| {
-        planted.draw(elements(mode, count, kind, at), |driver, numbers| {
+    instead glDrawElements(mode: u32, count: i32, kind: u32, start: Pointer) |planted| {
+        planted.draw(elements(mode, count, kind, start), |driver, numbers| {
             driver!(driver, glDrawElements(mode, numbers.count, kind, place(numbers, kind)));
         });
     }
@@ -275,8 +275,8 @@ functions! {
         mode: u32, count: i32, kind: u32, at: Pointer, instances: i32, base_vertex: i32
     ) |planted| {
         planted.draw(DrawNumbers { instances, base_vertex, ..elements(mode, count, kind, at) }, |driver, numbers| {
-            let (at, instances, base) = (place(numbers, kind), numbers.instances, numbers.base_vertex);
-            driver!(driver, glDrawElementsInstancedBaseVertex(mode, numbers.count, kind, at, instances, base));
+            let (start, instances, base) = (place(numbers, kind), numbers.instances, numbers.base_vertex);
+            driver!(driver, glDrawElementsInstancedBaseVertex(mode, numbers.count, kind, start, instances, base));
         });
     }
     instead glDrawElementsInstancedBaseVertexBaseInstance(
@@ -284,9 +284,9 @@ functions! {
     ) |planted| {
         let numbers = elements(mode, count, kind, at);
         planted.draw(DrawNumbers { instances, base_vertex, first_instance, ..numbers }, |driver, numbers| {
-            let (at, instances, base) = (place(numbers, kind), numbers.instances, numbers.base_vertex);
+            let (start, instances, base) = (place(numbers, kind), numbers.instances, numbers.base_vertex);
             driver!(driver, glDrawElementsInstancedBaseVertexBaseInstance(
-                mode, numbers.count, kind, at, instances, base, numbers.first_instance
+                mode, numbers.count, kind, start, instances, base, numbers.first_instance
             ));
         });
     }

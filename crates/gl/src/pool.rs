@@ -1,6 +1,6 @@
 //! Surfaces, framebuffers, buffers, queries and samplers that outlive a scene.
 
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::enums::address;
 use crate::query::Query;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
@@ -138,7 +138,9 @@ impl Pool {
         unsafe {
             let buffer = match self.buffers.pop() {
                 Some(buffer) => buffer,
-                None => gl.create_buffer().map_err(|e| refused("a buffer", e))?,
+                None => gl
+                    .create_buffer()
+                    .map_err(|e| BackendError::refused("a buffer", e))?,
             };
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
             gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, data, glow::STATIC_DRAW);
@@ -148,11 +150,12 @@ impl Pool {
 
     /// Returns a query of a target.
     pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
-        if let Some(at) = self.queries.iter().position(|q| q.target == target) {
-            return Ok(self.queries.swap_remove(at));
+        if let Some(index) = self.queries.iter().position(|q| q.target == target) {
+            return Ok(self.queries.swap_remove(index));
         }
         // SAFETY: the context is current.
-        let object = unsafe { context.gl.create_query() }.map_err(|e| refused("a query", e))?;
+        let object = unsafe { context.gl.create_query() }
+            .map_err(|e| BackendError::refused("a query", e))?;
         Ok(Query { target, object })
     }
 
@@ -177,7 +180,8 @@ impl Pool {
         }
         let gl = &context.gl;
         // SAFETY: the context is current.
-        let object = unsafe { gl.create_sampler() }.map_err(|e| refused("a sampler", e))?;
+        let object =
+            unsafe { gl.create_sampler() }.map_err(|e| BackendError::refused("a sampler", e))?;
         let filter = match sampler.filter {
             FilterMode::Nearest => glow::NEAREST,
             FilterMode::Linear => glow::LINEAR,

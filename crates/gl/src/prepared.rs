@@ -3,7 +3,7 @@
 use crate::attachment::{self, Attachment, InitialContents};
 use crate::clear::{self, ClearCall};
 use crate::codes;
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::counters::{self, Counters};
 use crate::draw::{self, DrawCall, Inputs, Pass};
 use crate::enums::topology;
@@ -133,10 +133,10 @@ impl<'a> PreparedScene<'a> {
                 InitialContents::DepthStencil(*depth, *stencil)
             }
             Contents::Texels(codes) if codes.len() != texels * format.color_channels().len() => {
-                return Err(BackendError::Internal(format!(
-                    "{} codes for {texels} texels of {format}",
-                    codes.len()
-                )));
+                return Err(BackendError::internal_of(
+                    "an upload does not fill its attachment",
+                    format!("{} codes for {texels} texels of {format}", codes.len()),
+                ));
             }
             Contents::Texels(codes) => InitialContents::Upload(codes::pack(format, codes)),
         };
@@ -188,7 +188,7 @@ impl<'a> PreparedScene<'a> {
             // Offsets in buffers are 32-bit.
             if bytes.len() > i32::MAX as usize {
                 let message = "the scene has too many vertices or draws";
-                return Err(refused("a buffer", message));
+                return Err(BackendError::refused("a buffer", message));
             }
             let made = (!bytes.is_empty()).then(|| pool.buffer(context, bytes));
             Ok(made.transpose()?.map(|buffer| (buffer, bytes.len())))
@@ -215,7 +215,8 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), BackendError> {
         let context = self.context;
         let attachment = |index: usize| {
-            let missing = || BackendError::Internal(format!("there is no attachment {index}"));
+            let missing =
+                || BackendError::internal_of("a pass names no attachment", index.to_string());
             self.attachments.get(index).ok_or_else(missing)
         };
         let color: Vec<&Attachment> = pass
@@ -225,9 +226,7 @@ impl<'a> PreparedScene<'a> {
             .collect::<Result<_, _>>()?;
         let depth = pass.depth_stencil.map(attachment).transpose()?;
         let Some(any) = depth.or(color.first().copied()) else {
-            return Err(BackendError::Internal(
-                "a pass has no attachment".to_owned(),
-            ));
+            return Err(BackendError::internal("a pass has no attachment"));
         };
         let format = any.format;
         let mut resolves = Vec::new();
@@ -272,7 +271,7 @@ impl<'a> PreparedScene<'a> {
         let context = self.context;
         let fetched = unused.places.next();
         let (fetched, arguments) =
-            fetched.ok_or_else(|| BackendError::Internal("a draw has no place".to_owned()))?;
+            fetched.ok_or_else(|| BackendError::internal("a draw has no place"))?;
         let variant = path::variant(&self.path, unused.number);
         let block = draw.shader.uses_params().then_some(unused.params);
         let textures = draw
@@ -281,7 +280,7 @@ impl<'a> PreparedScene<'a> {
             .map(|index| {
                 let attachment = self.attachments.get(*index);
                 attachment.and_then(|a| a.surface.texture()).ok_or_else(|| {
-                    BackendError::Internal(format!("attachment {index} is no texture"))
+                    BackendError::internal_of("an attachment is no texture", index.to_string())
                 })
             })
             .collect::<Result<_, _>>()?;
@@ -397,8 +396,10 @@ impl<'a> PreparedScene<'a> {
             let attachment = self.attachments.get(*index);
             let known = attachment.and_then(|a| Some((a, objects.formats.get(&a.format)?)));
             let Some((attachment, support)) = known else {
-                let message = format!("attachment {index} cannot be read");
-                return Err(BackendError::Internal(message));
+                return Err(BackendError::internal_of(
+                    "an attachment cannot be read",
+                    index.to_string(),
+                ));
             };
             frame.images.extend(reading.images(&Source {
                 name: &attachment.name,
@@ -433,8 +434,8 @@ impl Prepared for PreparedScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            return Err(BackendError::Internal(
-                "read back before anything was drawn".to_owned(),
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
             ));
         }
         let result = self.try_read_back();

@@ -32,7 +32,7 @@ pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
     pub(crate) positions: Positions,
     pub(crate) features: BTreeSet<Feature>,
-    /// What the driver may offer and this backend does not use.
+    /// Features that the driver can offer and this backend does not use.
     pub(crate) exempt: BTreeSet<Requirement>,
 }
 

@@ -1,7 +1,7 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
 use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT, STENCIL_EXPORT};
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
@@ -40,7 +40,7 @@ pub(crate) struct Programs {
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
-/// What a draw asks of a fragment shader beside its function.
+/// The needs of a draw that change its fragment shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct FragmentForm {
     pub(crate) tests: EarlyTests,
@@ -85,10 +85,7 @@ impl Programs {
         if let Some(program) = self.shaders.get(&key) {
             return Ok(*program);
         }
-        let fail = |message| BackendError::Shader {
-            shader: shader.name().to_owned(),
-            message,
-        };
+        let fail = |message: String| BackendError::shader(shader.name(), message);
         let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
@@ -227,14 +224,14 @@ fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
         .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
         .map(str::len)
         .sum();
-    let (directives, rest) = body.split_at(directives);
+    let (directives, code) = body.split_at(directives);
     let extension = if context.caps.es && context.caps.version >= (3, 2) {
         String::new()
     } else {
         format!("#extension {ADVANCED_BLEND} : require\n")
     };
     let word = blend_support(mode);
-    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
+    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{code}")
 }
 
 /// Returns true if naga can write a shader in the context's GLSL.
@@ -352,9 +349,9 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
     let assigned = fragment
         .split_once("gl_SampleMask = ")
-        .and_then(|(before, rest)| Some((before, rest.split_once(';')?)));
-    let (before, (value, rest)) = assigned.ok_or("naga assigns no sample mask")?;
-    let text = format!("{before}gl_SampleMask[0] = int({value});{rest}");
+        .and_then(|(before, behind)| Some((before, behind.split_once(';')?)));
+    let (before, (value, behind)) = assigned.ok_or("naga assigns no sample mask")?;
+    let text = format!("{before}gl_SampleMask[0] = int({value});{behind}");
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
     Ok(if es && !text.contains(EXTENSION) {
         format!("{version}\n{EXTENSION}{body}")
@@ -367,10 +364,10 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
 /// naga knows nothing.
 fn with_reference(fragment: &str) -> Result<String, String> {
     let declared = format!("layout(location = {STENCIL_REFERENCE}) out int ");
-    let (before, rest) = fragment
+    let (before, behind) = fragment
         .split_once(&declared)
         .ok_or("naga declares no stencil reference")?;
-    let (name, after) = rest.split_once(';').ok_or("naga declares no output")?;
+    let (name, after) = behind.split_once(';').ok_or("naga declares no output")?;
     let text = format!("{before}{}", after.trim_start());
     let text = text.replace(&format!("{name} = "), "gl_FragStencilRefARB = ");
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
@@ -396,17 +393,16 @@ fn link(
     stages: &[(u32, String)],
 ) -> Result<glow::Program, BackendError> {
     let gl = &context.gl;
-    let fail = |message: String| BackendError::Shader {
-        shader: name.to_owned(),
-        message,
-    };
+    let fail = |message: String| BackendError::shader(name, message);
     // SAFETY: the context is current and all objects are its own.
     unsafe {
-        let program = gl.create_program().map_err(|e| refused("a program", e))?;
+        let program = gl
+            .create_program()
+            .map_err(|e| BackendError::refused("a program", e))?;
         for (stage, source) in stages {
             let shader = gl
                 .create_shader(*stage)
-                .map_err(|e| refused("a shader", e))?;
+                .map_err(|e| BackendError::refused("a shader", e))?;
             gl.shader_source(shader, source);
             gl.compile_shader(shader);
             if !gl.get_shader_compile_status(shader) {

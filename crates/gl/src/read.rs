@@ -1,7 +1,7 @@
 //! Reading attachments back as codes.
 
 use crate::codes;
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::format::gl_format;
 use crate::pool::Pool;
 use crate::program::{Programs, Reader, View};
@@ -204,8 +204,8 @@ impl Reading<'_> {
         let context = self.context;
         let gl = &context.gl;
         let Storage::Texture(part) = surface.storage else {
-            return Err(BackendError::Internal(
-                "a renderbuffer cannot be fetched from".to_owned(),
+            return Err(BackendError::internal(
+                "a renderbuffer cannot be fetched from",
             ));
         };
         let samples = surface.samples();
@@ -221,7 +221,10 @@ impl Reading<'_> {
         let target = self.pool.surface(context, SurfaceKind::Fetched, size)?;
         if !target.is_complete() {
             target.delete(context);
-            return Err(refused("a framebuffer for reading back", "incomplete"));
+            return Err(BackendError::refused(
+                "a framebuffer for reading back",
+                "incomplete",
+            ));
         }
         state::reset(context);
         let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, ..) if f.has_stencil());
@@ -234,7 +237,7 @@ impl Reading<'_> {
             }
         };
         let texels = size[0] as usize * size[1] as usize;
-        let mut all = vec![0_u32; texels * samples as usize * 4];
+        let mut codes = vec![0_u32; texels * samples as usize * 4];
         let mut wide = vec![0_u32; texels * 4];
         for sample in 0..samples as usize {
             // SAFETY: the context is current, all objects are its own, and the draw reads no
@@ -267,12 +270,12 @@ impl Reading<'_> {
             };
             recording::plane(aspect, 16, each(4, 32), form);
             for (texel, values) in wide.chunks_exact(4).enumerate() {
-                let at = (texel * samples as usize + sample) * 4;
-                all[at..at + 4].copy_from_slice(values);
+                let start = (texel * samples as usize + sample) * 4;
+                codes[start..start + 4].copy_from_slice(values);
             }
         }
         self.pool.put_surface(context, target);
-        Ok(all)
+        Ok(codes)
     }
 }
 
@@ -353,7 +356,7 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
         ReadPlan::DepthFloatStencil8 => {
             let kind = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
             let both = words(glow::DEPTH_STENCIL, kind, 2);
-            let every = |at: usize| both.iter().skip(at).step_by(2);
+            let every = |offset: usize| both.iter().skip(offset).step_by(2);
             let stencil = every(1).map(|word| word & 0xff).collect();
             (every(0).copied().collect(), Some(stencil))
         }
@@ -377,7 +380,7 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
 /// Tells the recording where the codes are that were just copied.
 fn note_planes(plan: ReadPlan, format: TextureFormat) {
     let plane = |aspect, texel, channels, form| recording::plane(aspect, texel, channels, form);
-    let one = |bit, bits| vec![[bit, bits]];
+    let place = |bit, bits| vec![[bit, bits]];
     match plan {
         ReadPlan::Packed => {
             let texel = codes::texel_bytes(format) as u32;
@@ -386,19 +389,19 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
         ReadPlan::Bytes => plane(Aspect::Color, 4, each(4, 8), Form::Byte),
         ReadPlan::Floats => plane(Aspect::Color, 16, each(4, 32), Form::Float),
         ReadPlan::Integers => plane(Aspect::Color, 16, each(4, 32), Form::Code),
-        ReadPlan::Depth16 => plane(Aspect::Depth, 2, one(0, 16), Form::Code),
-        ReadPlan::Depth24 => plane(Aspect::Depth, 4, one(8, 24), Form::Code),
-        ReadPlan::DepthFloat => plane(Aspect::Depth, 4, one(0, 32), Form::Code),
+        ReadPlan::Depth16 => plane(Aspect::Depth, 2, place(0, 16), Form::Code),
+        ReadPlan::Depth24 => plane(Aspect::Depth, 4, place(8, 24), Form::Code),
+        ReadPlan::DepthFloat => plane(Aspect::Depth, 4, place(0, 32), Form::Code),
         ReadPlan::Depth24Stencil8 => {
-            plane(Aspect::Depth, 4, one(8, 24), Form::Code);
-            plane(Aspect::Stencil, 4, one(0, 8), Form::Code);
+            plane(Aspect::Depth, 4, place(8, 24), Form::Code);
+            plane(Aspect::Stencil, 4, place(0, 8), Form::Code);
         }
         ReadPlan::DepthFloatStencil8 => {
-            plane(Aspect::Depth, 8, one(0, 32), Form::Code);
-            plane(Aspect::Stencil, 8, one(32, 8), Form::Code);
+            plane(Aspect::Depth, 8, place(0, 32), Form::Code);
+            plane(Aspect::Stencil, 8, place(32, 8), Form::Code);
         }
         ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
-            plane(Aspect::Stencil, 1, one(0, 8), Form::Code);
+            plane(Aspect::Stencil, 1, place(0, 8), Form::Code);
         }
     }
 }

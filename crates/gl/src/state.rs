@@ -207,10 +207,12 @@ impl DrawState {
     /// # Safety
     /// The context is current.
     unsafe fn apply_viewports(&self, context: &Context, count: i32) {
-        let of = &context.entry_points;
-        let (Some(viewports), Some(scissors), Some(ranges)) =
-            (of.viewport_array, of.scissor_array, of.depth_range_array)
-        else {
+        let functions = &context.entry_points;
+        let (Some(viewports), Some(scissors), Some(ranges)) = (
+            functions.viewport_array,
+            functions.scissor_array,
+            functions.depth_range_array,
+        ) else {
             return;
         };
         let skipped = 2 - count as usize;
@@ -234,13 +236,13 @@ impl DrawState {
     /// biases them, so all are set.
     fn apply_offset(&self, context: &Context) {
         let gl = &context.gl;
-        let own = [self.offset];
-        let all: &[u32] = match (self.polygons, context.caps.es) {
-            (true, _) => &own,
+        let offset_of_mode = [self.offset];
+        let capabilities: &[u32] = match (self.polygons, context.caps.es) {
+            (true, _) => &offset_of_mode,
             (false, false) => &POLYGON_OFFSETS,
             (false, true) => &POLYGON_OFFSETS[..1],
         };
-        for capability in all {
+        for capability in capabilities {
             set(gl, *capability, self.depth_bias.is_some());
         }
         if let Some(DepthBias {

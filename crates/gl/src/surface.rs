@@ -1,7 +1,7 @@
 //! Textures and renderbuffers, each with a framebuffer.
 
 use crate::codes;
-use crate::context::{Context, refused};
+use crate::context::Context;
 use crate::format::{GlFormat, gl_format};
 use etalon_backend::BackendError;
 use etalon_frame::{PathTarget, PathValue, Requirement, TextureFormat};
@@ -204,7 +204,7 @@ fn renderbuffer(
     unsafe {
         let buffer = gl
             .create_renderbuffer()
-            .map_err(|e| refused("a renderbuffer", e))?;
+            .map_err(|e| BackendError::refused("a renderbuffer", e))?;
         gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
         gl.renderbuffer_storage(glow::RENDERBUFFER, format.internal, width, height);
         Ok(Storage::Renderbuffer(buffer))
@@ -223,7 +223,9 @@ fn texture(
     check_size(context, path, shape)?;
     // SAFETY: the context is current; no client memory is read.
     unsafe {
-        let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
+        let texture = gl
+            .create_texture()
+            .map_err(|e| BackendError::refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
         let set = |name, value: u32| gl.tex_parameter_i32(target, name, value as i32);
@@ -364,7 +366,9 @@ fn multisample_texture(
     // SAFETY: the context is current. Multisampling is offered from ES 3.1 and OpenGL 3.3 on,
     // which have these entry points.
     unsafe {
-        let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
+        let texture = gl
+            .create_texture()
+            .map_err(|e| BackendError::refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
         // The same sample positions for every texel and format.
@@ -413,7 +417,7 @@ pub(crate) fn framebuffer(
     unsafe {
         let framebuffer = gl
             .create_framebuffer()
-            .map_err(|e| refused("a framebuffer", e))?;
+            .map_err(|e| BackendError::refused("a framebuffer", e))?;
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
         let mut buffers = Vec::new();
         for (storage, point) in attachments {

@@ -164,7 +164,7 @@ impl Fetched {
                 0,
             ],
             Self::Shared { first, count, .. } => vec![*count as u32, 1, *first as u32, 0],
-            Self::Own(own) => own.arguments(),
+            Self::Own(call) => call.arguments(),
         }
     }
 
@@ -188,14 +188,14 @@ impl Fetched {
                     ..
                 } => gl.draw_elements(mode, *count, glow::UNSIGNED_INT, *offset),
                 Self::Shared { first, count, .. } => gl.draw_arrays(mode, *first, *count),
-                Self::Own(own) => {
-                    set_pointers(context, own.vertices);
-                    if let Some(offset) = own.colors {
+                Self::Own(call) => {
+                    set_pointers(context, call.vertices);
+                    if let Some(offset) = call.colors {
                         let stride = size_of::<[f32; 4]>() as i32;
                         gl.vertex_attrib_pointer_f32(COLOR, 4, glow::FLOAT, false, stride, offset);
                         gl.vertex_attrib_divisor(COLOR, 1);
                     }
-                    own.draw(context, mode, arguments);
+                    call.draw(context, mode, arguments);
                     gl.vertex_attrib_divisor(COLOR, 0);
                     set_pointers(context, 0);
                 }
@@ -257,7 +257,7 @@ impl Own {
                 return;
             };
             state::set_restart_of(context, kind, self.restarts);
-            let at = std::ptr::without_provenance(offset as usize);
+            let start = std::ptr::without_provenance(offset as usize);
             let whole = entry_points.draw_elements_instanced_base_vertex_base_instance;
             let moved = entry_points.draw_elements_base_vertex;
             let moved_instances = entry_points.draw_elements_instanced_base_vertex;
@@ -270,16 +270,18 @@ impl Own {
                         mode,
                         count,
                         kind,
-                        at,
+                        start,
                         instances,
                         base_vertex,
                         first_instance,
                     );
                 }
                 (_, _, Some(draw)) if instanced && base_vertex != 0 => {
-                    draw(mode, count, kind, at, instances, base_vertex);
+                    draw(mode, count, kind, start, instances, base_vertex);
                 }
-                (_, Some(draw), _) if base_vertex != 0 => draw(mode, count, kind, at, base_vertex),
+                (_, Some(draw), _) if base_vertex != 0 => {
+                    draw(mode, count, kind, start, base_vertex)
+                }
                 _ if instanced => gl.draw_elements_instanced(mode, count, kind, offset, instances),
                 _ => gl.draw_elements(mode, count, kind, offset),
             }

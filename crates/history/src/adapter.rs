@@ -39,7 +39,7 @@ impl Adapter {
 
 impl From<&AdapterRecord> for Adapter {
     fn from(adapter: &AdapterRecord) -> Self {
-        let of = |get: fn(&Release) -> &String| {
+        let text = |get: fn(&Release) -> &String| {
             adapter
                 .release
                 .as_ref()
@@ -55,8 +55,8 @@ impl From<&AdapterRecord> for Adapter {
             driver_id: adapter.driver_id.clone(),
             api_version: adapter.api_version.clone(),
             software: adapter.software,
-            line: of(|r| &r.line),
-            version: of(|r| &r.version),
+            line: text(|r| &r.line),
+            version: text(|r| &r.version),
         }
     }
 }

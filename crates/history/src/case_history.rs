@@ -75,7 +75,7 @@ impl History {
                 continue;
             }
             let before = changes.partition_point(|(run, _)| *run <= part.run);
-            let outcome = before.checked_sub(1).map(|at| changes[at].1);
+            let outcome = before.checked_sub(1).map(|index| changes[index].1);
             let Some(outcome) = outcome else {
                 let message = format!("run {} has no row of case {case}", part.run);
                 return Err(HistoryError::damaged(self.path(), message));

@@ -12,11 +12,11 @@ impl CaseSet {
     pub(crate) fn new(cases: impl IntoIterator<Item = u32>) -> Self {
         let mut bits = Vec::new();
         for case in cases {
-            let at = case.saturating_sub(1) as usize;
-            if bits.len() <= at / 8 {
-                bits.resize(at / 8 + 1, 0);
+            let bit = case.saturating_sub(1) as usize;
+            if bits.len() <= bit / 8 {
+                bits.resize(bit / 8 + 1, 0);
             }
-            bits[at / 8] |= 1 << (at % 8);
+            bits[bit / 8] |= 1 << (bit % 8);
         }
         Self { bits }
     }
@@ -32,17 +32,17 @@ impl CaseSet {
 
     /// True if the case is in the set.
     pub(crate) fn contains(&self, case: u32) -> bool {
-        let at = case.wrapping_sub(1) as usize;
-        let byte = self.bits.get(at / 8);
-        byte.is_some_and(|byte| byte >> (at % 8) & 1 == 1)
+        let bit = case.wrapping_sub(1) as usize;
+        let byte = self.bits.get(bit / 8);
+        byte.is_some_and(|byte| byte >> (bit % 8) & 1 == 1)
     }
 
     /// The numbers, ascending.
     pub(crate) fn iter(&self) -> impl Iterator<Item = u32> + '_ {
-        let all = self.bits.iter().zip(0u32..);
-        all.flat_map(|(byte, at)| {
+        let bytes = self.bits.iter().zip(0u32..);
+        bytes.flat_map(|(byte, index)| {
             let in_byte = (0..8).filter(move |bit| byte >> bit & 1 == 1);
-            in_byte.map(move |bit| at * 8 + bit + 1)
+            in_byte.map(move |bit| index * 8 + bit + 1)
         })
     }
 }

@@ -25,7 +25,7 @@ impl ReleaseDates {
             serde_json::from_str(text).map_err(|e| wrong(shortened(&e.to_string())))?;
         let mut dates = BTreeMap::new();
         for (line, versions) in lines {
-            let of: &mut BTreeMap<String, i64> = dates.entry(line.clone()).or_default();
+            let releases: &mut BTreeMap<String, i64> = dates.entry(line.clone()).or_default();
             for (version, date) in versions {
                 let time = parse_time(&date).ok_or_else(|| {
                     let date = shortened(&date);
@@ -33,7 +33,7 @@ impl ReleaseDates {
                         "{line} {version}: {date:?} is no date; write 2023-10-10"
                     ))
                 })?;
-                of.insert(version, time);
+                releases.insert(version, time);
             }
         }
         Ok(Self(dates))

@@ -44,12 +44,12 @@ impl<R: Read> Read for Digesting<R> {
 
 /// A digest of several parts, which cannot run into each other.
 pub(crate) fn of_parts(parts: &[&[u8]]) -> [u8; 32] {
-    let mut all = Sha256::new();
+    let mut whole = Sha256::new();
     for part in parts {
-        all.update((part.len() as u64).to_le_bytes());
-        all.update(part);
+        whole.update((part.len() as u64).to_le_bytes());
+        whole.update(part);
     }
-    all.finalize().into()
+    whole.finalize().into()
 }
 
 /// The first half of a digest, by which equal contents are found.
@@ -73,12 +73,12 @@ mod tests {
             assert_eq!(bytes, text.as_bytes());
             reader.digests()
         };
-        let (all, first) = digests("header\none\n");
+        let (whole, first) = digests("header\none\n");
         let (longer, same) = digests("header\none\ntwo\n");
-        assert_ne!(all, longer);
+        assert_ne!(whole, longer);
         assert_eq!(first, same);
         assert_eq!(first, <[u8; 32]>::from(Sha256::digest(b"header")));
-        assert_eq!(all, <[u8; 32]>::from(Sha256::digest(b"header\none\n")));
+        assert_eq!(whole, <[u8; 32]>::from(Sha256::digest(b"header\none\n")));
     }
 
     #[test]

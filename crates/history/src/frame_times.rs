@@ -64,7 +64,7 @@ impl FrameTimes {
         rounds.sort_unstable_by(f64::total_cmp);
         let median = quantile(&rounds, 0.5).filter(is_time)?;
         let interval = match (time, self.interval) {
-            (Time::Wall, Some(of)) => Some(of.map(f64::from)),
+            (Time::Wall, Some(interval)) => Some(interval.map(f64::from)),
             _ => median_interval(&rounds),
         };
         let holds = |[low, high]: &[f64; 2]| {
@@ -119,7 +119,7 @@ impl From<&Times> for FrameTimes {
             gpu: times.gpu.iter().map(|t| *t as f32).collect(),
             read_back: Vec::new(),
             ruler: Vec::new(),
-            interval: times.interval.map(|of| of.map(|t| t as f32)),
+            interval: times.interval.map(|interval| interval.map(|t| t as f32)),
         }
     }
 }
@@ -136,14 +136,14 @@ mod tests {
 
     #[test]
     fn times_of_two_areas_are_kept() {
-        for (case, due) in [
+        for (case, expected) in [
             ("perf/quad/size=1", true),
             ("methods/transparency/windows", true),
             ("depth/compare", false),
             ("perf", false),
             ("perfect/a", false),
         ] {
-            assert_eq!(FrameTimes::are_kept(case), due, "{case}");
+            assert_eq!(FrameTimes::are_kept(case), expected, "{case}");
         }
     }
 

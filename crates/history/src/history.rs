@@ -125,14 +125,14 @@ impl History {
 
     /// The adapters of a run, by timeline; none where there is no such run.
     pub fn adapters(&self, run: RunId) -> &[AdapterRun] {
-        let span = self.place(run).and_then(|at| self.spans.get(at));
+        let span = self.place(run).and_then(|index| self.spans.get(index));
         span.map_or(&[], |[from, to]| &self.adapter_runs[*from..*to])
     }
 
     /// The adapter of a timeline in a run.
     pub fn adapter(&self, run: RunId, timeline: &str) -> Option<&AdapterRun> {
-        let mut all = self.adapters(run).iter();
-        all.find(|part| *part.timeline == *timeline)
+        let mut adapters = self.adapters(run).iter();
+        adapters.find(|part| *part.timeline == *timeline)
     }
 
     /// The adapters of all runs, in the order of [`History::runs`].
@@ -142,14 +142,14 @@ impl History {
 
     /// The names of all timelines, sorted.
     pub fn timelines(&self) -> Vec<Rc<str>> {
-        let mut all: Vec<Rc<str>> = self
+        let mut timelines: Vec<Rc<str>> = self
             .adapter_runs
             .iter()
             .map(|a| Rc::clone(&a.timeline))
             .collect();
-        all.sort_unstable();
-        all.dedup();
-        all
+        timelines.sort_unstable();
+        timelines.dedup();
+        timelines
     }
 
     /// The ids of all cases, in the order of their numbers, which begin at 1.
@@ -180,8 +180,8 @@ impl History {
     /// # Errors
     /// When the file cannot be read, or has no such case.
     pub fn case_name(&self, case: CaseId) -> Result<Rc<str>, HistoryError> {
-        let at = (case.0 as usize).wrapping_sub(1);
-        let name = self.all_cases()?.names.get(at).cloned();
+        let index = (case.0 as usize).wrapping_sub(1);
+        let name = self.all_cases()?.names.get(index).cloned();
         name.ok_or_else(|| HistoryError::damaged(&self.path, format!("no case {case}")))
     }
 
@@ -244,14 +244,14 @@ impl History {
     ///
     /// # Errors
     /// When the file cannot be read or is damaged.
-    pub fn records(&self, of: &AdapterRun) -> Result<Vec<(CaseId, OutcomeId)>, HistoryError> {
+    pub fn records(&self, adapter: &AdapterRun) -> Result<Vec<(CaseId, OutcomeId)>, HistoryError> {
         let packed: Vec<u8> = self
             .connection
             .prepare_cached("SELECT outcomes FROM state WHERE id = ?1")
-            .and_then(|mut find| find.query_row([of.state], |row| row.get(0)))
+            .and_then(|mut find| find.query_row([adapter.state], |row| row.get(0)))
             .map_err(HistoryError::database(&self.path))?;
-        let outcomes = unpack(&packed, of.records as usize);
-        let drawn = self.drawn(of.drawn)?;
+        let outcomes = unpack(&packed, adapter.records as usize);
+        let drawn = self.drawn(adapter.drawn)?;
         let cases: Vec<u32> = drawn.iter().collect();
         match outcomes {
             Some(outcomes) if outcomes.len() == cases.len() => Ok(cases
@@ -260,7 +260,7 @@ impl History {
                 .zip(outcomes.into_iter().map(OutcomeId))
                 .collect()),
             _ => {
-                let (run, name) = (of.run, &of.timeline);
+                let (run, name) = (adapter.run, &adapter.timeline);
                 let message = format!("the records of {name} in run {run} do not unpack");
                 Err(HistoryError::damaged(&self.path, message))
             }
@@ -271,8 +271,8 @@ impl History {
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn has_record(&self, of: &AdapterRun, case: CaseId) -> Result<bool, HistoryError> {
-        Ok(self.drawn(of.drawn)?.contains(case.0))
+    pub fn has_record(&self, adapter: &AdapterRun, case: CaseId) -> Result<bool, HistoryError> {
+        Ok(self.drawn(adapter.drawn)?.contains(case.0))
     }
 
     fn drawn(&self, id: u32) -> Result<Rc<CaseSet>, HistoryError> {

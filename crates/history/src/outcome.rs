@@ -119,8 +119,8 @@ impl Outcome {
 
     /// The asserted share of all channels of all aspects, 0 to 1; `None` where there are no channels.
     pub fn asserted_share(&self) -> Option<f64> {
-        let sum = |of: fn(&Asserted) -> u64| -> f64 {
-            self.measures.asserted.iter().map(|a| of(a) as f64).sum()
+        let sum = |field: fn(&Asserted) -> u64| -> f64 {
+            self.measures.asserted.iter().map(|a| field(a) as f64).sum()
         };
         let channels = sum(|a| a.channels);
         (channels > 0.0).then(|| sum(|a| a.asserted) / channels)

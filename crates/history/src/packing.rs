@@ -13,12 +13,12 @@ pub(crate) fn pack(numbers: &[u32]) -> io::Result<Vec<u8>> {
         let difference = i64::from(*number) - before;
         before = i64::from(*number);
         // Small numbers of either sign become small ones without.
-        let mut rest = ((difference << 1) ^ (difference >> 63)) as u64;
-        while rest >= 0x80 {
-            bytes.push(rest as u8 | 0x80);
-            rest >>= 7;
+        let mut left = ((difference << 1) ^ (difference >> 63)) as u64;
+        while left >= 0x80 {
+            bytes.push(left as u8 | 0x80);
+            left >>= 7;
         }
-        bytes.push(rest as u8);
+        bytes.push(left as u8);
     }
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(&bytes)?;
@@ -38,7 +38,7 @@ pub(crate) fn unpack(packed: &[u8], count: usize) -> Option<Vec<u32>> {
     let mut bytes = bytes.into_iter();
     let mut before = 0i64;
     while let Some(first) = bytes.next() {
-        let mut rest = u64::from(first & 0x7f);
+        let mut left = u64::from(first & 0x7f);
         let mut last = first;
         let mut shift = 7;
         while last & 0x80 != 0 {
@@ -46,10 +46,10 @@ pub(crate) fn unpack(packed: &[u8], count: usize) -> Option<Vec<u32>> {
             if shift > 28 {
                 return None;
             }
-            rest |= u64::from(last & 0x7f) << shift;
+            left |= u64::from(last & 0x7f) << shift;
             shift += 7;
         }
-        before += (rest >> 1) as i64 ^ -((rest & 1) as i64);
+        before += (left >> 1) as i64 ^ -((left & 1) as i64);
         numbers.push(u32::try_from(before).ok()?);
     }
     (numbers.len() == count).then_some(numbers)
@@ -62,9 +62,9 @@ pub(crate) fn pack_times(times: &[f32]) -> Vec<u8> {
 
 /// Unpacks times; `None` if the bytes are not whole ones.
 pub(crate) fn unpack_times(bytes: &[u8]) -> Option<Vec<f32>> {
-    let (times, rest) = bytes.as_chunks::<4>();
+    let (times, behind) = bytes.as_chunks::<4>();
     let times = times.iter().map(|t| f32::from_le_bytes(*t)).collect();
-    rest.is_empty().then_some(times)
+    behind.is_empty().then_some(times)
 }
 
 #[cfg(test)]

@@ -131,7 +131,7 @@ fn times(row: &Row<'_>) -> rusqlite::Result<Option<FrameTimes>> {
     };
     let (wall, cpu, gpu) = (list(2)?, list(3)?, list(4)?);
     let (read_back, ruler, interval) = (list(5)?, list(6)?, list(7)?);
-    let all = || {
+    let points = || {
         Some(FrameTimes {
             frames,
             wall: wall?,
@@ -146,5 +146,5 @@ fn times(row: &Row<'_>) -> rusqlite::Result<Option<FrameTimes>> {
             },
         })
     };
-    Ok(all())
+    Ok(points())
 }

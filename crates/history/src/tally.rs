@@ -24,7 +24,7 @@ impl History {
     ///
     /// # Errors
     /// When the file cannot be read or is damaged.
-    pub fn tallies(&self, of: &AdapterRun) -> Result<Vec<Tally>, HistoryError> {
+    pub fn tallies(&self, adapter: &AdapterRun) -> Result<Vec<Tally>, HistoryError> {
         let wrong = HistoryError::database(self.path());
         let mut statement = self
             .connection()
@@ -33,7 +33,7 @@ impl History {
             )
             .map_err(&wrong)?;
         let rows = statement
-            .query_map([of.state], |row| {
+            .query_map([adapter.state], |row| {
                 Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?))
             })
             .map_err(&wrong)?;

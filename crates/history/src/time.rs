@@ -4,14 +4,14 @@ use std::time::{Duration, UNIX_EPOCH};
 
 /// Reads an RFC 3339 time or a date, in UTC, as seconds since 1970; `None` if it is neither, or before 1970.
 pub fn parse_time(text: &str) -> Option<i64> {
-    let at = |text: &str| {
+    let number = |text: &str| {
         let time = humantime::parse_rfc3339(text).ok()?;
         let since = time.duration_since(UNIX_EPOCH).ok()?;
         i64::try_from(since.as_secs()).ok()
     };
     match text.len() {
-        10 => at(&format!("{text}T00:00:00Z")),
-        _ => at(text),
+        10 => number(&format!("{text}T00:00:00Z")),
+        _ => number(text),
     }
 }
 

@@ -18,7 +18,7 @@ pub struct Claim {
     pub families: &'static [&'static str],
     /// The values of the parameter that count.
     pub values: Values,
-    /// What is compared.
+    /// The quantities that are compared.
     pub test: Test,
     /// Two methods of which the first must run fewer fragment shaders than the second. Adapters where it does not
     /// count fragments before the depth test, and their counts say nothing about it.

@@ -22,9 +22,9 @@ pub(super) fn word(aspect: Aspect) -> &'static str {
 
 /// Returns the operations of all colour attachments.
 fn color_operations(pass: &mut Pass) -> &mut [Operations<[f32; 4]>] {
-    let all = &mut pass.operations.color;
-    all.resize_with(pass.color.len(), Default::default);
-    all
+    let operations = &mut pass.operations.color;
+    operations.resize_with(pass.color.len(), Default::default);
+    operations
 }
 
 /// True if a pass begins with a clear.
@@ -44,8 +44,8 @@ pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
 pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => {
-            let all = color_operations(pass).iter_mut();
-            all.for_each(|o| o.load = LoadOperation::Clear([0.0; 4]));
+            let operations = color_operations(pass).iter_mut();
+            operations.for_each(|o| o.load = LoadOperation::Clear([0.0; 4]));
         }
         _ if pass.depth_stencil_read_only => {}
         Aspect::Depth => pass.operations.depth.load = LoadOperation::Clear(1.0),
@@ -57,8 +57,8 @@ pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
 pub(super) fn load(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => {
-            let all = color_operations(pass).iter_mut();
-            all.for_each(|o| o.load = LoadOperation::Load);
+            let operations = color_operations(pass).iter_mut();
+            operations.for_each(|o| o.load = LoadOperation::Load);
         }
         Aspect::Depth => pass.operations.depth = Operations::default(),
         Aspect::Stencil => pass.operations.stencil = Operations::default(),
@@ -82,8 +82,8 @@ pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
 pub(super) fn discard(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => {
-            let all = color_operations(pass).iter_mut();
-            all.for_each(|o| o.store = StoreOperation::Discard);
+            let operations = color_operations(pass).iter_mut();
+            operations.for_each(|o| o.store = StoreOperation::Discard);
         }
         _ if pass.depth_stencil.is_none() || pass.depth_stencil_read_only => {}
         Aspect::Depth => pass.operations.depth.store = StoreOperation::Discard,

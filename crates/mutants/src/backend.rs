@@ -113,7 +113,7 @@ struct PreparedAgain<P> {
 }
 
 impl<P> PreparedAgain<P> {
-    /// What the last submission drew.
+    /// The frame of the last submission.
     fn drawn(&mut self) -> &mut P {
         if self.submissions >= self.from {
             &mut self.wrong

@@ -159,11 +159,11 @@ fn constant(bug: fn(i32) -> f64) -> Plant {
         if state.clamp != 0.0 {
             return Faithful.bias(state, unit, slope);
         }
-        let rest = DepthBias {
+        let bias = DepthBias {
             constant: 0,
             ..*state
         };
-        bug(state.constant) * unit + Faithful.bias(&rest, unit, slope)
+        bug(state.constant) * unit + Faithful.bias(&bias, unit, slope)
     })
 }
 

@@ -23,8 +23,8 @@ fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) 
 }
 
 /// Moves the codes of some encodings and values.
-fn off(steps: i64, of: fn(ChannelEncoding, f32) -> bool) -> Plant {
-    clear_code(move |e, v| nudge(e, code(e, v), if of(e, v) { steps } else { 0 }))
+fn off(steps: i64, rounded: fn(ChannelEncoding, f32) -> bool) -> Plant {
+    clear_code(move |e, v| nudge(e, code(e, v), if rounded(e, v) { steps } else { 0 }))
 }
 
 /// True if an encoding is one of depth. Colours of 32-bit floats count as depths too.

@@ -197,59 +197,68 @@ pub(super) const FACE_PARTS: [(&str, FacePart); 7] = [
 
 /// Returns the fields that may be stale.
 pub(super) fn fields() -> Vec<Field> {
-    let mut of = Table::default();
-    tests(&mut of);
-    stencil(&mut of);
-    colors(&mut of);
-    rasterization(&mut of);
-    inputs(&mut of);
-    of.fields
+    let mut table = Table::default();
+    tests(&mut table);
+    stencil(&mut table);
+    colors(&mut table);
+    rasterization(&mut table);
+    inputs(&mut table);
+    table.fields
 }
 
-fn tests(of: &mut Table) {
-    of.area = "depth";
-    of.both("depth-test").switch(DEPTH);
-    of.both("depth-compare").at(DEPTH_COMPARE);
-    of.both("depth-write").at(DEPTH_WRITE);
-    of.cases("depth-bias").switch(DEPTH_BIAS);
-    of.sequences("depth-bias-constant")
+fn tests(table: &mut Table) {
+    table.area = "depth";
+    table.both("depth-test").switch(DEPTH);
+    table.both("depth-compare").at(DEPTH_COMPARE);
+    table.both("depth-write").at(DEPTH_WRITE);
+    table.cases("depth-bias").switch(DEPTH_BIAS);
+    table
+        .sequences("depth-bias-constant")
         .at(|d| vec![&mut d.depth_bias.constant]);
-    of.sequences("depth-bias-slope")
+    table
+        .sequences("depth-bias-slope")
         .at(|d| vec![&mut d.depth_bias.slope]);
-    of.sequences("depth-bias-clamp")
+    table
+        .sequences("depth-bias-clamp")
         .at(|d| vec![&mut d.depth_bias.clamp]);
-    of.both("depth-clamp").at(|d| vec![&mut d.depth_clamp]);
-    of.both("depth-bounds")
+    table.both("depth-clamp").at(|d| vec![&mut d.depth_clamp]);
+    table
+        .both("depth-bounds")
         .switch(|d| vec![&mut d.depth_bounds]);
-    of.cases("depth-range").at(|d| vec![&mut d.viewport.depth]);
-    of.sequences("viewport-depth")
+    table
+        .cases("depth-range")
+        .at(|d| vec![&mut d.viewport.depth]);
+    table
+        .sequences("viewport-depth")
         .at(|d| vec![&mut d.viewport.depth]);
 }
 
-fn stencil(of: &mut Table) {
-    of.area = "stencil";
-    of.cases("stencil").switch(STENCIL_TEST);
-    of.sequences("stencil-test").at(STENCIL_TEST);
-    of.cases("stencil-operations").at(STENCIL_OPERATIONS);
+fn stencil(table: &mut Table) {
+    table.area = "stencil";
+    table.cases("stencil").switch(STENCIL_TEST);
+    table.sequences("stencil-test").at(STENCIL_TEST);
+    table.cases("stencil-operations").at(STENCIL_OPERATIONS);
     for (name, part) in FACE_PARTS {
         let front: Places<StencilFace> = |d| d.stencil.iter_mut().map(|s| &mut s.front).collect();
         let back: Places<StencilFace> = |d| d.stencil.iter_mut().map(|s| &mut s.back).collect();
-        of.sequences(&format!("stencil-front-{name}"))
+        table
+            .sequences(&format!("stencil-front-{name}"))
             .part(front, part);
-        of.sequences(&format!("stencil-back-{name}"))
+        table
+            .sequences(&format!("stencil-back-{name}"))
             .part(back, part);
         let name = format!("stencil-{name}");
         match &*name {
-            "stencil-read-mask" => of.sequences(&name).part(FACES, part),
-            "stencil-reference" | "stencil-write-mask" => of.both(&name).part(FACES, part),
+            "stencil-read-mask" => table.sequences(&name).part(FACES, part),
+            "stencil-reference" | "stencil-write-mask" => table.both(&name).part(FACES, part),
             _ => {}
         }
     }
 }
 
-fn colors(of: &mut Table) {
-    of.area = "blend";
-    of.both("blend").switch(BLEND);
+fn colors(table: &mut Table) {
+    table.area = "blend";
+    table.both("blend").switch(BLEND);
     type Part = fn(&mut BlendState, &BlendState);
     let parts: [(&str, Part); 6] = [
         ("color-operation", |to, from| {
@@ -272,92 +281,113 @@ fn colors(of: &mut Table) {
         }),
     ];
     for (name, part) in parts {
-        of.sequences(&format!("blend-{name}"))
+        table
+            .sequences(&format!("blend-{name}"))
             .part(TARGETS, move |to, from| {
                 if let (Some(to), Some(from)) = (&mut to.blend, &from.blend) {
                     part(to, from);
                 }
             });
     }
-    of.both("advanced-blend")
+    table
+        .both("advanced-blend")
         .at(|d| d.targets.iter_mut().map(|t| &mut t.advanced).collect());
-    of.both("blend-constant")
+    table
+        .both("blend-constant")
         .at(|d| vec![&mut d.blend_constant]);
-    of.both("write-mask").at(WRITE_MASK);
-    of.both("logic").switch(|d| vec![&mut d.logic]);
+    table.both("write-mask").at(WRITE_MASK);
+    table.both("logic").switch(|d| vec![&mut d.logic]);
     let second: Places<ColorTarget> = |d| d.targets.iter_mut().skip(1).take(1).collect();
-    of.cases("second-target").at(second);
-    of.sequences("blend-second-target")
+    table.cases("second-target").at(second);
+    table
+        .sequences("blend-second-target")
         .part(second, |to, from| to.blend = from.blend);
-    of.sequences("write-mask-second-target")
+    table
+        .sequences("write-mask-second-target")
         .part(second, |to, from| to.write_mask = from.write_mask);
 }
 
-fn rasterization(of: &mut Table) {
-    of.area = "cull";
-    of.cases("cull").take(|before, draw| {
+fn rasterization(table: &mut Table) {
+    table.area = "cull";
+    table.cases("cull").take(|before, draw| {
         draw.cull = before.cull;
         draw.front_face = before.front_face;
     });
-    of.sequences("cull").at(CULL);
-    of.sequences("front-face").at(FRONT_FACE);
-    of.both("polygon-mode").at(|d| vec![&mut d.polygon_mode]);
-    of.both("rasterizer-discard")
+    table.sequences("cull").at(CULL);
+    table.sequences("front-face").at(FRONT_FACE);
+    table.both("polygon-mode").at(|d| vec![&mut d.polygon_mode]);
+    table
+        .both("rasterizer-discard")
         .at(|d| vec![&mut d.rasterizer_discard]);
-    of.both("topology").at(TOPOLOGY);
-    of.area = "scissor";
-    of.cases("viewport").at(|d| vec![&mut d.viewport.rect]);
-    of.sequences("viewport-rect")
+    table.both("topology").at(TOPOLOGY);
+    table.area = "scissor";
+    table.cases("viewport").at(|d| vec![&mut d.viewport.rect]);
+    table
+        .sequences("viewport-rect")
         .at(|d| vec![&mut d.viewport.rect]);
-    of.both("scissor").switch(|d| vec![&mut d.scissor]);
-    of.area = "multisample";
-    of.both("sample-mask").at(|d| vec![&mut d.multisample.mask]);
-    of.both("alpha-to-coverage")
+    table.both("scissor").switch(|d| vec![&mut d.scissor]);
+    table.area = "multisample";
+    table
+        .both("sample-mask")
+        .at(|d| vec![&mut d.multisample.mask]);
+    table
+        .both("alpha-to-coverage")
         .at(|d| vec![&mut d.multisample.alpha_to_coverage]);
-    of.both("alpha-to-one")
+    table
+        .both("alpha-to-one")
         .at(|d| vec![&mut d.multisample.alpha_to_one]);
-    of.cases("min-sample-shading")
+    table
+        .cases("min-sample-shading")
         .at(|d| vec![&mut d.multisample.min_sample_shading]);
-    of.sequences("sample-shading")
+    table
+        .sequences("sample-shading")
         .at(|d| vec![&mut d.multisample.min_sample_shading]);
-    of.both("sample-coverage")
+    table
+        .both("sample-coverage")
         .switch(|d| vec![&mut d.multisample.sample_coverage]);
-    of.sequences("sample-coverage-value")
+    table
+        .sequences("sample-coverage-value")
         .part(SAMPLE_COVERAGE, |to, from| to.value = from.value);
-    of.sequences("sample-coverage-invert")
+    table
+        .sequences("sample-coverage-invert")
         .part(SAMPLE_COVERAGE, |to, from| to.invert = from.invert);
 }
 
-fn inputs(of: &mut Table) {
-    of.sequences("indices").at(|d| vec![&mut d.mesh.indices]);
-    of.sequences("params-color")
+fn inputs(table: &mut Table) {
+    table.sequences("indices").at(|d| vec![&mut d.mesh.indices]);
+    table
+        .sequences("params-color")
         .at(|d| vec![&mut d.params.color]);
-    of.sequences("params-back-color")
+    table
+        .sequences("params-back-color")
         .at(|d| vec![&mut d.params.back_color]);
-    of.sequences("sampler-filter")
+    table
+        .sequences("sampler-filter")
         .part(SAMPLER, |to, from| to.filter = from.filter);
-    of.sequences("sampler-address-across")
+    table
+        .sequences("sampler-address-across")
         .part(SAMPLER, |to, from| to.address[0] = from.address[0]);
-    of.sequences("sampler-address-down")
+    table
+        .sequences("sampler-address-down")
         .part(SAMPLER, |to, from| to.address[1] = from.address[1]);
     // What follows is taken over where the scene stays one that a driver could be asked for.
-    of.sequences("shader").take(|before, draw| {
+    table.sequences("shader").take(|before, draw| {
         let textures = before.shader.textures() == draw.shader.textures();
         if textures && before.shader.counts_runs() == draw.shader.counts_runs() {
             draw.shader = before.shader;
         }
     });
-    of.sequences("textures").take(|before, draw| {
+    table.sequences("textures").take(|before, draw| {
         if before.textures.len() == draw.textures.len() {
             draw.textures.clone_from(&before.textures);
         }
     });
-    of.sequences("counters").take(|before, draw| {
+    table.sequences("counters").take(|before, draw| {
         if before.shader.counts_runs() == draw.shader.counts_runs() {
             draw.counters.clone_from(&before.counters);
         }
     });
-    of.sequences("early-tests").take(|before, draw| {
+    table.sequences("early-tests").take(|before, draw| {
         if !before.early_tests.is_conservative() || draw.shader.writes_depth() {
             draw.early_tests = before.early_tests;
         }

@@ -29,11 +29,13 @@ fn coverage(list: &mut List) {
     list.bug("first-row-missing: The first row is not drawn.")
         .plant(covered(|[_, y], _| y > 0));
     list.bug("first-texel-missing: The first texel is not drawn.")
-        .plant(covered(|at, _| at != [0, 0]));
+        .plant(covered(|texel, _| texel != [0, 0]));
     list.bug("last-texel-missing: The last texel is not drawn.")
         .plant(covered(|[x, y], [w, h]| x + 1 < w || y + 1 < h));
     list.bug("middle-texel-missing: The middle texel is not drawn.")
-        .plant(covered(|at, size| at != size.map(|length| length / 2)));
+        .plant(covered(|texel, size| {
+            texel != size.map(|length| length / 2)
+        }));
 }
 
 fn draws(list: &mut List) {

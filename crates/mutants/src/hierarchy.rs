@@ -130,8 +130,8 @@ impl Coarse {
                     if let (Bug::Initial(depth), Some(encoding)) =
                         (self.bug, encoding(scene, index))
                     {
-                        let all = code(encoding, depth);
-                        self.maps[index].ranges.fill([all; 2]);
+                        let initial = code(encoding, depth);
+                        self.maps[index].ranges.fill([initial; 2]);
                     }
                 }
                 self.initial = self.maps.clone();
@@ -216,14 +216,14 @@ impl Coarse {
             return Vec::new();
         }
         for primitive in draw.mesh.primitives(draw.topology) {
-            let at: Vec<usize> = match primitive {
-                PrimitiveVertices::Point(at) => vec![at],
+            let corners: Vec<usize> = match primitive {
+                PrimitiveVertices::Point(vertex) => vec![vertex],
                 PrimitiveVertices::Line(ends) => ends.to_vec(),
                 PrimitiveVertices::Triangle(corners) => corners.to_vec(),
             };
             let ends = |axis: usize| {
-                let all = at.iter().map(|i| vertices[*i][axis]);
-                all.fold([f32::MAX, f32::MIN], |[low, high], v| {
+                let values = corners.iter().map(|i| vertices[*i][axis]);
+                values.fold([f32::MAX, f32::MIN], |[low, high], v| {
                     [low.min(v), high.max(v)]
                 })
             };
@@ -241,8 +241,9 @@ impl Coarse {
                 }
             }
         }
-        let all = found.into_iter().enumerate();
-        all.filter_map(|(tile, range)| Some((tile, range?)))
+        let tiles = found.into_iter().enumerate();
+        tiles
+            .filter_map(|(tile, range)| Some((tile, range?)))
             .collect()
     }
 
@@ -282,8 +283,8 @@ impl Coarse {
             }
         }
         if !self.rejected.is_empty() {
-            let all = pass.color.iter().chain(&pass.depth_stencil);
-            self.kept = all.map(|i| (*i, surfaces[*i].clone())).collect();
+            let attachments = pass.color.iter().chain(&pass.depth_stencil);
+            self.kept = attachments.map(|i| (*i, surfaces[*i].clone())).collect();
         }
     }
 
@@ -359,18 +360,18 @@ pub(super) fn add(list: &mut List) {
             [PointList, LineList, LineStrip].contains(&draw.topology)
         }),
     ];
-    for (name, what, of) in missed {
+    for (name, what, strikes) in missed {
         list.bug(format!(
             "{name}-missed: The coarse depth misses what is written by {what}."
         ))
-        .plant(plant(SIDE, Bug::Missed(of)));
+        .plant(plant(SIDE, Bug::Missed(strikes)));
     }
     for side in [16, 32, 64] {
-        for (name, what, of) in &missed[..2] {
+        for (name, what, strikes) in &missed[..2] {
             list.bug(format!(
                 "{name}-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses {what}."
             ))
-            .plant(plant(side, Bug::Missed(*of)));
+            .plant(plant(side, Bug::Missed(*strikes)));
         }
     }
     type Overrated = fn(&Draw) -> bool;
@@ -384,11 +385,11 @@ pub(super) fn add(list: &mut List) {
         }),
         ("stencil", "has a stencil test", |d| d.stencil.is_some()),
     ];
-    for (name, what, of) in overrated {
+    for (name, what, strikes) in overrated {
         list.bug(format!(
             "{name}-noted-as-written: A draw that {what} counts as writing every texel it touches."
         ))
-        .plant(plant(SIDE, Bug::Overrated(of)));
+        .plant(plant(SIDE, Bug::Overrated(strikes)));
     }
     let mut add = |text: &str, bug| list.bug(text).plant(plant(SIDE, bug));
     add(

@@ -190,7 +190,7 @@ impl Steps for &Hooks {
         std::array::from_fn(|c| match surface.encodings.get(c) {
             Some(encoding) => {
                 let plane = surface.plane(c, 0);
-                Plain::<LANES>.decode(*encoding, from.map(|at| plane[at]))
+                Plain::<LANES>.decode(*encoding, from.map(|texel| plane[texel]))
             }
             None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
         })
@@ -226,13 +226,13 @@ impl Steps for &Hooks {
         };
         let mut result = [[0.0; LANES]; 4];
         for lane in 0..LANES {
-            let one = BlendInput {
+            let single = BlendInput {
                 src: input.src.map(|v| [v[lane]]),
                 src1: input.src1.map(|v| [v[lane]]),
                 dst: input.dst.map(|v| [v[lane]]),
                 constant: input.constant.map(|v| [v[lane]]),
             };
-            for (c, value) in bug(state, encodings, &one).into_iter().enumerate() {
+            for (c, value) in bug(state, encodings, &single).into_iter().enumerate() {
                 result[c][lane] = value;
             }
         }

@@ -18,8 +18,8 @@ fn steps(
             let encodings = image.channels.iter().cycle();
             for (code, encoding) in image.codes.iter_mut().zip(encodings) {
                 let order = encoding.order_of_code(*code);
-                let one = encoding.order_of_code(encoding.nearest_code(1.0));
-                if order > 0 && order < one {
+                let largest = encoding.order_of_code(encoding.nearest_code(1.0));
+                if order > 0 && order < largest {
                     *code = nudge(*encoding, *code, 1);
                 }
             }
@@ -69,9 +69,9 @@ pub(super) fn add(list: &mut List) {
         ));
     let nearer = |scene: &Scene| {
         let depth = |d: &Draw| d.mesh.vertices.first().map_or(0.0, |v| v.position[2]);
-        let mut all = draws(scene).map(depth);
-        let first = all.next().unwrap_or(0.0);
-        all.any(|z| z < first)
+        let mut depths = draws(scene).map(depth);
+        let first = depths.next().unwrap_or(0.0);
+        depths.any(|z| z < first)
     };
     list.bug("order-moves-depth: Where the first draw is the farthest, depths are one step off.")
         .plant(steps(nearer, |_, image| image.aspect == Aspect::Depth));

@@ -58,8 +58,8 @@ pub(super) fn add(list: &mut List) {
         }));
     list.bug("source-as-all-or-nothing: A source that is not 0 counts as all ones.")
         .plant(logic(|obeys, encoding, operation, s, d| {
-            let all = code(encoding, 1.0);
-            right(obeys, encoding, operation, if s == 0 { 0 } else { all }, d)
+            let ones = code(encoding, 1.0);
+            right(obeys, encoding, operation, if s == 0 { 0 } else { ones }, d)
         }));
 }
 

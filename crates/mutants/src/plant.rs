@@ -147,8 +147,8 @@ pub(super) fn images_of(
 ) -> Plant {
     frames(move |scene, frame| {
         for image in &mut frame.images {
-            let mut all = scene.attachments.iter();
-            if all.any(|a| a.name == image.attachment && which(a)) {
+            let mut attachments = scene.attachments.iter();
+            if attachments.any(|a| a.name == image.attachment && which(a)) {
                 bug(image);
             }
         }
@@ -169,8 +169,8 @@ pub(super) fn move_texels(image: &mut Image, from: impl Fn([u32; 2], [u32; 2]) -
     let [width, height] = image.size;
     // A texel's samples lie side by side and move together.
     let n = image.channels.len() * image.samples as usize;
-    for (at, texel) in (0..).zip(image.codes.chunks_exact_mut(n)) {
-        let [x, y] = from([at % width, at / width], image.size);
+    for (number, texel) in (0..).zip(image.codes.chunks_exact_mut(n)) {
+        let [x, y] = from([number % width, number / width], image.size);
         let source = (y.min(height - 1) * width + x.min(width - 1)) as usize * n;
         texel.copy_from_slice(&original[source..source + n]);
     }

@@ -14,8 +14,8 @@ fn is(draw: &Draw, topology: PrimitiveTopology) -> bool {
 /// True if a vertex lies outside of the viewport.
 fn is_clipped(draw: &Draw) -> bool {
     let outside = |v: f32| !(-1.0..=1.0).contains(&v);
-    let mut all = draw.mesh.vertices.iter();
-    all.any(|v| outside(v.position[0]) || outside(v.position[1]))
+    let mut vertices = draw.mesh.vertices.iter();
+    vertices.any(|v| outside(v.position[0]) || outside(v.position[1]))
 }
 
 pub(super) fn add(list: &mut List) {
@@ -86,7 +86,7 @@ pub(super) fn add(list: &mut List) {
         .draws(|draw| {
             // This leaves the picture and exchanges the ends.
             let indices = draw.mesh.indices.iter_mut();
-            let second = indices.flat_map(|all| all.split_mut(|i| *i == RESTART).nth(1));
+            let second = indices.flat_map(|strip| strip.split_mut(|i| *i == RESTART).nth(1));
             second.for_each(<[_]>::reverse);
         });
     list.bug("kept-from-the-draw-before: The convention of the draw before holds.")

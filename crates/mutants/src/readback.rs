@@ -224,14 +224,14 @@ fn places(list: &mut List, aspect: Aspect) {
         ("middle", |[w, h]| (h / 2) * w + w / 2),
         ("last", |[w, h]| w * h - 1),
     ];
-    for (which, at) in texels {
+    for (which, texel) in texels {
         for (by, steps) in [("one-lsb", 1), ("three-lsb", 3)] {
             list.bug(format!(
                 "{name}-{which}-texel-off-by-{by}: The {which} texel of {name} is {steps} codes off."
             ))
             .source(SMALL)
             .plant(images(aspect, move |image| {
-                let place = at(image.size) as usize * image.channels.len() * image.samples as usize;
+                let place = texel(image.size) as usize * image.channels.len() * image.samples as usize;
                 inwards(aspect, image, place, steps);
             }));
         }

@@ -53,11 +53,11 @@ fn picked(list: &mut List) {
     list.bug("last-sample: A resolve takes the last sample.")
         .plant(resolve(|_, c| c[c.len() - 1]));
     list.bug("largest: A resolve takes the largest sample.")
-        .plant(from_values(|all, _| all[all.len() - 1]));
+        .plant(from_values(|samples, _| samples[samples.len() - 1]));
     list.bug("smallest: A resolve takes the smallest sample.")
-        .plant(from_values(|all, _| all[0]));
+        .plant(from_values(|samples, _| samples[0]));
     list.bug("median: A resolve takes the middle one of the samples.")
-        .plant(from_values(|all, _| all[all.len() / 2]));
+        .plant(from_values(|samples, _| samples[samples.len() / 2]));
     list.bug("first-half: A resolve averages the first half of the samples.")
         .plant(resolve(|e, c| average(e, &c[..c.len() / 2])));
     list.bug("all-but-one: A resolve leaves out the last sample.")
@@ -71,12 +71,12 @@ fn picked(list: &mut List) {
 fn wrong(list: &mut List) {
     list.source(SMALL);
     list.bug("sum: A resolve adds the samples up.")
-        .plant(from_values(|all, mean| mean * all.len() as f32));
+        .plant(from_values(|samples, mean| mean * samples.len() as f32));
     list.bug("halved: A resolve gives half the average.")
         .plant(from_values(|_, mean| mean / 2.0));
     list.bug("by-one-more: A resolve divides by one sample too many.")
-        .plant(from_values(|all, mean| {
-            mean * all.len() as f32 / (all.len() + 1) as f32
+        .plant(from_values(|samples, mean| {
+            mean * samples.len() as f32 / (samples.len() + 1) as f32
         }));
     list.bug("plus-1-lsb: Resolved texels are one code too large.")
         .plant(resolve(|e, c| nudge(e, average(e, c), 1)));

@@ -71,40 +71,46 @@ fn masks(list: &mut List) {
 fn positions(list: &mut List) {
     type Bug = fn(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
     fn plant(bug: Bug) -> Plant {
-        sample_positions(move |all| if all.len() > 1 { bug(all) } else { all })
+        sample_positions(move |positions| {
+            if positions.len() > 1 {
+                bug(positions)
+            } else {
+                positions
+            }
+        })
     }
-    fn each(all: Vec<[u16; 2]>, bug: fn([u16; 2]) -> [u16; 2]) -> Vec<[u16; 2]> {
-        all.into_iter().map(bug).collect()
+    fn each(positions: Vec<[u16; 2]>, bug: fn([u16; 2]) -> [u16; 2]) -> Vec<[u16; 2]> {
+        positions.into_iter().map(bug).collect()
     }
     list.source("sample positions rotated");
     list.bug("all-at-the-centre: All samples lie at the centre.")
-        .plant(plant(|all| each(all, |_| [128, 128])));
+        .plant(plant(|positions| each(positions, |_| [128, 128])));
     list.bug("all-at-the-corner: All samples lie at the corner.")
-        .plant(plant(|all| each(all, |_| [0, 0])));
+        .plant(plant(|positions| each(positions, |_| [0, 0])));
     list.bug("rotated: The positions are turned by a quarter.")
-        .plant(plant(|all| each(all, |[x, y]| [256 - y, x])));
+        .plant(plant(|positions| each(positions, |[x, y]| [256 - y, x])));
     list.bug("mirrored: The positions are mirrored.")
-        .plant(plant(|all| each(all, |[x, y]| [256 - x, y])));
+        .plant(plant(|positions| each(positions, |[x, y]| [256 - x, y])));
     list.bug("upside-down: The positions are upside down.")
-        .plant(plant(|all| each(all, |[x, y]| [x, 256 - y])));
+        .plant(plant(|positions| each(positions, |[x, y]| [x, 256 - y])));
     list.bug("transposed: Columns and rows of the positions are exchanged.")
-        .plant(plant(|all| each(all, |[x, y]| [y, x])));
+        .plant(plant(|positions| each(positions, |[x, y]| [y, x])));
     list.bug("in-reverse-order: The last sample lies where the first should.")
-        .plant(plant(|mut all| {
-            all.reverse();
-            all
+        .plant(plant(|mut positions| {
+            positions.reverse();
+            positions
         }));
     list.bug("first-two-exchanged: The first two samples exchange their places.")
-        .plant(plant(|mut all| {
-            all.swap(0, 1);
-            all
+        .plant(plant(|mut positions| {
+            positions.swap(0, 1);
+            positions
         }));
     list.bug("one-sixteenth-right: All samples lie a sixteenth too far right.")
-        .plant(plant(|all| each(all, |[x, y]| [x + 16, y])));
+        .plant(plant(|positions| each(positions, |[x, y]| [x + 16, y])));
     list.bug("of-two-samples: Every pair of samples lies where two would.")
-        .plant(plant(|all| {
+        .plant(plant(|positions| {
             let two = standard_sample_positions(2);
-            (0..all.len()).map(|s| two[s % 2]).collect()
+            (0..positions.len()).map(|s| two[s % 2]).collect()
         }));
     list.source(CONFUSION);
 }

@@ -38,12 +38,12 @@ fn rects(list: &mut List) {
     list.bug("empty-as-one-texel: An empty rectangle holds one texel.")
         .plant(scissors(|[x, y, w, h], _| Some([x, y, w.max(1), h.max(1)])));
     list.bug("upside-down: Rectangles are counted from the bottom.")
-        .plant(scissors(|[x, y, w, h], [_, all]| {
-            Some([x, before(all, y, h), w, h])
+        .plant(scissors(|[x, y, w, h], [_, height]| {
+            Some([x, before(height, y, h), w, h])
         }));
     list.bug("mirrored: Rectangles are counted from the right.")
-        .plant(scissors(|[x, y, w, h], [all, _]| {
-            Some([before(all, x, w), y, w, h])
+        .plant(scissors(|[x, y, w, h], [width, _]| {
+            Some([before(width, x, w), y, w, h])
         }));
     list.bug("transposed: Columns and rows are exchanged.")
         .plant(scissors(|[x, y, w, h], _| Some([y, x, h, w])));
@@ -69,8 +69,8 @@ fn rects(list: &mut List) {
 }
 
 /// What an attachment has on the other side of a rectangle.
-fn before(all: u32, start: u32, length: u32) -> u32 {
-    all.saturating_sub(start.saturating_add(length))
+fn before(size: u32, start: u32, length: u32) -> u32 {
+    size.saturating_sub(start.saturating_add(length))
 }
 
 /// The up to four rectangles around another.
@@ -144,8 +144,8 @@ fn clears(list: &mut List) {
                     let channels = attachment.format.color_channels().iter().zip(color);
                     let codes = channels.map(|(e, v)| e.nearest_code(f64::from(*v)));
                     let codes: Vec<u32> = codes.collect();
-                    let texels = (0..width * height).flat_map(|at| {
-                        let (x, y) = (at % width, at / width);
+                    let texels = (0..width * height).flat_map(|texel| {
+                        let (x, y) = (texel % width, texel / width);
                         let inside = (left..left + w).contains(&x) && (top..top + h).contains(&y);
                         codes.iter().map(move |c| c * u32::from(inside))
                     });

@@ -56,7 +56,7 @@ fn texels(list: &mut List) {
 fn tiles(list: &mut List) {
     for side in [8, 16, 32, 64] {
         // True of what lies in whole tiles, or in a first tile that the attachment cuts.
-        let whole = move |at: u32, length: u32| length < side || at < length / side * side;
+        let whole = move |texel: u32, length: u32| length < side || texel < length / side * side;
         list.bug(format!(
             "cut-columns-{side}: Columns past the last whole tile of {side} are not drawn."
         ))
@@ -68,7 +68,7 @@ fn tiles(list: &mut List) {
         list.bug(format!(
             "one-tile-{side}: The second tile of {side} in the second row is not drawn."
         ))
-        .plant(covered(move |at, _| at.map(|v| v / side) != [1, 1]));
+        .plant(covered(move |texel, _| texel.map(|v| v / side) != [1, 1]));
         list.bug(format!(
             "tile-border-{side}: The column before the third tile of {side} is not drawn."
         ))
@@ -86,11 +86,12 @@ fn times(bug: impl Fn(usize) -> usize + Send + Sync + 'static) -> Plant {
             _ => return,
         };
         let mesh = &mut draw.mesh;
-        let all = || (0..mesh.vertices.len() as u32).collect();
-        let order: Vec<u32> = mesh.indices.clone().unwrap_or_else(all);
+        let unindexed = || (0..mesh.vertices.len() as u32).collect();
+        let order: Vec<u32> = mesh.indices.clone().unwrap_or_else(unindexed);
         if order.len() / size >= 200 {
-            let all = order.chunks_exact(size).enumerate();
-            let drawn = all.flat_map(|(i, primitive)| std::iter::repeat_n(primitive, bug(i)));
+            let primitives = order.chunks_exact(size).enumerate();
+            let drawn =
+                primitives.flat_map(|(i, primitive)| std::iter::repeat_n(primitive, bug(i)));
             mesh.indices = Some(drawn.flatten().copied().collect());
         }
     })

@@ -10,59 +10,59 @@ use etalon_scene::{Draw, EarlyTests, Shader, StencilOperation};
 pub(super) fn add(list: &mut List) {
     list.class("stencil-export", "stencil");
     list.bug("ignored: The reference that a shader writes does nothing.")
-        .plant(exported(|of| of.face.reference));
+        .plant(exported(|e| e.face.reference));
     list.bug("test-alone: The stencil test takes the shader's reference, `replace` the draw's.")
-        .plant(exported(|of| if_so(of, of.path.is_none())));
+        .plant(exported(|e| if_so(e, e.path.is_none())));
     list.bug("replace-alone: `replace` takes the shader's reference, the stencil test the draw's.")
-        .plant(exported(|of| if_so(of, of.path.is_some())));
+        .plant(exported(|e| if_so(e, e.path.is_some())));
     list.bug("fail-ignores: `replace` takes the draw's reference where the stencil test fails.")
-        .plant(exported(|of| if_so(of, of.path != Some(Path::Fail))));
+        .plant(exported(|e| if_so(e, e.path != Some(Path::Fail))));
     list.bug("depth-fail-ignores: `replace` takes the draw's where the depth test fails.")
-        .plant(exported(|of| if_so(of, of.path != Some(Path::DepthFail))));
+        .plant(exported(|e| if_so(e, e.path != Some(Path::DepthFail))));
     list.bug("pass-ignores: `replace` takes the draw's reference where both tests pass.")
-        .plant(exported(|of| if_so(of, of.path != Some(Path::Pass))));
+        .plant(exported(|e| if_so(e, e.path != Some(Path::Pass))));
     list.bug("back-ignores: Back faces take the draw's reference.")
-        .plant(exported(|of| if_so(of, of.front)));
+        .plant(exported(|e| if_so(e, e.front)));
     list.bug("front-ignores: Front faces take the draw's reference.")
-        .plant(exported(|of| if_so(of, !of.front)));
+        .plant(exported(|e| if_so(e, !e.front)));
     list.bug("first-of-the-quad: The first texel of a pair of columns writes for both.")
-        .plant(exported(|of| of.written[of.lane & !1] as u8));
+        .plant(exported(|e| e.written[e.lane & !1] as u8));
     list.bug("first-of-the-row: The first texel of a span writes for all.")
-        .plant(exported(|of| of.written[0] as u8));
+        .plant(exported(|e| e.written[0] as u8));
     list.bug("next-texel: Each texel takes the reference of its neighbour.")
-        .plant(exported(|of| of.written[of.lane ^ 1] as u8));
+        .plant(exported(|e| e.written[e.lane ^ 1] as u8));
     list.bug("clamped: Numbers below 0 count as 0, those above 255 as 255.")
-        .plant(exported(|of| value(of).clamp(0, 255) as u8));
+        .plant(exported(|e| value(e).clamp(0, 255) as u8));
     list.bug("negative-as-zero: Numbers below 0 count as 0.")
-        .plant(exported(|of| value(of).max(0) as u8));
+        .plant(exported(|e| value(e).max(0) as u8));
     list.bug("large-as-255: Numbers above 255 count as 255.")
-        .plant(exported(|of| value(of).min(255) as u8));
+        .plant(exported(|e| value(e).min(255) as u8));
     list.bug("absolute: Numbers lose their sign.")
-        .plant(exported(|of| value(of).unsigned_abs() as u8));
+        .plant(exported(|e| value(e).unsigned_abs() as u8));
     list.bug("seven-bits: The highest bit of a reference is lost.")
-        .plant(exported(|of| value(of) as u8 & 0x7f));
+        .plant(exported(|e| value(e) as u8 & 0x7f));
     list.bug("ninth-bit: The ninth bit falls into the lowest.")
-        .plant(exported(|of| (value(of) | (value(of) >> 8 & 1)) as u8));
+        .plant(exported(|e| (value(e) | (value(e) >> 8 & 1)) as u8));
     list.bug("read-mask-at-replace: `replace` stores the reference under the read mask.")
-        .plant(exported(|of| match of.path {
-            None => value(of) as u8,
-            Some(_) => value(of) as u8 & of.face.read_mask,
+        .plant(exported(|e| match e.path {
+            None => value(e) as u8,
+            Some(_) => value(e) as u8 & e.face.read_mask,
         }));
     list.bug("write-mask-at-test: The stencil test compares the reference under the write mask.")
-        .plant(exported(|of| match of.path {
-            None => value(of) as u8 & of.face.write_mask,
-            Some(_) => value(of) as u8,
+        .plant(exported(|e| match e.path {
+            None => value(e) as u8 & e.face.write_mask,
+            Some(_) => value(e) as u8,
         }));
     list.bug("or-the-draws: The bits of the draw's reference are set too.")
-        .plant(exported(|of| value(of) as u8 | of.face.reference));
+        .plant(exported(|e| value(e) as u8 | e.face.reference));
     list.bug("under-the-draws: The bits that the draw's reference lacks are lost.")
-        .plant(exported(|of| value(of) as u8 & of.face.reference));
+        .plant(exported(|e| value(e) as u8 & e.face.reference));
     list.bug("zero-means-none: Where the shader writes 0 the draw's reference counts.")
-        .plant(exported(|of| if_so(of, value(of) as u8 != 0)));
+        .plant(exported(|e| if_so(e, value(e) as u8 != 0)));
     list.bug("first-sample-alone: Samples after the first take the draw's reference.")
-        .plant(exported(|of| if_so(of, of.sample == 0)));
+        .plant(exported(|e| if_so(e, e.sample == 0)));
     list.bug("sample-number-lost: Samples that run one by one share the first one's reference.")
-        .plant(exported(|of| value(of).wrapping_sub(of.plus) as u8));
+        .plant(exported(|e| value(e).wrapping_sub(e.plus) as u8));
     list.bug("tested-early: Shaders that write a reference are tested early.")
         .source("llvmpipe, panfrost: early tests despite what a shader does")
         .when(exports)
@@ -110,15 +110,15 @@ fn exports(draw: &Draw) -> bool {
 }
 
 /// Returns what the shader writes for the texel.
-fn value(of: &Exported) -> i32 {
-    of.written[of.lane]
+fn value(exported: &Exported) -> i32 {
+    exported.written[exported.lane]
 }
 
 /// Returns the shader's reference, or the draw's if not `exported`.
-fn if_so(of: &Exported, exported: bool) -> u8 {
+fn if_so(export: &Exported, exported: bool) -> u8 {
     if exported {
-        value(of) as u8
+        value(export) as u8
     } else {
-        of.face.reference
+        export.face.reference
     }
 }

@@ -12,17 +12,22 @@ pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
 }
 
 /// Returns the pairs of different values.
-pub(super) fn pairs<T: Copy + PartialEq>(all: &[T]) -> impl Iterator<Item = (T, T)> {
-    let each = all.iter().copied();
-    each.flat_map(|a| all.iter().map(move |b| (a, *b)))
+pub(super) fn pairs<T: Copy + PartialEq>(values: &[T]) -> impl Iterator<Item = (T, T)> {
+    let each = values.iter().copied();
+    each.flat_map(|a| values.iter().map(move |b| (a, *b)))
         .filter(|(a, b)| a != b)
 }
 
 /// Returns values and those declared before and after them, cyclically.
-pub(super) fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
-    let n = all.len();
+pub(super) fn round<T: Copy>(values: &[T]) -> Vec<(T, T)> {
+    let n = values.len();
     (0..n)
-        .flat_map(|i| [(all[i], all[(i + 1) % n]), (all[i], all[(i + n - 1) % n])])
+        .flat_map(|i| {
+            [
+                (values[i], values[(i + 1) % n]),
+                (values[i], values[(i + n - 1) % n]),
+            ]
+        })
         .collect()
 }
 

@@ -54,8 +54,8 @@ pub(super) fn add(list: &mut List) {
         "order-kept-from-the-draw-before: The order of a tessellated draw holds for the next.",
     )
     .plant(from_draw(|before, draw| {
-        if let (Some(before), Some(own)) = (before.tessellation, &mut draw.tessellation) {
-            own.order = before.order;
+        if let (Some(before), Some(asked)) = (before.tessellation, &mut draw.tessellation) {
+            asked.order = before.order;
         }
     }));
     list.bug("facing-kept-from-the-draw-before: A draw faces as the tessellated one before it.")

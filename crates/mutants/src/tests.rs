@@ -58,8 +58,8 @@ fn a_right_coarse_depth_changes_no_frame() {
         prepared.read_back().unwrap()
     };
     for scene in cases.iter().flat_map(|case| case.scenes()) {
-        let due = PreparedScene::new(scene.clone(), Faithful);
+        let expected = PreparedScene::new(scene.clone(), Faithful);
         let found = PreparedScene::new(scene.clone(), coarse());
-        assert_eq!(draw(Box::new(due)), draw(Box::new(found)));
+        assert_eq!(draw(Box::new(expected)), draw(Box::new(found)));
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn add(list: &mut List) {
 
 /// Draws nothing at texels of which `bug([x, y], [width, height])` is true.
 fn lost(bug: impl Fn([u32; 2], [u32; 2]) -> bool + Send + Sync + 'static) -> Plant {
-    covered(move |at, size| !bug(at, size))
+    covered(move |texel, size| !bug(texel, size))
 }
 
 fn extent(list: &mut List) {
@@ -49,21 +49,23 @@ fn extent(list: &mut List) {
     list.bug("last-row: The last row is not drawn.")
         .plant(lost(|[_, y], [_, h]| y + 1 == h));
     for n in TILES {
-        let tile = move |at: [u32; 2]| at.map(|v| v / n);
+        let tile = move |texel: [u32; 2]| texel.map(|v| v / n);
         let several = move |size: [u32; 2]| size.iter().any(|length| *length > n);
         list.bug(format!(
             "first-tile-of-{n}: Of several tiles of {n}×{n}, the first is not drawn."
         ))
-        .plant(lost(move |at, size| several(size) && tile(at) == [0, 0]));
+        .plant(lost(move |texel, size| {
+            several(size) && tile(texel) == [0, 0]
+        }));
         list.bug(format!(
             "second-tile-of-{n}: The second tile of {n}×{n} in the first row is not drawn."
         ))
-        .plant(lost(move |at, _| tile(at) == [1, 0]));
+        .plant(lost(move |texel, _| tile(texel) == [1, 0]));
         list.bug(format!(
             "last-tile-of-{n}: Of several tiles of {n}×{n}, the last is not drawn."
         ))
-        .plant(lost(move |at, size| {
-            several(size) && tile(at) == tile(size.map(|length| length - 1))
+        .plant(lost(move |texel, size| {
+            several(size) && tile(texel) == tile(size.map(|length| length - 1))
         }));
         list.bug(format!(
             "second-row-of-tiles-of-{n}: The second row of tiles of {n}×{n} is not drawn."
@@ -116,8 +118,8 @@ fn edges(list: &mut List) {
             ))
             .plant(sized(move |draw, size| {
                 let rect = &mut draw.viewport.rect;
-                let at = rect[axis] + if far { rect[axis + 2] } else { 0.0 };
-                let inside = at > 0.0 && at < size[axis] as f32 && at % n as f32 == 0.0;
+                let edge = rect[axis] + if far { rect[axis + 2] } else { 0.0 };
+                let inside = edge > 0.0 && edge < size[axis] as f32 && edge % n as f32 == 0.0;
                 if inside && rect[axis + 2] > 1.0 {
                     rect[axis] += if far { 0.0 } else { 1.0 };
                     rect[axis + 2] -= 1.0;
@@ -140,22 +142,23 @@ fn calls(list: &mut List) {
     list.bug("draws-past-256-lost: Draws of a pass past 256 are lost.")
         .passes(|_, _, pass| pass.draws.truncate(256));
     list.bug("params-kept-past-256: Draws of a pass past 256 have that one's parameters.")
-        .plant(many(|all| {
-            let (first, rest) = all.split_at_mut(256);
-            rest.iter_mut()
+        .plant(many(|draws| {
+            let (first, later) = draws.split_at_mut(256);
+            later
+                .iter_mut()
                 .for_each(|draw| draw.params = first[255].params);
         }));
     list.bug("params-wrap-at-256: Parameters of draws wrap at 256.")
-        .plant(many(|all| {
-            for at in 256..all.len() {
-                all[at].params = all[at - 256].params;
+        .plant(many(|draws| {
+            for number in 256..draws.len() {
+                draws[number].params = draws[number - 256].params;
             }
         }));
     list.bug("vertices-in-16-bits: Vertices past 65,536 are the first ones again.")
         .draws(|draw| {
             let vertices = &mut draw.mesh.vertices;
-            for at in 1 << 16..vertices.len() {
-                vertices[at] = vertices[at - (1 << 16)];
+            for number in 1 << 16..vertices.len() {
+                vertices[number] = vertices[number - (1 << 16)];
             }
         });
     list.bug("vertex-buffer-in-16-bits: Draws are lost whose vertices lie past 65,536 of all.")
@@ -171,30 +174,30 @@ fn calls(list: &mut List) {
 /// Changes the primitives of each draw that has more than this many and fits the condition.
 fn long(
     more_than: usize,
-    of: fn(&Draw) -> bool,
+    strikes: fn(&Draw) -> bool,
     bug: impl Fn(&mut Vec<PrimitiveVertices>) + Send + Sync + 'static,
 ) -> Plant {
     draws(move |draw| {
         let indices = draw.mesh.indices.as_ref().map(Vec::len);
-        if indices.unwrap_or(draw.mesh.vertices.len()) <= more_than || !of(draw) {
+        if indices.unwrap_or(draw.mesh.vertices.len()) <= more_than || !strikes(draw) {
             return;
         }
-        let mut all = draw.mesh.primitives(draw.topology);
-        if all.len() <= more_than {
+        let mut primitives = draw.mesh.primitives(draw.topology);
+        if primitives.len() <= more_than {
             return;
         }
-        bug(&mut all);
-        let mut indices: Vec<usize> = Vec::with_capacity(all.len() * 3);
-        for primitive in all {
+        bug(&mut primitives);
+        let mut indices: Vec<usize> = Vec::with_capacity(primitives.len() * 3);
+        for primitive in primitives {
             let (topology, vertices): (_, &[usize]) = match &primitive {
-                PrimitiveVertices::Point(at) => (PrimitiveTopology::PointList, &[*at]),
+                PrimitiveVertices::Point(vertex) => (PrimitiveTopology::PointList, &[*vertex]),
                 PrimitiveVertices::Line(ends) => (PrimitiveTopology::LineList, ends),
                 PrimitiveVertices::Triangle(corners) => (PrimitiveTopology::TriangleList, corners),
             };
             draw.topology = topology;
             indices.extend(vertices);
         }
-        draw.mesh.indices = Some(indices.into_iter().map(|at| at as u32).collect());
+        draw.mesh.indices = Some(indices.into_iter().map(|vertex| vertex as u32).collect());
     })
 }
 
@@ -204,13 +207,13 @@ fn primitives(list: &mut List) {
         .plant(long(
             65_536,
             |_| true,
-            |all| all.insert(65_536, all[65_535]),
+            |indices| indices.insert(65_536, indices[65_535]),
         ));
     for n in [4096, 16384, 65535] {
         list.bug(format!(
             "primitives-past-{n}-lost: Primitives past {n} are lost."
         ))
-        .plant(long(n, |_| true, move |all| all.truncate(n)));
+        .plant(long(n, |_| true, move |indices| indices.truncate(n)));
     }
     // Cases have so many points, and fewer of the others.
     type Kind = (&'static str, &'static [usize], fn(&Draw) -> bool);
@@ -225,12 +228,12 @@ fn primitives(list: &mut List) {
             draw.polygon_mode == PolygonMode::Line
         }),
     ];
-    for (kind, batches, of) in kinds {
+    for (kind, batches, strikes) in kinds {
         for n in batches.iter().copied() {
             list.bug(format!(
                 "{kind}-past-{n}-lost: Of {kind}, primitives past {n} are lost."
             ))
-            .plant(long(n, of, move |all| all.truncate(n)));
+            .plant(long(n, strikes, move |indices| indices.truncate(n)));
         }
     }
 }
@@ -255,10 +258,10 @@ fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: A
             }
             continue;
         }
-        for (at, plane) in surface.planes.iter_mut().enumerate() {
-            let one = code(encodings[at / surface.samples], 1.0);
+        for (number, plane) in surface.planes.iter_mut().enumerate() {
+            let largest = code(encodings[number / surface.samples], 1.0);
             for code in &mut plane[texels.clone()] {
-                *code = if *code == 0 { one } else { 0 };
+                *code = if *code == 0 { largest } else { 0 };
             }
         }
     }
@@ -339,8 +342,8 @@ fn copies(list: &mut List) {
             "{name}-read-at-pitch-of-64: Rows of {word} are read at a pitch of 64 texels."
         ))
         .plant(moved(aspect, |[x, y], [w, h]| {
-            let at = (y * w.next_multiple_of(64) + x) % (w * h);
-            [at % w, at / w]
+            let texel = (y * w.next_multiple_of(64) + x) % (w * h);
+            [texel % w, texel / w]
         }));
     }
 }

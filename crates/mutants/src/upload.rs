@@ -18,8 +18,8 @@ fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync +
 
 /// Changes every code of uploads of one format.
 fn codes(format: TextureFormat, bug: fn(u32) -> u32) -> Plant {
-    texels(move |codes, of, _| {
-        if of == format {
+    texels(move |codes, encoding, _| {
+        if encoding == format {
             codes.iter_mut().for_each(|c| *c = bug(*c));
         }
     })

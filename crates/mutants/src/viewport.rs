@@ -26,9 +26,9 @@ pub(super) fn add(list: &mut List) {
     list.bug("ignored: Viewports are the whole attachment.")
         .plant(rects(|_, [w, h]| [0.0, 0.0, w, h]));
     list.bug("counted-from-the-bottom: Viewports are counted from the bottom.")
-        .plant(rects(|[x, y, w, h], [_, all]| [x, all - y - h, w, h]));
+        .plant(rects(|[x, y, w, h], [_, height]| [x, height - y - h, w, h]));
     list.bug("counted-from-the-right: Viewports are counted from the right.")
-        .plant(rects(|[x, y, w, h], [all, _]| [all - x - w, y, w, h]));
+        .plant(rects(|[x, y, w, h], [width, _]| [width - x - w, y, w, h]));
     list.bug("transposed: Columns and rows are exchanged.")
         .plant(rects(|[x, y, w, h], _| [y, x, h, w]));
     list.bug("from-the-origin: Viewports begin at the origin.")

@@ -120,15 +120,15 @@ impl Expectations {
             });
         }
         for (number, known) in self.all().iter().enumerate() {
-            let one = &reaches[number];
-            if one.cases.is_empty() || one.adapters.is_empty() {
+            let reach = &reaches[number];
+            if reach.cases.is_empty() || reach.adapters.is_empty() {
                 continue;
             }
             let cover = self.all().iter().enumerate().find(|(other, by)| {
-                let back = || covers(known, by) && reaches[*other].is_within(one);
+                let back = || covers(known, by) && reaches[*other].is_within(reach);
                 *other != number
                     && covers(by, known)
-                    && one.is_within(&reaches[*other])
+                    && reach.is_within(&reaches[*other])
                     // Of two that are the same, the second is dead.
                     && (*other < number || !back())
             });
@@ -138,7 +138,7 @@ impl Expectations {
                     place: known.place(),
                     about: by.place(),
                 });
-            } else if self.never_matched(number, one, run, &names.sorted) {
+            } else if self.never_matched(number, reach, run, &names.sorted) {
                 dead.push(Dead {
                     kind: DeadKind::NeverMatched,
                     place: known.place(),
@@ -165,8 +165,12 @@ impl Expectations {
                 recorded.insert(&adapter.name, BTreeSet::new());
             }
         }
-        let due = reach.adapters.iter().map(|index| &names[*index]);
-        if recorded.is_empty() || !due.clone().all(|name| recorded.contains_key(name.as_str())) {
+        let adapters = reach.adapters.iter().map(|index| &names[*index]);
+        if recorded.is_empty()
+            || !adapters
+                .clone()
+                .all(|name| recorded.contains_key(name.as_str()))
+        {
             return false;
         }
         let mut drawn = false;
@@ -291,10 +295,10 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
 /// The glob with one alternative in place of one of its groups `{…}`, for each alternative of each group; none
 /// where it has no group, or groups within groups.
 fn alternatives(glob: &str) -> Vec<String> {
-    let mut all = Vec::new();
-    let mut rest = 0;
-    while let Some(open) = glob[rest..].find('{').map(|at| at + rest) {
-        let Some(close) = glob[open..].find('}').map(|at| at + open) else {
+    let mut globs = Vec::new();
+    let mut start = 0;
+    while let Some(open) = glob[start..].find('{').map(|offset| offset + start) {
+        let Some(close) = glob[open..].find('}').map(|offset| offset + open) else {
             return Vec::new();
         };
         let inside = &glob[open + 1..close];
@@ -302,18 +306,18 @@ fn alternatives(glob: &str) -> Vec<String> {
             return Vec::new();
         }
         let each = inside.split(',');
-        all.extend(each.map(|one| format!("{}{one}{}", &glob[..open], &glob[close + 1..])));
-        rest = close + 1;
+        globs.extend(each.map(|choice| format!("{}{choice}{}", &glob[..open], &glob[close + 1..])));
+        start = close + 1;
     }
-    all
+    globs
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::adapter::AdapterRecord;
-    use crate::header::{FORMAT, Header, Settings};
-    use crate::machine::Machine;
+    use crate::header::Header;
+
     use crate::record::Record;
 
     const IDS: [&str; 4] = ["a/x=1/y=1", "a/x=1/y=2", "a/x=2/y=1", "b"];
@@ -341,18 +345,7 @@ mod tests {
         Run {
             records: records.collect(),
             truncated: false,
-            header: Header {
-                format: FORMAT,
-                etalon: String::new(),
-                commit: None,
-                machine: Machine::default(),
-                started: String::new(),
-                command: Vec::new(),
-                cases: ids.len() as u64,
-                settings: Settings::default(),
-                adapters: vec![adapter("gl:a")],
-                absent: Vec::new(),
-            },
+            header: Header::new(vec![adapter("gl:a")], ids.len() as u64),
         }
     }
 
@@ -367,8 +360,9 @@ mod tests {
         let text = format!("[{}]", entries.join(","));
         let read = Expectations::parse(&text, Path::new("e")).unwrap();
         let ids = IDS.map(str::to_owned);
-        let all = read.dead(&run(drawn), &ids, &["gl:b".to_owned()]);
-        all.into_iter()
+        let found = read.dead(&run(drawn), &ids, &["gl:b".to_owned()]);
+        found
+            .into_iter()
             .map(|d| (d.kind, d.place, d.about))
             .collect()
     }
@@ -387,15 +381,15 @@ mod tests {
 
     #[test]
     fn a_glob_that_matches_nothing_is_dead() {
-        let of = |adapter: &str, case: &str| dead(&[entry(adapter, case, "fail")], &IDS);
+        let found = |adapter: &str, case: &str| dead(&[entry(adapter, case, "fail")], &IDS);
         use DeadKind::{NoAdapter, NoCase};
-        assert_eq!(of("gl:a", "a/z=*"), one(NoCase, 1, "a/z=*"));
-        assert_eq!(of("gl:a", "a/x=1/y=3"), one(NoCase, 1, "a/x=1/y=3"));
-        let alternative = of("gl:a", "a/x={1,3}/y=1");
+        assert_eq!(found("gl:a", "a/z=*"), one(NoCase, 1, "a/z=*"));
+        assert_eq!(found("gl:a", "a/x=1/y=3"), one(NoCase, 1, "a/x=1/y=3"));
+        let alternative = found("gl:a", "a/x={1,3}/y=1");
         assert_eq!(alternative, one(NoCase, 1, "a/x=3/y=1"));
-        assert_eq!(of("gl:c", "a/*"), one(NoAdapter, 1, "gl:c"));
-        assert_eq!(of("gl:{a,c}", "a/*"), one(NoAdapter, 1, "gl:c"));
-        assert_eq!(of("gl:b", "a/*"), [], "described, and not used here");
+        assert_eq!(found("gl:c", "a/*"), one(NoAdapter, 1, "gl:c"));
+        assert_eq!(found("gl:{a,c}", "a/*"), one(NoAdapter, 1, "gl:c"));
+        assert_eq!(found("gl:b", "a/*"), [], "described, and not used here");
     }
 
     #[test]
@@ -442,13 +436,13 @@ mod tests {
     fn the_list_lies_in_the_folder() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Dead::read(folder.path()).unwrap(), []);
-        let one = Dead {
+        let entry = Dead {
             kind: DeadKind::NoCase,
             place: "e".to_owned(),
             about: "a/*".to_owned(),
         };
-        Dead::write(folder.path(), std::slice::from_ref(&one)).unwrap();
-        assert_eq!(Dead::read(folder.path()).unwrap(), [one]);
+        Dead::write(folder.path(), std::slice::from_ref(&entry)).unwrap();
+        assert_eq!(Dead::read(folder.path()).unwrap(), [entry]);
         Dead::write(folder.path(), &[]).unwrap();
         assert!(!folder.path().join(DEAD_FILE).exists());
     }

@@ -15,7 +15,11 @@ pub fn version_of(adapter: &AdapterRecord) -> Option<Version> {
 /// single number is one too: `118`.
 pub(crate) fn release_version(text: &str) -> Option<Version> {
     let parts: Option<Vec<u64>> = text.split('.').map(|part| part.parse().ok()).collect();
-    let part = |n: usize| parts.as_ref().map(|all| all.get(n).copied().unwrap_or(0));
+    let part = |n: usize| {
+        parts
+            .as_ref()
+            .map(|numbers| numbers.get(n).copied().unwrap_or(0))
+    };
     Some(Version::new(part(0)?, part(1)?, part(2)?))
 }
 
@@ -23,9 +27,9 @@ pub(crate) fn release_version(text: &str) -> Option<Version> {
 /// one with a dot. Missing parts of three are 0, further parts are dropped; `None` if there is no such
 /// number.
 fn driver_version(text: &str) -> Option<Version> {
-    let after_mesa = text.split_once("Mesa ").map(|(_, rest)| rest);
+    let after_mesa = text.split_once("Mesa ").map(|(_, behind)| behind);
     after_mesa
-        .and_then(|rest| number(rest.split_whitespace().next()?))
+        .and_then(|behind| number(behind.split_whitespace().next()?))
         .or_else(|| text.split([' ', ',', '(', ')']).find_map(number))
 }
 
@@ -49,8 +53,8 @@ mod tests {
 
     #[test]
     fn releases_are_numbers_with_dots() {
-        let of = |text: &str| release_version(text).map(|v| v.to_string());
-        for (text, due) in [
+        let version = |text: &str| release_version(text).map(|v| v.to_string());
+        for (text, expected) in [
             ("118", Some("118.0.0")),
             ("26.2", Some("26.2.0")),
             ("149.0.7827.2", Some("149.0.7827")),
@@ -58,14 +62,14 @@ mod tests {
             ("v118", None),
             ("1..2", None),
         ] {
-            assert_eq!(of(text).as_deref(), due, "{text}");
+            assert_eq!(version(text).as_deref(), expected, "{text}");
         }
     }
 
     #[test]
     fn drivers_say_it_in_many_ways() {
-        let of = |text: &str| driver_version(text).map(|v| v.to_string());
-        for (text, due) in [
+        let version = |text: &str| driver_version(text).map(|v| v.to_string());
+        for (text, expected) in [
             ("Mesa 22.3.6 (LLVM 15.0.6)", Some("22.3.6")),
             ("4.5 (Core Profile) Mesa 25.0.7-2~bpo12+1", Some("25.0.7")),
             ("550.54.14", Some("550.54.14")),
@@ -76,7 +80,7 @@ mod tests {
             ("7", None),
             ("1.99999999999999999999", None),
         ] {
-            assert_eq!(of(text).as_deref(), due, "{text}");
+            assert_eq!(version(text).as_deref(), expected, "{text}");
         }
     }
 }

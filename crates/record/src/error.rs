@@ -44,7 +44,7 @@ pub enum RecordError {
     Holds {
         /// The folder.
         path: PathBuf,
-        /// What it holds.
+        /// Its content.
         kind: FolderKind,
     },
     /// A bench is in the folder already.

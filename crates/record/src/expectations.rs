@@ -264,12 +264,12 @@ impl Expectations {
             }
         }
         files.sort();
-        let mut all = Self::default();
+        let mut expectations = Self::default();
         for file in files {
             let finding = Finding::parse(&text_of(&file)?, &file)?;
-            all.add(Known::of_finding(finding, &file), &text_of(&file)?)?;
+            expectations.add(Known::of_finding(finding, &file), &text_of(&file)?)?;
         }
-        Ok(all)
+        Ok(expectations)
     }
 
     /// Parses findings: the paths, which serve messages only, and texts of their files.
@@ -277,12 +277,12 @@ impl Expectations {
     /// # Errors
     /// When a text does not parse or holds a glob that does not.
     pub fn of_findings(files: &[(&str, &str)]) -> Result<Self, RecordError> {
-        let mut all = Self::default();
+        let mut expectations = Self::default();
         for (path, text) in files {
             let path = Path::new(path);
-            all.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
+            expectations.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
         }
-        Ok(all)
+        Ok(expectations)
     }
 
     /// Parses the text of a list of entries or of a finding; `path` serves messages only. A text without content
@@ -291,15 +291,15 @@ impl Expectations {
     /// # Errors
     /// When the text does not parse or holds a glob that does not.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
-        let mut all = Self::default();
+        let mut expectations = Self::default();
         if text.trim().is_empty() {
-            return Ok(all);
+            return Ok(expectations);
         }
         // What does not parse at all is told of as a list.
         let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
         if value.get("title").is_some() && value.get("entries").is_none() {
-            all.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
-            return Ok(all);
+            expectations.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
+            return Ok(expectations);
         }
         let parsed = if value.is_array() {
             serde_json::from_str(text)
@@ -321,9 +321,9 @@ impl Expectations {
                     remedy: REMEDY,
                 });
             }
-            all.add(Known::of_entry(entry, i + 1, path), text)?;
+            expectations.add(Known::of_entry(entry, i + 1, path), text)?;
         }
-        Ok(all)
+        Ok(expectations)
     }
 
     /// Adds an expectation of a file with this text.
@@ -332,13 +332,13 @@ impl Expectations {
             Some(_) => (["adapter", "case", "version"], REMEDY),
             None => (["adapters", "cases", "versions"], findings::REMEDY),
         };
-        let of = known
+        let place = known
             .number
             .map_or(String::new(), |n| format!("entry {n}: "));
         let fail = |value: &str, message: String| RecordError::Parse {
             path: known.path.clone(),
             line: line_of(text, value),
-            message: format!("{of}{message}"),
+            message: format!("{place}{message}"),
             remedy,
         };
         let build = |key: &str, glob: &String| {
@@ -389,9 +389,9 @@ impl Expectations {
     #[must_use]
     pub fn about(self, adapter: &AdapterRecord) -> Self {
         let both = self.all.into_iter().zip(self.globs);
-        let (all, globs) = both.filter(|(_, g)| g.match_adapter(adapter)).unzip();
+        let (entries, globs) = both.filter(|(_, g)| g.match_adapter(adapter)).unzip();
         Self {
-            all,
+            all: entries,
             globs,
             today: self.today,
         }
@@ -409,8 +409,8 @@ impl Expectations {
     /// The expectation that keeps a case from being drawn on an adapter.
     pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
         // Few expectations skip anything, and most cases are named by none.
-        let all = self.all.iter().zip(&self.globs);
-        let mut skips = all.filter(|(known, _)| known.verdict == Verdict::Skipped);
+        let entries = self.all.iter().zip(&self.globs);
+        let mut skips = entries.filter(|(known, _)| known.verdict == Verdict::Skipped);
         let named =
             skips.find(|(known, globs)| !self.expired(known) && globs.match_both(adapter, case));
         named.map(|(known, _)| known)
@@ -439,8 +439,9 @@ impl Expectations {
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = usize> + use<'e, 'a> {
-        let all = self.globs.iter().enumerate();
-        all.filter(move |(_, globs)| globs.match_both(adapter, case))
+        let entries = self.globs.iter().enumerate();
+        entries
+            .filter(move |(_, globs)| globs.match_both(adapter, case))
             .map(|(number, _)| number)
     }
 
@@ -513,18 +514,18 @@ impl Expectations {
     ) -> Expectation<'_> {
         let agrees = |known: &&Known| known.excuses(verdict);
         let matching: Vec<&Known> = self.matching(adapter, case).collect();
-        let all = || matching.iter().copied();
-        if let Some(known) = all().find(|k| agrees(k) && !self.expired(k)) {
+        let entries = || matching.iter().copied();
+        if let Some(known) = entries().find(|k| agrees(k) && !self.expired(k)) {
             return Expectation::Agrees(known);
         }
-        if let Some(known) = all().find(agrees) {
+        if let Some(known) = entries().find(agrees) {
             return Expectation::Expired(known);
         }
         // A case that is not supported any more has not become better, and one that is flaky may pass.
         let good =
             !verdict.is_bad() && !matches!(verdict, Verdict::NotSupported | Verdict::Skipped);
         let bad = |k: &&Known| k.verdict.is_bad() && k.verdict != Verdict::Flaky;
-        match all().find(bad) {
+        match entries().find(bad) {
             Some(known) if good => Expectation::Better(known),
             _ => Expectation::None,
         }
@@ -542,8 +543,8 @@ fn text_of(path: &Path) -> Result<String, RecordError> {
 /// The line that first holds a string value, as near as a message needs it.
 fn line_of(text: &str, value: &str) -> usize {
     let quoted = serde_json::to_string(value).unwrap_or_default();
-    let at = text.find(&quoted).unwrap_or(0);
-    text[..at].matches('\n').count() + 1
+    let start = text.find(&quoted).unwrap_or(0);
+    text[..start].matches('\n').count() + 1
 }
 
 #[cfg(test)]
@@ -799,8 +800,8 @@ mod tests {
         fs::write(folder.join("README.md"), "no finding").unwrap();
         let read = Expectations::read(folder).unwrap();
         let places: Vec<String> = read.all().iter().map(Known::place).collect();
-        let due = ["a.json", "b.json"].map(|name| folder.join(name).display().to_string());
-        assert_eq!(places, due);
+        let expected = ["a.json", "b.json"].map(|name| folder.join(name).display().to_string());
+        assert_eq!(places, expected);
         assert_eq!(read.all()[0].verdict, Verdict::Disputed);
         fs::write(folder.join("c.json"), finding.replace("a/*", "a/[")).unwrap();
         let error = Expectations::read(folder).unwrap_err().to_string();

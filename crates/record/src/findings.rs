@@ -40,7 +40,7 @@ pub struct Finding {
     /// The document, version and section that the driver breaks; empty only while the finding is unread.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub clause: String,
-    /// What was seen.
+    /// The observation.
     pub evidence: Evidence,
     /// The audit of the accusation; absent until somebody other than its author has read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -245,10 +245,10 @@ mod tests {
             r#"" "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" ""#,
             r#""seen""#,
         );
-        let told = Finding::parse(&text, Path::new("f.json")).unwrap();
-        assert_eq!(told.evidence, Evidence::Text("seen".to_owned()));
-        let again = Finding::parse(&told.to_text().unwrap(), Path::new("f.json")).unwrap();
-        assert_eq!(again, told);
+        let finding = Finding::parse(&text, Path::new("f.json")).unwrap();
+        assert_eq!(finding.evidence, Evidence::Text("seen".to_owned()));
+        let again = Finding::parse(&finding.to_text().unwrap(), Path::new("f.json")).unwrap();
+        assert_eq!(again, finding);
     }
 
     #[test]
@@ -271,10 +271,13 @@ mod tests {
             ("lowered", "fine", 11, "upheld"),
             ("No text says when it is read.", "", 11, "\"reason\""),
         ] {
-            let told = error(from, to);
+            let message = error(from, to);
             let start = format!("ci/findings/f.json:{line}: ");
-            assert!(told.starts_with(&start) && told.contains(word), "{told}");
-            assert!(told.contains(REMEDY), "{told}");
+            assert!(
+                message.starts_with(&start) && message.contains(word),
+                "{message}"
+            );
+            assert!(message.contains(REMEDY), "{message}");
         }
     }
 }

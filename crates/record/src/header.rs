@@ -40,6 +40,22 @@ pub struct Header {
 }
 
 impl Header {
+    /// A header of these adapters, with so many cases and nothing else yet.
+    pub fn new(adapters: Vec<AdapterRecord>, cases: u64) -> Self {
+        Self {
+            format: FORMAT,
+            etalon: String::new(),
+            commit: None,
+            machine: Machine::default(),
+            started: String::new(),
+            command: Vec::new(),
+            cases,
+            settings: Settings::default(),
+            adapters,
+            absent: Vec::new(),
+        }
+    }
+
     /// The number of records of a complete run.
     pub fn expected_records(&self) -> u64 {
         self.cases.saturating_mul(self.adapters.len() as u64)

@@ -18,7 +18,7 @@ pub(crate) fn json_line(
 pub(crate) fn without_position(error: &serde_json::Error) -> String {
     let text = error.to_string();
     shortened(match text.rfind(" at line ") {
-        Some(at) => &text[..at],
+        Some(end) => &text[..end],
         None => &text,
     })
 }

@@ -33,8 +33,18 @@ pub(crate) struct Extent {
     pub(crate) truncated: bool,
 }
 
-/// Cuts a file behind its whole lines, and goes to its end.
-pub(crate) fn cut(file: &mut File, whole: u64) -> std::io::Result<()> {
+/// Opens a file to append lines to `whole` bytes of whole ones; what follows them is cut off.
+pub(crate) fn reopen(path: &Path, whole: u64) -> Result<File, RecordError> {
+    let mut file = File::options()
+        .read(true)
+        .write(true)
+        .open(path)
+        .map_err(RecordError::io("write", path))?;
+    cut(&mut file, whole).map_err(RecordError::io("write", path))?;
+    Ok(file)
+}
+
+fn cut(file: &mut File, whole: u64) -> std::io::Result<()> {
     file.set_len(whole)?;
     file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
     let mut last = [0];

@@ -120,8 +120,8 @@ impl Imported {
                         _ => Verdict::Flaky,
                     };
                     let regex = regex(line).map_err(|e| fail(e.to_string()))?;
-                    let all = ids.iter().filter(|id| regex.is_match(id));
-                    all.map(|id| (id.as_str(), verdict)).collect()
+                    let matching = ids.iter().filter(|id| regex.is_match(id));
+                    matching.map(|id| (id.as_str(), verdict)).collect()
                 }
             };
             if matched.is_empty() {
@@ -268,9 +268,9 @@ mod tests {
         ] {
             again.add(kind, "l", text, &ids(), &about()).unwrap();
         }
-        let sorted = |mut all: Vec<Entry>| {
-            all.sort_by(|a, b| a.case.cmp(&b.case));
-            all
+        let sorted = |mut entries: Vec<Entry>| {
+            entries.sort_by(|a, b| a.case.cmp(&b.case));
+            entries
         };
         assert_eq!(sorted(again.entries), sorted(imported.entries));
     }

@@ -74,7 +74,7 @@ impl Merge {
         for (folder, _) in &parts {
             let also = Dead::read(folder)?;
             // What a part never matched, another may have.
-            dead.retain(|one| also.contains(one));
+            dead.retain(|entry| also.contains(entry));
         }
         let mut merge = Self {
             header,
@@ -238,8 +238,8 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
                 }
                 Some(known) => {
                     if let Some(reason) = known.conflict(adapter) {
-                        let one = seen.get(&adapter.name).copied().unwrap_or(first);
-                        return Err(apart(one, reason));
+                        let folder = seen.get(&adapter.name).copied().unwrap_or(first);
+                        return Err(apart(folder, reason));
                     }
                 }
             }
@@ -250,9 +250,9 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
             }
         }
         if header.machine != whole.machine {
-            let join = |all: &mut String, one: &str| {
-                if !all.split("; ").any(|known| known == one) {
-                    *all = format!("{all}; {one}");
+            let join = |list: &mut String, name: &str| {
+                if !list.split("; ").any(|known| known == name) {
+                    *list = format!("{list}; {name}");
                 }
             };
             join(&mut whole.machine.os, &header.machine.os);
@@ -275,7 +275,12 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
 const GLOBS: usize = 4;
 
 /// The globs of the case files in which two selections differ; `None` if they are the same, or a list is missing.
-fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) -> Option<String> {
+fn selections(
+    first: &Path,
+    of_one: &Settings,
+    other: &Path,
+    of_other: &Settings,
+) -> Option<String> {
     if of_one.selection == of_other.selection {
         return None;
     }
@@ -283,7 +288,7 @@ fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) 
         let text = fs::read_to_string(folder.join(CASES_FILE)).ok()?;
         Some(text.lines().map(str::to_owned).collect())
     };
-    let (a, b) = (ids(one)?, ids(other)?);
+    let (a, b) = (ids(first)?, ids(other)?);
     let only = |folder: &Path, ids: &BTreeSet<String>, others: &BTreeSet<String>| {
         let mut globs: BTreeMap<String, usize> = BTreeMap::new();
         for id in ids.difference(others) {
@@ -312,7 +317,7 @@ fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) 
         (!named.is_empty())
             .then(|| format!("only {} has {}{more}", folder.display(), named.join(", ")))
     };
-    let sides: Vec<String> = only(one, &a, &b)
+    let sides: Vec<String> = only(first, &a, &b)
         .into_iter()
         .chain(only(other, &b, &a))
         .collect();
@@ -320,15 +325,15 @@ fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) 
 }
 
 /// The record of a case that came out differently in two parts.
-fn disagreeing(one: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
+fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
     let told = format!(
         "{} in one part, {} in another",
-        one.0.verdict, other.0.verdict
+        first.0.verdict, other.0.verdict
     );
-    let (mut worse, better) = if one.0.verdict.severity() >= other.0.verdict.severity() {
-        (one, other.0)
+    let (mut worse, better) = if first.0.verdict.severity() >= other.0.verdict.severity() {
+        (first, other.0)
     } else {
-        (other, one.0)
+        (other, first.0)
     };
     let record = &mut worse.0;
     record.repeats.push(better.verdict);

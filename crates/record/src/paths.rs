@@ -22,9 +22,9 @@ pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
 /// character that a file system may treat specially replaced. A folder per part would cost a file system
 /// more than the frames.
 pub(crate) fn frame_path(adapter: &str, case: &str) -> String {
-    let (area, rest) = case.split_once('/').unwrap_or(("", case));
+    let (area, path) = case.split_once('/').unwrap_or(("", case));
     let (adapter, area) = (safe(adapter), safe(area));
-    format!("{FRAMES}/{adapter}/{area}/{}.json", safe(rest))
+    format!("{FRAMES}/{adapter}/{area}/{}.json", safe(path))
 }
 
 /// `pictures/<case>.png`, likewise.

@@ -5,7 +5,7 @@ use crate::expectations::{Expectation, Expectations};
 use crate::measured::Measured;
 use crate::verdict::Verdict;
 use etalon_frame::{
-    Accuracy, Aspect, AspectStatistics, CounterOutcome, Story, TexelCounts, WrongTexel,
+    Accuracy, Aspect, AspectStatistics, CounterOutcome, ErrorKind, Story, TexelCounts, WrongTexel,
 };
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +62,9 @@ pub struct Record {
     /// The measurements of a method case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
+    /// The kind of the backend's error, if it failed. Formats before 4 have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorKind>,
     /// The end of the process that drew the case, if it was lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub process: Option<ProcessEnd>,
@@ -135,6 +138,7 @@ impl Record {
             frame: None,
             seconds: Seconds::default(),
             measured: None,
+            error: None,
             process: None,
             validation: Vec::new(),
             repeats: Vec::new(),
@@ -330,7 +334,7 @@ mod tests {
         for verdict in Verdict::ALL {
             let mut record = Record::new("selftest/a", "cpu", verdict);
             record.due_fail = true;
-            let due = matches!(
+            let caught = matches!(
                 verdict,
                 Verdict::Fail
                     | Verdict::RequiredByCts
@@ -338,7 +342,7 @@ mod tests {
                     | Verdict::NotSupported
                     | Verdict::Skipped
             );
-            assert_eq!(record.unexpected(), !due, "{verdict}");
+            assert_eq!(record.unexpected(), !caught, "{verdict}");
         }
     }
 

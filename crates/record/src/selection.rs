@@ -91,9 +91,12 @@ mod tests {
             for id in &ids {
                 sizes[shard_of(id, count) as usize - 1] += 1;
             }
-            let due = 4000 / count as i32;
+            let expected = 4000 / count as i32;
             for size in &sizes {
-                assert!((size - due).abs() < due / 4 + 1, "{count}: {sizes:?}");
+                assert!(
+                    (size - expected).abs() < expected / 4 + 1,
+                    "{count}: {sizes:?}"
+                );
             }
         }
         assert_eq!(shard_of("depth/a", 0), 1);

@@ -31,13 +31,13 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
         }
         line = write(&short)?;
     }
-    let mut rest = short.message.clone();
-    while line.len() > MAX_LINE && !rest.is_empty() {
-        cut(&mut rest);
-        short.message = if rest.is_empty() {
+    let mut message = short.message.clone();
+    while line.len() > MAX_LINE && !message.is_empty() {
+        cut(&mut message);
+        short.message = if message.is_empty() {
             String::new()
         } else {
-            format!("[cut] {rest}")
+            format!("[cut] {message}")
         };
         line = write(&short)?;
     }

@@ -120,9 +120,9 @@ mod tests {
 
     #[test]
     fn severities_differ() {
-        let mut all: Vec<u8> = Verdict::ALL.iter().map(|v| v.severity()).collect();
-        all.sort_unstable();
-        all.dedup();
-        assert_eq!(all.len(), Verdict::ALL.len());
+        let mut severities: Vec<u8> = Verdict::ALL.iter().map(|v| v.severity()).collect();
+        severities.sort_unstable();
+        severities.dedup();
+        assert_eq!(severities.len(), Verdict::ALL.len());
     }
 }

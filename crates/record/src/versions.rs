@@ -68,7 +68,7 @@ pub struct CaseVersions {
     pub verdicts: Vec<Option<Verdict>>,
 }
 
-/// What a verdict says of a release.
+/// The meaning of a verdict for a release.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Standing {
     /// The case is drawn right.
@@ -113,7 +113,7 @@ impl CaseVersions {
         let each = drawn
             .iter()
             .enumerate()
-            .map(|(i, own)| own.or_else(|| before(i).filter(|s| behind(i) == Some(*s))));
+            .map(|(i, standing)| standing.or_else(|| before(i).filter(|s| behind(i) == Some(*s))));
         each.collect()
     }
 

@@ -6,7 +6,7 @@ use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PIC
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::json_lines::cut;
+use crate::json_lines::reopen;
 use crate::record::Record;
 use crate::report_files::ReportFiles;
 use crate::run::Run;
@@ -91,12 +91,7 @@ impl RunWriter {
             });
         }
         let path = folder.join(RUN_FILE);
-        let mut file = File::options()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(RecordError::io("write", &path))?;
-        cut(&mut file, whole).map_err(RecordError::io("write", &path))?;
+        let file = reopen(&path, whole)?;
         run.truncated = false;
         Ok((Self::new(folder, path, file), run))
     }

@@ -134,12 +134,12 @@ fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
                 .get_key_value(&case.file)
                 .map(|(name, text)| (&**name, text)),
         );
-        let rest = case.id.strip_prefix(&case.file).unwrap_or(&case.id);
+        let variant = case.id.strip_prefix(&case.file).unwrap_or(&case.id);
         let place = (scenes.place(scene), picture, used.place(&case.shaders));
         area.cases
             .entry(&case.file)
             .or_default()
-            .insert(rest, place);
+            .insert(variant, place);
     }
     Area {
         lines: lines.values,

@@ -189,11 +189,11 @@ fn all_table<'a>() -> Table<'a, &'a MutantRecord> {
         )
 }
 
-fn tally(area: &AreaTally, own: bool) -> Markup {
+fn tally(area: &AreaTally, is_own: bool) -> Markup {
     html! {
-        @if area.fail + area.imprecise + area.broken > 0 || own {
+        @if area.fail + area.imprecise + area.broken > 0 || is_own {
             div {
-                @if own { b { (area.area) } } @else { (area.area) }
+                @if is_own { b { (area.area) } } @else { (area.area) }
                 " " (area.fail) " / " (area.imprecise) " / " (area.pass)
                 @if area.broken > 0 { ", " (area.broken) " broken" }
             }
@@ -277,7 +277,7 @@ type Reason = fn(&MutantRecord) -> Option<&String>;
 
 /// Bugs to look at: noticed, survived, or caught by the cases of other areas only.
 fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
-    let of = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
+    let found = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);
     let elsewhere = hunt
         .mutants
@@ -287,18 +287,22 @@ fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
     let legal: Reason = |m| m.mutant.legal.as_ref();
     let first: Reason = |m| m.first.as_ref().map(|first| &first.case);
     [
-        ("Noticed", of(Catch::Noticed).collect(), legal),
-        ("Survived", of(Catch::Survived).collect(), legal),
+        ("Noticed", found(Catch::Noticed).collect(), legal),
+        ("Survived", found(Catch::Survived).collect(), legal),
         ("Caught by other areas only", elsewhere.collect(), first),
     ]
 }
 
 /// The totals in one line.
 fn totals(hunt: &Hunt) -> String {
-    let of = |outcome: Catch| format!("{} {}", hunt.count(outcome), outcome.name());
-    let mut parts = vec![of(Catch::Caught), of(Catch::Noticed), of(Catch::Survived)];
+    let counted = |outcome: Catch| format!("{} {}", hunt.count(outcome), outcome.name());
+    let mut parts = vec![
+        counted(Catch::Caught),
+        counted(Catch::Noticed),
+        counted(Catch::Survived),
+    ];
     if hunt.count(Catch::Broken) > 0 {
-        parts.push(of(Catch::Broken));
+        parts.push(counted(Catch::Broken));
     }
     format!(
         "{} planted bugs, {} cases, {}: {}",

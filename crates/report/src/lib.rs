@@ -56,4 +56,6 @@ pub use run::{
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;
 pub use versions::{versions_table, write_versions};
-pub use words::{EventLine, judged_by, operations, operations_text, plain, sentence, story_text};
+pub use words::{
+    EventLine, ReducedCase, judged_by, operations, operations_text, plain, sentence, story_text,
+};

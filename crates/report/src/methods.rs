@@ -6,7 +6,6 @@ mod claims;
 mod data;
 mod driver;
 mod front;
-mod layers;
 #[cfg(test)]
 mod made;
 mod name;

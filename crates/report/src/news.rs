@@ -96,10 +96,10 @@ pub fn news_table(news: &News, options: TableOptions) -> String {
             None => format!("{adapter}: no earlier run to compare with\n"),
         });
     }
-    for (at, (title, entries)) in news.sections().into_iter().enumerate() {
-        let color = ["31", "32", "0", "0"][at];
+    for (number, (title, entries)) in news.sections().into_iter().enumerate() {
+        let color = ["31", "32", "0", "0"][number];
         let head = format!("{} {title}", entries.len());
-        if entries.is_empty() && at > 1 {
+        if entries.is_empty() && number > 1 {
             continue;
         }
         let color = if entries.is_empty() { "" } else { color };

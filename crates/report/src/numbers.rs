@@ -161,9 +161,9 @@ mod tests {
 
     #[test]
     fn shares_are_told_from_all_and_nothing() {
-        let all = [(0, 9), (9, 9), (1, 1_000_000), (999_999, 1_000_000)];
-        let told = all.map(|(part, whole)| percent_of(part, whole));
-        assert_eq!(told, ["0 %", "100 %", "0.1 %", "99.9 %"]);
+        let shares = [(0, 9), (9, 9), (1, 1_000_000), (999_999, 1_000_000)];
+        let texts = shares.map(|(part, whole)| percent_of(part, whole));
+        assert_eq!(texts, ["0 %", "100 %", "0.1 %", "99.9 %"]);
         assert_eq!(percent(0.999_999, 2), "99.99 %");
         assert_eq!(percent(0.5, 2), "50.00 %");
     }

@@ -114,7 +114,7 @@ pub struct Ringed {
 
 /// Returns the pictures of an image with a ring around a sample (column, row and number). `None` when the image's lists
 /// do not fit its size.
-pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<Ringed> {
+pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
     let view = View::of(image)?;
     let color = image.aspect == Aspect::Color;
     let value = |codes: &[u32], sample, channel| view.value(codes, sample, channel);
@@ -122,13 +122,13 @@ pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<Ringed> {
         |sample| (0..3).all(|c| value(&image.low, sample, c) == value(&image.actual, sample, c));
     let alpha = color && image.channels.len() == 4 && (0..image.wrong.len()).all(alike);
     let codes = |codes: &[u32]| {
-        view.ringed(at, |sample, _, _| match (color, alpha) {
+        view.ringed(sample, |sample, _, _| match (color, alpha) {
             (true, false) => [0, 1, 2].map(|c| value(codes, sample, c)),
             (true, true) => [value(codes, sample, 3); 3],
             (false, _) => [value(codes, sample, 0); 3],
         })
     };
-    let difference = view.ringed(at, |sample, _, _| match image.wrong[sample] {
+    let difference = view.ringed(sample, |sample, _, _| match image.wrong[sample] {
         FrameImage::FINE => FINE,
         FrameImage::IMPRECISE => IMPRECISE,
         _ => {
@@ -199,8 +199,9 @@ fn window(image: &FrameImage) -> Window {
     let first = image.wrong.iter().position(|w| *w != FrameImage::FINE);
     let texel = (first.unwrap_or(0) as u64 / u64::from(image.samples.max(1))) as u32;
     let (x, y) = (texel % width.max(1), texel / width.max(1));
-    let start = |at: u32, size: u32| {
-        at.saturating_sub(WINDOW / 2)
+    let start = |center: u32, size: u32| {
+        center
+            .saturating_sub(WINDOW / 2)
             .min(size.saturating_sub(WINDOW))
     };
     Window {
@@ -246,8 +247,8 @@ fn alpha(image: &FrameImage) -> Alpha {
     }
     let first = image.actual[3];
     let n = image.channels.len();
-    let all = [&image.low, &image.high, &image.actual];
-    let same = all
+    let images = [&image.low, &image.high, &image.actual];
+    let same = images
         .iter()
         .all(|codes| codes.iter().skip(3).step_by(n).all(|c| *c == first));
     if same {
@@ -340,10 +341,10 @@ impl<'a> View<'a> {
     fn distance(&self, sample: usize) -> f64 {
         let n = self.image.channels.len();
         let channel = |(i, e): (usize, &ChannelEncoding)| {
-            let at = sample * n + i;
-            let low = e.order_of_code(self.image.low[at]);
-            let high = e.order_of_code(self.image.high[at]);
-            let actual = e.order_of_code(self.image.actual[at]);
+            let index = sample * n + i;
+            let low = e.order_of_code(self.image.low[index]);
+            let high = e.order_of_code(self.image.high[index]);
+            let actual = e.order_of_code(self.image.actual[index]);
             let codes = (low - actual).max(actual - high).max(0) as f64;
             let most = (e.max_order() - e.min_order()) as f64;
             (1.0 + codes).log2() / (1.0 + most).log2()
@@ -466,8 +467,10 @@ pub(crate) fn enlarged(image: &Image) -> Option<Vec<u8>> {
     let (pixels, [width, height]) = pixels(image)?;
     let block = (512 / width.max(height).max(1)).clamp(1, 16);
     let (wide, high) = (width * block, height * block);
-    let all = (0..high).flat_map(|y| (0..wide).map(move |x| (x / block, y / block)));
-    let pixels: Vec<[u8; 4]> = all.map(|(x, y)| pixels[(y * width + x) as usize]).collect();
+    let places = (0..high).flat_map(|y| (0..wide).map(move |x| (x / block, y / block)));
+    let pixels: Vec<[u8; 4]> = places
+        .map(|(x, y)| pixels[(y * width + x) as usize])
+        .collect();
     png(&pixels, wide, high)
 }
 
@@ -485,7 +488,7 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
     };
     let value = |texel: usize, channel: usize| {
         let encoding = image.channels[channel];
-        let one = |sample: usize| {
+        let single = |sample: usize| {
             let code = image.codes[(texel * image.samples as usize + sample) * channels + channel];
             if encoding.is_nan(code) {
                 0.0
@@ -494,7 +497,7 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
             }
         };
         let sum: f64 = (0..image.samples as usize)
-            .map(one)
+            .map(single)
             .map(|v| v.clamp(0.0, 1.0))
             .sum();
         (sum / f64::from(image.samples) * 255.0).round() as u8
@@ -566,8 +569,8 @@ mod tests {
     fn pictures_show_codes_and_mark_wrong_texels() {
         let strip = strip(&image(1, [16, 16])).unwrap();
         let labels: Vec<_> = strip.pictures.iter().map(|p| &*p.label).collect();
-        let due = ["allowed low", "allowed high", "actual", "difference"];
-        assert_eq!(labels, due);
+        let names = ["allowed low", "allowed high", "actual", "difference"];
+        assert_eq!(labels, names);
         assert!(strip.pictures.iter().all(|p| p.size == [128, 128]));
         let pixel = |i: usize, x, y| decode(&strip.pictures[i]).get_pixel(x, y).0;
         assert_eq!(pixel(0, 0, 0), [0, 0, 0, 255]);

@@ -104,7 +104,7 @@ fn shown(group: &Group<'_>) -> bool {
 
 fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
     let header = &versions.header;
-    let of = |course: Course| -> u64 {
+    let counted = |course: Course| -> u64 {
         let same = groups.iter().filter(|g| g.course == course);
         same.map(|g| g.cases.len() as u64).sum()
     };
@@ -132,7 +132,7 @@ fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
                     ("u", Course::Unknown, "unknown", "Not drawn, or nothing was asserted."),
                 ] {
                     li class=(class) {
-                        span.big { (of(course)) } " " span.m { (word) } small { (about) }
+                        span.big { (counted(course)) } " " span.m { (word) } small { (about) }
                     }
                 }
             }

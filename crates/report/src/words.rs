@@ -4,6 +4,7 @@ mod event;
 mod header;
 mod plain;
 mod record;
+mod reduced;
 mod story;
 mod subject;
 mod texel;
@@ -14,6 +15,7 @@ pub use event::EventLine;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;
 pub(crate) use record::{headline, process_end};
+pub use reduced::ReducedCase;
 pub use story::{judged_by, operations, operations_text, sentence, story_text};
 pub(crate) use texel::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, value_text,

@@ -214,7 +214,7 @@ struct Bench<'a, 'e> {
     writer: BenchWriter,
     events: &'e mut dyn FnMut(BenchEvent),
     summary: BenchSummary,
-    /// What the bench that is continued holds, by case and adapter.
+    /// The rounds of the bench that is continued, by case and adapter.
     before: HashMap<(String, String), BenchRecord>,
     /// The time of the last round before, in seconds.
     offset: f64,

@@ -41,15 +41,15 @@ impl Due {
 
     /// The frames of a case.
     pub(crate) fn of(case: &Case) -> Self {
-        let mut due = Self {
+        let mut drawing = Self {
             answers: 0,
             frames: 0,
         };
         for (_, readings) in case.preparations() {
-            due.answers += 2 + 2 * readings.len();
-            due.frames += readings.len();
+            drawing.answers += 2 + 2 * readings.len();
+            drawing.frames += readings.len();
         }
-        due
+        drawing
     }
 }
 
@@ -142,7 +142,7 @@ impl WorkerProcess {
     pub(crate) fn receive_frames(
         &mut self,
         slot: u32,
-        due: Due,
+        requests: Due,
         asked: Instant,
         wait: Wait<'_>,
     ) -> Drawing {
@@ -152,7 +152,7 @@ impl WorkerProcess {
         let mut drawing = Drawing::failed(Failure::Lost(Loss::Died));
         let mut frames = Vec::new();
         let mut error = None;
-        for _ in 0..due.answers {
+        for _ in 0..requests.answers {
             let loss = match self.response_until(until, wait) {
                 Ok(Response::Done {
                     slot: answered,
@@ -181,9 +181,9 @@ impl WorkerProcess {
         }
         drawing.frames = match error {
             Some(error) => Err(Failure::Backend(error)),
-            None if frames.len() == due.frames => Ok(frames),
+            None if frames.len() == requests.frames => Ok(frames),
             None => {
-                let error = BackendError::Internal("no frame came back".to_owned());
+                let error = BackendError::internal("no frame came back");
                 Err(Failure::Backend(error))
             }
         };

@@ -3,7 +3,9 @@
 use crate::exit_report::ExitReport;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
-use etalon_record::{ProcessEnd, Verdict};
+use etalon_backend::BackendError;
+use etalon_frame::ErrorKind;
+use etalon_record::{ProcessEnd, Record, Verdict};
 
 /// The report on a failed request.
 pub(crate) struct FailureReport {
@@ -11,6 +13,8 @@ pub(crate) struct FailureReport {
     pub(crate) verdict: Verdict,
     /// The cause.
     pub(crate) message: String,
+    /// The kind of the backend's error, if it failed.
+    pub(crate) error: Option<ErrorKind>,
     /// The end of the worker's process, if it was lost.
     pub(crate) process: Option<ProcessEnd>,
 }
@@ -23,6 +27,10 @@ impl FailureReport {
             Failure::Backend(error) => Self {
                 verdict,
                 message: error.to_string(),
+                error: match error {
+                    BackendError::NotSupported(_) => None,
+                    BackendError::Failed { kind, .. } => Some(kind),
+                },
                 process: None,
             },
             Failure::Lost(loss) => {
@@ -33,9 +41,19 @@ impl FailureReport {
                 Self {
                     verdict,
                     message,
+                    error: None,
                     process: Some(end),
                 }
             }
         }
+    }
+
+    /// The record of the case that was being drawn.
+    pub(crate) fn record(self, case: &str, adapter: &str) -> Record {
+        let mut record = Record::new(case, adapter, self.verdict);
+        record.message = self.message;
+        record.error = self.error;
+        record.process = self.process;
+        record
     }
 }

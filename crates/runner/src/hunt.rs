@@ -63,7 +63,7 @@ pub fn hunt(
     });
     drop(sender);
     let mut found: Vec<(usize, MutantRecord)> = receiver.iter().collect();
-    found.sort_by_key(|(at, _)| *at);
+    found.sort_by_key(|(number, _)| *number);
     found.into_iter().map(|(_, record)| record).collect()
 }
 
@@ -148,9 +148,9 @@ struct Mutant {
 }
 
 impl Mutant {
-    fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
+    fn new(number: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
-            at,
+            at: number,
             record: MutantRecord {
                 mutant: info.clone(),
                 outcome: if backend.is_some() {
@@ -168,8 +168,8 @@ impl Mutant {
     /// The place of an area's tally.
     fn area(&mut self, name: &str) -> usize {
         let areas = &mut self.record.areas;
-        if let Some(at) = areas.iter().position(|a| a.area == name) {
-            return at;
+        if let Some(index) = areas.iter().position(|a| a.area == name) {
+            return index;
         }
         areas.push(AreaTally {
             area: name.to_owned(),

@@ -35,14 +35,14 @@ pub struct Launch {
 pub struct Launcher {
     /// The words of the prefix; at least one.
     pub prefix: Vec<String>,
-    /// What the worker is to open, as the text behind its `--open`.
+    /// The adapter that the worker opens, as the text after its `--open`.
     pub open: String,
 }
 
 /// The first message to a worker behind a launcher.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Setup {
-    /// What it is to open.
+    /// The adapter that the worker opens.
     pub open: String,
     /// The variables that it needs; `None` is one that must not be set.
     pub environment: Vec<(String, Option<String>)>,

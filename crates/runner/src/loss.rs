@@ -1,6 +1,7 @@
 //! The ways in which a request to a worker fails, and the verdict that follows from each.
 
 use etalon_backend::BackendError;
+use etalon_frame::ErrorKind;
 use etalon_record::Verdict;
 use std::time::Duration;
 
@@ -36,9 +37,11 @@ impl Failure {
         match self {
             Self::Backend(error) => match error {
                 BackendError::NotSupported(_) => Verdict::NotSupported,
-                BackendError::DeviceLost(_) => Verdict::DeviceLost,
-                BackendError::Resource { .. } => Verdict::ResourceError,
-                BackendError::Shader { .. } | BackendError::Internal(_) => Verdict::InternalError,
+                BackendError::Failed { kind, .. } => match kind {
+                    ErrorKind::DeviceLost => Verdict::DeviceLost,
+                    ErrorKind::Resource { .. } => Verdict::ResourceError,
+                    ErrorKind::Shader(_) | ErrorKind::Internal { .. } => Verdict::InternalError,
+                },
             },
             Self::Lost(loss) => match loss {
                 Loss::Timeout(_) => Verdict::Timeout,
@@ -55,7 +58,10 @@ impl Failure {
         match self {
             Self::Backend(error) => matches!(
                 error,
-                BackendError::DeviceLost(_) | BackendError::Internal(_)
+                BackendError::Failed {
+                    kind: ErrorKind::DeviceLost | ErrorKind::Internal { .. },
+                    ..
+                }
             ),
             Self::Lost(_) => true,
         }

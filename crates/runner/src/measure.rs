@@ -145,25 +145,25 @@ impl WorkerProcess {
         let Some(last) = warm.last() else {
             return Ok(Vec::new());
         };
-        let one = last.wall.as_secs_f64().max(1e-6);
+        let frame = last.wall.as_secs_f64().max(1e-6);
         let [fewest, most] = FRAMES;
-        let fit = (BUDGET.as_secs_f64() / one) as u32;
+        let fit = (BUDGET.as_secs_f64() / frame) as u32;
         self.submit(slot, fit.clamp(fewest, most), timeout)
     }
 }
 
 /// The medians of some frame times.
-fn medians(all: &[FrameTime]) -> Option<Times> {
+fn medians(times: &[FrameTime]) -> Option<Times> {
     let median = |mut values: Vec<Duration>| -> Option<f64> {
         values.sort_unstable();
         values.get(values.len() / 2).map(Duration::as_secs_f64)
     };
     Some(Times {
-        samples: all.len() as u32,
-        wall: median(all.iter().map(|t| t.wall).collect())?,
-        cpu: median(all.iter().map(|t| t.cpu).collect())?,
-        gpu: median(all.iter().filter_map(|t| t.gpu).collect()),
-        interval: interval(all.iter().map(|t| t.wall).collect()),
+        samples: times.len() as u32,
+        wall: median(times.iter().map(|t| t.wall).collect())?,
+        cpu: median(times.iter().map(|t| t.cpu).collect())?,
+        gpu: median(times.iter().filter_map(|t| t.gpu).collect()),
+        interval: interval(times.iter().map(|t| t.wall).collect()),
     })
 }
 
@@ -198,30 +198,30 @@ mod tests {
             wall: Duration::from_millis(wall),
         };
         let found = medians(&[time(9, None), time(2, Some(3)), time(4, None)]);
-        let due = Times {
+        let expected = Times {
             samples: 3,
             wall: 0.004,
             cpu: 0.001,
             gpu: Some(0.003),
             interval: Some([0.002, 0.009]),
         };
-        assert_eq!(found, Some(due));
+        assert_eq!(found, Some(expected));
     }
 
     #[test]
     fn the_interval_holds_the_median_with_the_level_that_is_stated() {
-        let of = |count: u64| {
+        let measured = |count: u64| {
             let times = (1..=count).map(Duration::from_secs).collect();
             interval(times).map(|ends| ends.map(|e| e as u64))
         };
-        assert_eq!(of(0), None);
-        assert_eq!(of(1), Some([1, 1]));
-        assert_eq!(of(5), Some([1, 5]), "93.75 % at most");
+        assert_eq!(measured(0), None);
+        assert_eq!(measured(1), Some([1, 1]));
+        assert_eq!(measured(5), Some([1, 5]), "93.75 % at most");
         // Tables of the sign test: 6 to 8 times lose none at either end, 9 to 11 one, 12 to 14 two, 31 nine.
-        assert_eq!(of(6), Some([1, 6]));
-        assert_eq!(of(8), Some([1, 8]));
-        assert_eq!(of(9), Some([2, 8]));
-        assert_eq!(of(12), Some([3, 10]));
-        assert_eq!(of(31), Some([10, 22]));
+        assert_eq!(measured(6), Some([1, 6]));
+        assert_eq!(measured(8), Some([1, 8]));
+        assert_eq!(measured(9), Some([2, 8]));
+        assert_eq!(measured(12), Some([3, 10]));
+        assert_eq!(measured(31), Some([10, 22]));
     }
 }

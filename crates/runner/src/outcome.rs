@@ -23,15 +23,8 @@ pub(crate) fn outcome(
         }
         Err(failure) => {
             let ends = failure.ends_worker();
-            let FailureReport {
-                verdict,
-                message,
-                process,
-            } = FailureReport::new(failure, Some(process));
-            let mut record = Record::new(&case.id, "", verdict);
-            record.message = message;
-            record.process = process;
-            (record, ends)
+            let report = FailureReport::new(failure, Some(process));
+            (report.record(&case.id, ""), ends)
         }
     }
 }

@@ -133,8 +133,8 @@ impl WorkerProcess {
                 let message = message.map(|m| m.map_err(|e| Loss::Garbage(e.to_string())));
                 answers.extend(message.map(|message| (Instant::now(), message)));
                 // What came together is handed over together.
-                let all = ended || output.buffer().is_empty();
-                let unwanted = all && sender.send(std::mem::take(&mut answers)).is_err();
+                let drained = ended || output.buffer().is_empty();
+                let unwanted = drained && sender.send(std::mem::take(&mut answers)).is_err();
                 if ended || unwanted {
                     break;
                 }
@@ -195,8 +195,8 @@ impl WorkerProcess {
         let stopped = || wait.stop.is_some_and(|s| s.load(Ordering::Relaxed));
         loop {
             match self.came.pop_front() {
-                Some((at, Ok(response))) => {
-                    self.answered = at;
+                Some((since, Ok(response))) => {
+                    self.answered = since;
                     return Ok(response);
                 }
                 Some((_, Err(loss))) => return Err(self.cause(loss)),

@@ -92,14 +92,14 @@ mod tests {
 
     #[test]
     fn a_star_matches_slashes_and_a_plain_name_what_is_below() {
-        let all = |globs: &[&str]| {
+        let selected = |globs: &[&str]| {
             let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
             glob_set(&globs).expect("globs")
         };
-        assert!(all(&["depth/*"]).is_match("depth/compare/compare=less/write=true"));
-        assert!(all(&["*write=true"]).is_match("depth/compare/compare=less/write=true"));
-        assert!(all(&["depth"]).is_match("depth/compare/compare=less"));
-        assert!(!all(&["depth"]).is_match("depths/compare"));
+        assert!(selected(&["depth/*"]).is_match("depth/compare/compare=less/write=true"));
+        assert!(selected(&["*write=true"]).is_match("depth/compare/compare=less/write=true"));
+        assert!(selected(&["depth"]).is_match("depth/compare/compare=less"));
+        assert!(!selected(&["depth"]).is_match("depths/compare"));
         assert!(glob_set(&["a[".to_owned()]).is_err());
     }
 }

@@ -48,7 +48,7 @@ pub fn serve(
         let outcome = catch_unwind(AssertUnwindSafe(|| {
             answer(backend.as_ref(), &mut slots, request)
         }))
-        .unwrap_or_else(|panic| Err(BackendError::Internal(panic_message(panic.as_ref()))));
+        .unwrap_or_else(|panic| Err(panicked(panic.as_ref())));
         let response = Response::Done {
             slot,
             outcome,
@@ -85,14 +85,14 @@ fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
     std::process::exit(0);
 }
 
-/// The message of a panic.
-fn panic_message(panic: &(dyn Any + Send)) -> String {
+/// The error of a panic.
+fn panicked(panic: &(dyn Any + Send)) -> BackendError {
     let text = panic
         .downcast_ref::<&str>()
         .copied()
         .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("no message");
-    format!("the backend panicked: {text}")
+    BackendError::internal_of("the backend panicked", text)
 }
 
 fn answer<'b>(
@@ -100,7 +100,7 @@ fn answer<'b>(
     slots: &mut HashMap<u32, Box<dyn Prepared + 'b>>,
     request: Request<'_>,
 ) -> Result<Payload, BackendError> {
-    let missing = || BackendError::Internal("the scene is not prepared".to_owned());
+    let missing = || BackendError::internal("the scene is not prepared");
     match request {
         Request::Prepare { slot, scene } => {
             slots.insert(slot, backend.prepare(&scene)?);

@@ -61,10 +61,10 @@ impl Trials {
             let Some((slot, candidate, since)) = asked.pop_front() else {
                 return Ok(result);
             };
-            let due = Due::of(case(&candidate));
+            let requests = Due::of(case(&candidate));
             let wait = Wait::of(self.timeout);
             let process = &mut self.worker.process;
-            let drawing = process.receive_frames(slot, due, since, wait);
+            let drawing = process.receive_frames(slot, requests, since, wait);
             if result.is_some() && drawing.frames.is_ok() {
                 continue;
             }

@@ -91,10 +91,12 @@ mod tests {
 
     #[test]
     fn every_place_of_one_change_is_found() {
-        for at in 1..15 {
-            let truth: String = (0..16).map(|i| if i < at { 'g' } else { 'b' }).collect();
+        for release in 1..15 {
+            let truth: String = (0..16)
+                .map(|i| if i < release { 'g' } else { 'b' })
+                .collect();
             let (known, drawn) = search(&truth);
-            assert_eq!(&known[at - 1..=at], "gb", "{known}");
+            assert_eq!(&known[release - 1..=release], "gb", "{known}");
             assert!(drawn <= 8, "{known}");
         }
     }

@@ -87,11 +87,11 @@ pub(crate) fn shift(before: &[f64], after: &[f64], level: f64) -> Shift {
     let (low, high) = bounds(&mut pairs, rank);
     let middle = pairs.len() / 2;
     let odd = pairs.len() % 2 == 1;
-    let mut at = |i: usize| *pairs.select_nth_unstable_by(i, f64::total_cmp).1;
+    let mut nth = |i: usize| *pairs.select_nth_unstable_by(i, f64::total_cmp).1;
     let estimate = match middle {
-        0 => at(0),
-        _ if odd => at(middle),
-        _ => f64::midpoint(at(middle - 1), at(middle)),
+        0 => nth(0),
+        _ if odd => nth(middle),
+        _ => f64::midpoint(nth(middle - 1), nth(middle)),
     };
     Shift {
         estimate,
@@ -103,7 +103,7 @@ pub(crate) fn shift(before: &[f64], after: &[f64], level: f64) -> Shift {
 /// The lower bound of [`shift`]'s interval alone, of the bound's rank; `room` is overwritten.
 pub(crate) fn lower_bound(before: &[f64], after: &[f64], rank: usize, room: &mut Vec<f64>) -> f64 {
     differences(before, after, room);
-    match rank.checked_sub(1).filter(|at| *at < room.len()) {
+    match rank.checked_sub(1).filter(|index| *index < room.len()) {
         Some(at) => *room.select_nth_unstable_by(at, f64::total_cmp).1,
         None => f64::NEG_INFINITY,
     }
@@ -119,12 +119,14 @@ fn differences(before: &[f64], after: &[f64], into: &mut Vec<f64>) {
 
 /// The `rank`th smallest and largest, counted from 1.
 fn bounds(values: &mut [f64], rank: usize) -> (f64, f64) {
-    let Some(at) = rank.checked_sub(1).filter(|at| *at < values.len()) else {
+    let Some(index) = rank.checked_sub(1).filter(|at| *at < values.len()) else {
         return (f64::NEG_INFINITY, f64::INFINITY);
     };
     let last = values.len() - 1;
-    let low = *values.select_nth_unstable_by(at, f64::total_cmp).1;
-    let high = *values.select_nth_unstable_by(last - at, f64::total_cmp).1;
+    let low = *values.select_nth_unstable_by(index, f64::total_cmp).1;
+    let high = *values
+        .select_nth_unstable_by(last - index, f64::total_cmp)
+        .1;
     (low, high)
 }
 
@@ -166,15 +168,15 @@ mod tests {
             (9, 9),
         ] {
             let orders = counted(m, n);
-            let all: f64 = orders.iter().sum();
+            let total: f64 = orders.iter().sum();
             for level in [0.2, 0.05, 0.01, LEVEL] {
                 let mut below = 0.0;
-                let due = orders.iter().position(|count| {
-                    below += count / all;
+                let expected = orders.iter().position(|count| {
+                    below += count / total;
                     below > level / 2.0
                 });
-                let due = due.unwrap().min(m * n / 2);
-                assert_eq!(rank_of_bound(m, n, level), due, "{m} {n} {level}");
+                let expected = expected.unwrap().min(m * n / 2);
+                assert_eq!(rank_of_bound(m, n, level), expected, "{m} {n} {level}");
             }
         }
     }
@@ -222,8 +224,8 @@ mod tests {
         let s = shift(&before, &after, 0.05);
         assert_eq!(s.estimate, 3.0);
         assert!(s.low < 3.0 && 3.0 < s.high && s.low > -3.0, "{s:?}");
-        let one = shift(&[1.0], &[4.0], 0.05);
-        assert_eq!((one.estimate, one.high), (3.0, f64::INFINITY));
+        let single = shift(&[1.0], &[4.0], 0.05);
+        assert_eq!((single.estimate, single.high), (3.0, f64::INFINITY));
         let two = shift(&[1.0], &[4.0, 6.0], 0.05);
         assert_eq!((two.estimate, two.low), (4.0, f64::NEG_INFINITY));
     }

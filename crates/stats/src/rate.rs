@@ -111,9 +111,9 @@ pub fn median_interval(sorted: &[f64]) -> Option<[f64; 2]> {
 }
 
 fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut all = values.to_vec();
-    all.sort_unstable_by(f64::total_cmp);
-    all
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted
 }
 
 fn between_quartiles(sorted: &[f64]) -> Option<f64> {
@@ -129,8 +129,8 @@ mod tests {
     fn planted(seed: u128, rounds: usize, unit: f64, noise: f64) -> Slope {
         let mut random = Rand64::new(seed);
         let mut frames = |work: f64| -> Vec<f64> {
-            let mut one = || 2e-3 + work * unit + noise * (random.rand_float() - 0.3);
-            (0..9).map(|_| one()).collect()
+            let mut sample = || 2e-3 + work * unit + noise * (random.rand_float() - 0.3);
+            (0..9).map(|_| sample()).collect()
         };
         let times: Vec<[Vec<f64>; 2]> = (0..rounds).map(|_| [frames(4e6), frames(12e6)]).collect();
         let pairs: Vec<Pair<'_>> = times
@@ -191,8 +191,8 @@ mod tests {
             (25, 8),
         ] {
             let values: Vec<f64> = (1..=n).map(f64::from).collect();
-            let due = [f64::from(rank), f64::from(n + 1 - rank)];
-            assert_eq!(median_interval(&values), Some(due), "{n}");
+            let expected = [f64::from(rank), f64::from(n + 1 - rank)];
+            assert_eq!(median_interval(&values), Some(expected), "{n}");
         }
         for n in 0..6 {
             assert_eq!(median_interval(&vec![1.0; n]), None);
@@ -205,10 +205,10 @@ mod tests {
 
     #[test]
     fn without_samples_or_work_there_is_no_slope() {
-        let one = [1.0];
+        let single = [1.0];
         let pair = Pair {
-            less: &one,
-            more: &one,
+            less: &single,
+            more: &single,
         };
         assert_eq!(Slope::new(&[], 1), None);
         assert_eq!(Slope::new(&[pair], 0), None);
@@ -216,7 +216,7 @@ mod tests {
             Slope::new(
                 &[Pair {
                     less: &[],
-                    more: &one
+                    more: &single
                 }],
                 1
             ),

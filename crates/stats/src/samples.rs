@@ -49,7 +49,7 @@ impl Samples {
         if rounds.is_empty() {
             return Err(SampleError::None);
         }
-        let mut all = Vec::with_capacity(rounds.len());
+        let mut samples = Vec::with_capacity(rounds.len());
         let mut logs = Vec::with_capacity(rounds.len());
         for (round, times) in rounds.iter().enumerate() {
             let mut times = times.as_ref().to_vec();
@@ -57,10 +57,10 @@ impl Samples {
             times.sort_unstable_by(f64::total_cmp);
             let median = quantile(&times, 0.5).ok_or(SampleError::Empty(round))?;
             logs.push(median.ln());
-            all.push(times);
+            samples.push(times);
         }
         Ok(Self {
-            rounds: all,
+            rounds: samples,
             logs,
             ruled: None,
         })
@@ -97,9 +97,9 @@ impl Samples {
 
     /// All times, ascending.
     pub(crate) fn sorted(&self) -> Vec<f64> {
-        let mut all: Vec<f64> = self.rounds.iter().flatten().copied().collect();
-        all.sort_unstable_by(f64::total_cmp);
-        all
+        let mut samples: Vec<f64> = self.rounds.iter().flatten().copied().collect();
+        samples.sort_unstable_by(f64::total_cmp);
+        samples
     }
 
     /// Logarithms of the rounds' medians.
@@ -133,10 +133,10 @@ fn check(round: usize, times: &[f64]) -> Result<(), SampleError> {
 /// definition of Hyndman and Fan 1996); `None` of nothing.
 pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
-    let at = q.clamp(0.0, 1.0) * last as f64;
-    let low = *sorted.get(at.floor() as usize)?;
-    let high = *sorted.get((at.ceil() as usize).min(last))?;
-    Some(low + (high - low) * at.fract())
+    let place = q.clamp(0.0, 1.0) * last as f64;
+    let low = *sorted.get(place.floor() as usize)?;
+    let high = *sorted.get((place.ceil() as usize).min(last))?;
+    Some(low + (high - low) * place.fract())
 }
 
 #[cfg(test)]

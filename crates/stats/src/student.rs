@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn published_quantiles_hold() {
         // Percentage points of Student's distribution, two-sided (Abramowitz and Stegun, table 26.10).
-        for (freedom, probability, due) in [
+        for (freedom, probability, expected) in [
             (1.0, 0.05, 12.706),
             (4.0, 0.05, 2.776),
             (6.0, 0.01, 3.707),
@@ -102,7 +102,7 @@ mod tests {
         ] {
             let found = quantile(probability, freedom);
             assert!(
-                (found - due).abs() < 6e-4,
+                (found - expected).abs() < 6e-4,
                 "{freedom} {probability}: {found}"
             );
             assert!((two_sided(found, freedom) - probability).abs() < 1e-9);

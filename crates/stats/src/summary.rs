@@ -42,15 +42,15 @@ pub fn summarize(samples: &Samples) -> Summary {
     let mut medians = samples.medians();
     medians.sort_unstable_by(f64::total_cmp);
     // Samples hold at least one round of at least one time.
-    let of = |values: &[f64], q: f64| quantile(values, q).unwrap_or(f64::NAN);
+    let quantile_of = |values: &[f64], q: f64| quantile(values, q).unwrap_or(f64::NAN);
     Summary {
         rounds: samples.rounds(),
         samples: sorted.len(),
-        median: of(&medians, 0.5),
+        median: quantile_of(&medians, 0.5),
         interval: interval(&medians),
-        p50: of(&sorted, 0.5),
-        p95: of(&sorted, 0.95),
-        min: of(&sorted, 0.0),
+        p50: quantile_of(&sorted, 0.5),
+        p95: quantile_of(&sorted, 0.95),
+        min: quantile_of(&sorted, 0.0),
         visible: smallest_visible(samples, samples),
     }
 }

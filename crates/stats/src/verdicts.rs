@@ -71,13 +71,13 @@ pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
     let classes = with_turns(runs);
     let mut found = Vec::new();
     let mut known = None;
-    for (at, class) in classes.iter().enumerate() {
-        let before = at
+    for (index, class) in classes.iter().enumerate() {
+        let before = index
             .checked_sub(1)
             .map(|before| (runs[before].0, classes[before]));
         if let Some((after, last)) = before {
             let mut tell = |event| {
-                let at = runs[at].0;
+                let at = runs[index].0;
                 found.push(Happening { event, after, at });
             };
             match (last, class) {
@@ -193,9 +193,12 @@ mod tests {
             _ => Class::Missing,
         };
         let runs: Vec<(usize, Class)> = text.chars().map(class).enumerate().collect();
-        let all = happenings(&runs);
-        assert!(all.iter().all(|h| h.after + 1 == h.at), "{text}: {all:?}");
-        all.into_iter().map(|h| (h.event, h.at)).collect()
+        let found = happenings(&runs);
+        assert!(
+            found.iter().all(|h| h.after + 1 == h.at),
+            "{text}: {found:?}"
+        );
+        found.into_iter().map(|h| (h.event, h.at)).collect()
     }
 
     #[test]

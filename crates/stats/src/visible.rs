@@ -68,9 +68,9 @@ impl Residuals {
         into.raw.clear();
         into.ruled.clear();
         for _ in 0..self.raw.len() {
-            let at = random.rand_range(0..self.raw.len() as u64) as usize;
-            into.raw.push(self.raw[at]);
-            into.ruled.extend(self.ruled.get(at));
+            let index = random.rand_range(0..self.raw.len() as u64) as usize;
+            into.raw.push(self.raw[index]);
+            into.ruled.extend(self.ruled.get(index));
         }
     }
 }

@@ -2,7 +2,7 @@
 //! without staging copies.
 
 use crate::device::Device;
-use crate::error::{Check, internal};
+use crate::error::Check;
 use crate::recording;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -95,21 +95,23 @@ impl Buffer {
 
     /// Writes bytes at an offset. Fails if they do not fit.
     pub(crate) fn write(&mut self, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
-        let at = self.range(offset, bytes.len())?;
+        let start = self.range(offset, bytes.len())?;
         // SAFETY: `range` checked that the mapping holds all of it, the device does not use the
         // buffer while its scene is being prepared, and `bytes` cannot overlap mapped memory.
-        unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.pointer.add(at), bytes.len()) };
+        unsafe {
+            std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.pointer.add(start), bytes.len())
+        };
         recording::written(self.pointer, offset, bytes);
         Ok(())
     }
 
     /// Copies bytes out, after the device is done with the buffer.
     pub(crate) fn read(&self, offset: u64, length: usize) -> Result<Vec<u8>, BackendError> {
-        let at = self.range(offset, length)?;
+        let start = self.range(offset, length)?;
         let mut bytes = vec![0; length];
         // SAFETY: as in `write`; a fence signalled that the device is done.
         unsafe {
-            std::ptr::copy_nonoverlapping(self.pointer.add(at), bytes.as_mut_ptr(), length);
+            std::ptr::copy_nonoverlapping(self.pointer.add(start), bytes.as_mut_ptr(), length);
         }
         recording::read(self.pointer, offset, length);
         Ok(bytes)
@@ -118,14 +120,14 @@ impl Buffer {
     fn range(&self, offset: u64, length: usize) -> Result<usize, BackendError> {
         let end = offset.checked_add(length as u64);
         if end.is_some_and(|end| end <= self.size)
-            && let Ok(at) = usize::try_from(offset)
+            && let Ok(start) = usize::try_from(offset)
         {
-            return Ok(at);
+            return Ok(start);
         }
-        Err(internal(format!(
-            "{length} bytes at {offset} leave a buffer of {}",
-            self.size
-        )))
+        Err(BackendError::internal_of(
+            "a range leaves its buffer",
+            format!("{length} bytes at {offset} of {}", self.size),
+        ))
     }
 
     pub(crate) fn destroy(&self, device: &Device) {

@@ -59,8 +59,8 @@ impl Setting {
             (_, true) => &[],
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
-        let rest: &[_] = if self.fixed { &[] } else { &STATES };
-        [viewports, rest, &self.further.states(colored)].concat()
+        let states: &[_] = if self.fixed { &[] } else { &STATES };
+        [viewports, states, &self.further.states(colored)].concat()
     }
 }
 

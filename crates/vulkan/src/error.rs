@@ -5,25 +5,22 @@ use etalon_backend::{BackendError, Unavailable};
 
 /// Adds the failed operation to a Vulkan error.
 pub(crate) trait Check<T> {
-    /// Maps `DEVICE_LOST` to [`BackendError::DeviceLost`], all else to [`BackendError::Resource`].
+    /// Maps `DEVICE_LOST` to a lost device, all else to an object that the driver refused.
     fn check(self, what: &str) -> Result<T, BackendError>;
 }
 
 impl<T> Check<T> for Result<T, vk::Result> {
     fn check(self, what: &str) -> Result<T, BackendError> {
         self.map_err(|code| match code {
-            vk::Result::ERROR_DEVICE_LOST => BackendError::DeviceLost(what.to_owned()),
-            code => BackendError::Resource {
-                what: what.to_owned(),
-                message: describe(code),
-            },
+            vk::Result::ERROR_DEVICE_LOST => BackendError::lost(what),
+            code => BackendError::refused(what, describe(code)).with_code(format!("{code:?}")),
         })
     }
 }
 
 /// Returns an error that the backend's own logic rules out.
-pub(crate) fn internal(message: impl Into<String>) -> BackendError {
-    BackendError::Internal(message.into())
+pub(crate) fn internal(condition: &str) -> BackendError {
+    BackendError::internal(condition)
 }
 
 /// Returns a code's name and meaning: `ERROR_OUT_OF_HOST_MEMORY: A host memory allocation has

@@ -82,12 +82,12 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
         DynamicLogic::Operation => draw.logic.map(|_| HELD),
         DynamicLogic::All | DynamicLogic::Nothing => draw.logic,
     };
-    let rest = if further.extended {
+    let drawn = if further.extended {
         held(draw)
     } else {
         draw.clone()
     };
-    Draw { logic, ..rest }
+    Draw { logic, ..drawn }
 }
 
 /// Returns a draw whose pipeline holds other values of [`STATES`], which must not act.
@@ -157,10 +157,10 @@ impl Extended {
             // SAFETY: as above.
             unsafe { (api.cmd_set_logic_op_enable_ext)(commands, self.logic.is_some().into()) };
         }
-        let all = || self.targets.iter();
-        let enables: Vec<_> = all().map(|t| t.blend_enable).collect();
-        let masks: Vec<_> = all().map(|t| t.color_write_mask).collect();
-        let equations: Vec<_> = all()
+        let targets = || self.targets.iter();
+        let enables: Vec<_> = targets().map(|t| t.blend_enable).collect();
+        let masks: Vec<_> = targets().map(|t| t.color_write_mask).collect();
+        let equations: Vec<_> = targets()
             .map(|t| vk::ColorBlendEquationEXT {
                 src_color_blend_factor: t.src_color_blend_factor,
                 dst_color_blend_factor: t.dst_color_blend_factor,
@@ -205,14 +205,14 @@ mod tests {
                 ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]))
             }
         };
-        let held = |logic: DynamicLogic, extended, own| {
-            held_by(Further { extended, logic }, &draw(own)).logic
+        let held = |logic: DynamicLogic, extended, logic_of_draw| {
+            held_by(Further { extended, logic }, &draw(logic_of_draw)).logic
         };
         let (xor, nor) = (Some(LogicOperation::Xor), Some(LogicOperation::Nor));
-        for own in [xor, nor] {
-            assert_eq!(held(DynamicLogic::Nothing, false, own), own);
-            assert_eq!(held(DynamicLogic::Operation, false, own), Some(HELD));
-            assert_eq!(held(DynamicLogic::All, true, own), Some(HELD));
+        for operation in [xor, nor] {
+            assert_eq!(held(DynamicLogic::Nothing, false, operation), operation);
+            assert_eq!(held(DynamicLogic::Operation, false, operation), Some(HELD));
+            assert_eq!(held(DynamicLogic::All, true, operation), Some(HELD));
         }
         // Off is no operation: that it is on or off is dynamic only where all is.
         assert_eq!(held(DynamicLogic::Operation, false, None), None);

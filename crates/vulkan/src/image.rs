@@ -1,7 +1,7 @@
 //! Images with their memory and views.
 
 use crate::device::Device;
-use crate::error::{Check, internal};
+use crate::error::Check;
 use crate::format;
 use crate::state;
 use ash::vk;
@@ -195,10 +195,10 @@ impl Image {
         if !key.usage.intersects(viewed) {
             return Ok(());
         }
-        let all = format::aspect_mask(key.format);
-        let mut masks = vec![all];
+        let aspects = format::aspect_mask(key.format);
+        let mut masks = vec![aspects];
         let both = vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL;
-        if all == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
+        if aspects == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
             masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
         }
         for mask in masks {
@@ -206,7 +206,7 @@ impl Image {
             self.views.push((mask, view));
         }
         if let Some(format) = unconverted {
-            self.unconverted = Some(self.create_view(device, format, all)?);
+            self.unconverted = Some(self.create_view(device, format, aspects)?);
         }
         Ok(())
     }
@@ -239,7 +239,7 @@ impl Image {
         let found = self.views.iter().find(|(aspects, _)| *aspects == mask);
         found
             .map(|(_, view)| *view)
-            .ok_or_else(|| internal(format!("no view of the aspects {mask:?}")))
+            .ok_or_else(|| BackendError::internal_of("no view of the aspects", format!("{mask:?}")))
     }
 
     /// Returns the view of all aspects.

@@ -138,8 +138,9 @@ fn exempt(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> BTreeSe
     let unread = |(format, native): &(&TextureFormat, &Native)| {
         native.attachment && !samples_are_readable(device, **format, **native)
     };
-    let all = natives.iter().filter(unread);
-    all.flat_map(|(format, _)| COUNTS.map(|count| Requirement::Samples(*format, count)))
+    let unreadable = natives.iter().filter(unread);
+    unreadable
+        .flat_map(|(format, _)| COUNTS.map(|count| Requirement::Samples(*format, count)))
         .collect()
 }
 

@@ -14,26 +14,30 @@ const SAMPLE_MASK: u32 = 20;
 
 /// Returns a module whose sample mask is an array; the same, if it writes none or one already.
 pub(crate) fn as_array(words: &[u32]) -> Vec<u32> {
-    let (header, all) = instructions(words);
-    let is = |one: &[u32], code: u32| one[0] & 0xffff == code;
-    let mask = all
+    let (header, instructions) = instructions(words);
+    let is = |instruction: &[u32], code: u32| instruction[0] & 0xffff == code;
+    let mask = instructions
         .iter()
-        .find(|one| is(one, DECORATE) && one[2..] == [BUILT_IN, SAMPLE_MASK])
-        .map(|one| one[1]);
-    let pointer = all
+        .find(|instruction| {
+            is(instruction, DECORATE) && instruction[2..] == [BUILT_IN, SAMPLE_MASK]
+        })
+        .map(|instruction| instruction[1]);
+    let pointer = instructions
         .iter()
-        .find(|one| is(one, VARIABLE) && Some(one[2]) == mask && one[3] == OUTPUT)
-        .map(|one| one[1]);
-    let integer = all
+        .find(|instruction| {
+            is(instruction, VARIABLE) && Some(instruction[2]) == mask && instruction[3] == OUTPUT
+        })
+        .map(|instruction| instruction[1]);
+    let integer = instructions
         .iter()
-        .find(|one| is(one, TYPE_POINTER) && Some(one[1]) == pointer)
-        .map(|one| one[3]);
+        .find(|instruction| is(instruction, TYPE_POINTER) && Some(instruction[1]) == pointer)
+        .map(|instruction| instruction[3]);
     let (Some(mask), Some(pointer), Some(integer)) = (mask, pointer, integer) else {
         return words.to_vec();
     };
-    if all
+    if instructions
         .iter()
-        .any(|one| is(one, TYPE_ARRAY) && one[1] == integer)
+        .any(|instruction| is(instruction, TYPE_ARRAY) && instruction[1] == integer)
     {
         return words.to_vec();
     }
@@ -41,7 +45,7 @@ pub(crate) fn as_array(words: &[u32]) -> Vec<u32> {
     let [zero, one, array, to_array] = [first, first + 1, first + 2, first + 3];
     let mut next = first + 4;
     let mut out = header.to_vec();
-    for line in all {
+    for line in instructions {
         if is(line, VARIABLE) && line[2] == mask {
             out.extend(instruction(CONSTANT, &[integer, zero, 0]));
             out.extend(instruction(CONSTANT, &[integer, one, 1]));
@@ -75,13 +79,13 @@ mod tests {
         ];
         let words = [vec![0, 0, 0, 10, 0], lines.concat()].concat();
         let changed = as_array(&words);
-        let (header, all) = instructions(&changed);
+        let (header, instructions) = instructions(&changed);
         assert_eq!(header[3], 15);
-        assert_eq!(all[4], instruction(TYPE_ARRAY, &[12, 1, 11]));
-        assert_eq!(all[6], instruction(VARIABLE, &[13, 4, OUTPUT]));
-        assert_eq!(all[7], instruction(ACCESS_CHAIN, &[2, 14, 4, 10]));
-        assert_eq!(all[8], instruction(STORE, &[14, 9]));
-        assert_eq!(all[9], instruction(STORE, &[5, 9]));
+        assert_eq!(instructions[4], instruction(TYPE_ARRAY, &[12, 1, 11]));
+        assert_eq!(instructions[6], instruction(VARIABLE, &[13, 4, OUTPUT]));
+        assert_eq!(instructions[7], instruction(ACCESS_CHAIN, &[2, 14, 4, 10]));
+        assert_eq!(instructions[8], instruction(STORE, &[14, 9]));
+        assert_eq!(instructions[9], instruction(STORE, &[5, 9]));
         assert_eq!(as_array(&changed), changed);
         let none = [vec![0, 0, 0, 10, 0], instruction(STORE, &[5, 9])].concat();
         assert_eq!(as_array(&none), none);

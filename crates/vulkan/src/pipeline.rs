@@ -167,19 +167,19 @@ impl Pipelines {
         };
         let fragment = vk::ShaderStageFlags::FRAGMENT;
         let both = vk::ShaderStageFlags::VERTEX | fragment;
-        let mut all = vec![binding(0, vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, both)];
+        let mut entries = vec![binding(0, vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, both)];
         for (number, _) in (1..).zip(0..bindings.textures) {
-            all.push(binding(number, vk::DescriptorType::SAMPLED_IMAGE, both));
+            entries.push(binding(number, vk::DescriptorType::SAMPLED_IMAGE, both));
         }
         if bindings.storage {
             let kind = vk::DescriptorType::STORAGE_BUFFER;
-            all.push(binding(STORAGE_BINDING, kind, fragment));
+            entries.push(binding(STORAGE_BINDING, kind, fragment));
         }
         if bindings.sampler {
             let kind = vk::DescriptorType::SAMPLER;
-            all.push(binding(SAMPLER_BINDING, kind, both));
+            entries.push(binding(SAMPLER_BINDING, kind, both));
         }
-        let layout = create_layout(device, &all)?;
+        let layout = create_layout(device, &entries)?;
         self.layouts.insert(bindings, layout);
         Ok(layout)
     }
@@ -434,9 +434,10 @@ fn attributes(
             1 => (vk::Format::R32G32B32A32_SFLOAT, offset_of!(Vertex, color)),
             2 => (vk::Format::R32G32_SFLOAT, offset_of!(Vertex, uv)),
             other => {
-                return Err(internal(format!(
-                    "no vertex attribute has location {other}"
-                )));
+                return Err(BackendError::internal_of(
+                    "no vertex attribute has this location",
+                    other.to_string(),
+                ));
             }
         };
         Ok(vk::VertexInputAttributeDescription {

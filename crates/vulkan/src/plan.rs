@@ -128,18 +128,18 @@ pub(crate) struct DrawPlan {
 impl Role {
     /// Returns the role of an attachment in all passes together. One pass that draws to it decides.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
-        let of = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
-        let mut all = Self::Idle;
-        for (_, role) in scene.passes.iter().filter_map(of) {
+        let role_in = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
+        let mut found = Self::Idle;
+        for (_, role) in scene.passes.iter().filter_map(role_in) {
             match role {
                 Self::Color => return Self::Color,
                 Self::DepthStencil | Self::DepthStencilReadOnly | Self::DepthStencilResolve => {
                     return Self::DepthStencil;
                 }
-                Self::Fetched | Self::Idle => all = role,
+                Self::Fetched | Self::Idle => found = role,
             }
         }
-        all
+        found
     }
 }
 

@@ -98,10 +98,8 @@ impl ReadPlan {
             return Ok(());
         }
         if self.bytes > u64::from(device.limits.max_storage_buffer_range) {
-            return Err(BackendError::Resource {
-                what: format!("{} bytes of samples to read back", self.bytes),
-                message: "maxStorageBufferRange is smaller".to_owned(),
-            });
+            let message = format!("{} bytes exceed maxStorageBufferRange", self.bytes);
+            return Err(BackendError::refused("samples to read back", message));
         }
         let reader = readers.get(device, self.sample_type, self.samples > 1)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;

@@ -712,10 +712,10 @@ impl ReadPlan {
             first => vec![(0, first), (first, length - first)],
         };
         let texel = self.texel_bytes();
-        let mut all = Vec::new();
+        let mut regions = Vec::new();
         for (y, rows) in cut(height) {
             for (x, columns) in cut(width) {
-                all.push(vk::BufferImageCopy {
+                regions.push(vk::BufferImageCopy {
                     buffer_offset: self.offset
                         + (u64::from(y) * u64::from(width) + u64::from(x)) * texel,
                     buffer_row_length: width,
@@ -730,6 +730,6 @@ impl ReadPlan {
                 });
             }
         }
-        all
+        regions
     }
 }

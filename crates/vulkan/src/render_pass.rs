@@ -10,7 +10,7 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 
-/// What two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
+/// The properties that two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Compatible {
     /// The subpass that draws.
@@ -80,17 +80,17 @@ impl RenderPass {
         targets: &Targets,
         second_subpass: bool,
     ) -> Result<Self, BackendError> {
-        let mut all = Attachments::default();
+        let mut attachments = Attachments::default();
         let kept = Ends::kept();
         let (mut color, mut resolves) = (Vec::new(), Vec::new());
         for (plan, format) in colors.iter().zip(&targets.color) {
             let shape = (plan.view, *format, targets.samples);
             let aspect = vk::ImageAspectFlags::COLOR;
-            color.push(all.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
+            color.push(attachments.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
             resolves.push(match plan.resolve {
                 None => vk::AttachmentReference2::default().attachment(UNUSED),
                 Some((view, _)) => {
-                    all.add((view, *format, 1), COLOR.layout, aspect, [&kept, &kept])
+                    attachments.add((view, *format, 1), COLOR.layout, aspect, [&kept, &kept])
                 }
             });
         }
@@ -102,8 +102,8 @@ impl RenderPass {
             };
             let ends = depth_stencil_ends(plan);
             let shape = (plan.view, targets.depth_stencil(), targets.samples);
-            let reference = all.add(shape, layout, targets.aspects(), [&ends[0], &ends[1]]);
-            let last = all.values.last_mut();
+            let reference = attachments.add(shape, layout, targets.aspects(), [&ends[0], &ends[1]]);
+            let last = attachments.values.last_mut();
             if let Some(value) = last {
                 *value = vk::ClearValue {
                     depth_stencil: vk::ClearDepthStencilValue {
@@ -120,7 +120,7 @@ impl RenderPass {
         let target = resolved.map(|(view, _)| {
             let shape = (view, targets.depth_stencil(), 1);
             let layout = DEPTH_STENCIL_RESOLVE.layout;
-            all.add(shape, layout, targets.aspects(), [&kept, &kept])
+            attachments.add(shape, layout, targets.aspects(), [&kept, &kept])
         });
         let mut depth_stencil_resolve = vk::SubpassDescriptionDepthStencilResolve::default();
         if let (Some((_, [depth, stencil])), Some(target)) = (resolved, &target) {
@@ -152,7 +152,7 @@ impl RenderPass {
         };
         let dependencies = [between_subpasses()];
         let info = vk::RenderPassCreateInfo2::default()
-            .attachments(&all.descriptions)
+            .attachments(&attachments.descriptions)
             .subpasses(&subpasses)
             .dependencies(&dependencies[..usize::from(second_subpass)]);
         // SAFETY: all parts of `info` live.
@@ -166,12 +166,12 @@ impl RenderPass {
                 modes: resolved.map(|(_, modes)| modes.map(vk::ResolveModeFlags::as_raw)),
                 read_only: depth_stencil.is_some_and(|d| d.read_only),
             },
-            values: all.values,
+            values: attachments.values,
         };
         let [width, height] = size;
         let info = vk::FramebufferCreateInfo::default()
             .render_pass(raw)
-            .attachments(&all.views)
+            .attachments(&attachments.views)
             .width(width)
             .height(height)
             .layers(1);

@@ -35,10 +35,7 @@ pub(crate) struct Modules {
 
 /// Translates a WGSL file.
 pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendError> {
-    let fail = |message: String| BackendError::Shader {
-        shader: name.to_owned(),
-        message,
-    };
+    let fail = |message: String| BackendError::shader(name, message);
     let module =
         naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
     let capabilities = Capabilities::DUAL_SOURCE_BLENDING
@@ -134,12 +131,12 @@ mod tests {
     /// The execution modes of a module's entry points (SPIR-V, Mode Setting Instructions: opcode 16,
     /// the mode in the third word).
     fn execution_modes(words: &[u32]) -> Vec<u32> {
-        let (mut rest, mut modes) = (&words[5..], Vec::new());
-        while let [head, ..] = rest {
+        let (mut words_left, mut modes) = (&words[5..], Vec::new());
+        while let [head, ..] = words_left {
             if head & 0xffff == 16 {
-                modes.push(rest[2]);
+                modes.push(words_left[2]);
             }
-            rest = &rest[(head >> 16) as usize..];
+            words_left = &words_left[(head >> 16) as usize..];
         }
         modes
     }
@@ -166,8 +163,8 @@ mod tests {
                 let mut modes = execution_modes(&translated.words);
                 modes.retain(|m| matches!(m, 9 | 12 | 14 | 15 | 16));
                 let replaces = shader.writes_depth().then_some(12);
-                let all: Vec<u32> = expected(*tests).into_iter().chain(replaces).collect();
-                assert_eq!(modes, all, "{} {}", shader.name(), tests.name());
+                let expected: Vec<u32> = expected(*tests).into_iter().chain(replaces).collect();
+                assert_eq!(modes, expected, "{} {}", shader.name(), tests.name());
             }
         }
     }

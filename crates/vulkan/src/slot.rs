@@ -307,19 +307,20 @@ fn nth(
     device: &Device,
     pool: vk::CommandPool,
     level: vk::CommandBufferLevel,
-    all: &mut Vec<vk::CommandBuffer>,
+    buffers: &mut Vec<vk::CommandBuffer>,
     number: usize,
 ) -> Result<vk::CommandBuffer, BackendError> {
-    if all.len() <= number {
+    if buffers.len() <= number {
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(pool)
             .level(level)
             .command_buffer_count(1);
         // SAFETY: the pool lives.
         let made = unsafe { device.raw.allocate_command_buffers(&info) };
-        all.extend(made.check("a command buffer")?);
+        buffers.extend(made.check("a command buffer")?);
     }
-    all.get(number)
+    buffers
+        .get(number)
         .copied()
         .ok_or_else(|| internal("no command buffer came back"))
 }

@@ -34,13 +34,13 @@ pub(crate) fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
 /// Returns a module's header and its instructions.
 pub(crate) fn instructions(words: &[u32]) -> (&[u32], Vec<&[u32]>) {
     let (header, mut rest) = words.split_at(5);
-    let mut all = Vec::new();
+    let mut instructions = Vec::new();
     while let [head, ..] = rest {
-        let (one, behind) = rest.split_at((head >> 16).max(1) as usize);
-        all.push(one);
+        let (instruction, behind) = rest.split_at((head >> 16).max(1) as usize);
+        instructions.push(instruction);
         rest = behind;
     }
-    (header, all)
+    (header, instructions)
 }
 
 /// Returns the instruction that names an extension.
@@ -55,10 +55,13 @@ pub(crate) fn extension(name: &str) -> Vec<u32> {
 
 /// Returns a module that declares a further capability and its extension.
 pub(crate) fn with_capability(words: &[u32], capability: u32, name: &str) -> Vec<u32> {
-    let (header, all) = instructions(words);
-    let is_capability = |one: &&[u32]| one[0] & 0xffff == CAPABILITY;
-    let behind = all.iter().take_while(|one| is_capability(one)).count();
-    let (capabilities, rest) = all.split_at(behind);
+    let (header, instructions) = instructions(words);
+    let is_capability = |instruction: &&[u32]| instruction[0] & 0xffff == CAPABILITY;
+    let behind = instructions
+        .iter()
+        .take_while(|instruction| is_capability(instruction))
+        .count();
+    let (capabilities, rest) = instructions.split_at(behind);
     let mut out = header.to_vec();
     out.extend(instruction(CAPABILITY, &[capability]));
     out.extend(capabilities.concat());

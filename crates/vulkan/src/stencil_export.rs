@@ -25,24 +25,24 @@ const FRAGMENT: u32 = 4;
 /// reference.
 pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
     let words = spirv::with_capability(words, STENCIL_EXPORT, EXTENSION_NAME);
-    let (header, all) = instructions(&words);
-    let is = |one: &[u32], code: u32| one[0] & 0xffff == code;
-    let fragment = all
+    let (header, instructions) = instructions(&words);
+    let is = |instruction: &[u32], code: u32| instruction[0] & 0xffff == code;
+    let fragment = instructions
         .iter()
-        .find(|one| is(one, ENTRY_POINT) && one[1] == FRAGMENT)
+        .find(|instruction| is(instruction, ENTRY_POINT) && instruction[1] == FRAGMENT)
         .copied()
         .unwrap_or_default();
     // Vertex shaders have outputs of their own at the same locations.
     let of_fragment = |variable: &u32| fragment.get(3..).is_some_and(|ids| ids.contains(variable));
-    let outputs: Vec<u32> = all
+    let outputs: Vec<u32> = instructions
         .iter()
-        .filter(|one| is(one, VARIABLE) && one[3] == OUTPUT)
-        .map(|one| one[2])
+        .filter(|instruction| is(instruction, VARIABLE) && instruction[3] == OUTPUT)
+        .map(|instruction| instruction[2])
         .filter(of_fragment)
         .collect();
     let mut out = header.to_vec();
     let (mut mode, mut entered) = (false, false);
-    for line in all {
+    for line in instructions {
         // Execution modes follow the entry points.
         if !mode && entered && !is(line, ENTRY_POINT) {
             out.extend(instruction(
@@ -82,11 +82,13 @@ mod tests {
                 .expect("our own shader")
                 .words;
             let changed = as_built_in(&words);
-            let (header, all) = instructions(&changed);
+            let (header, found) = instructions(&changed);
             assert_eq!(header, &words[..5]);
             let count = |code: u32, tail: &[u32]| {
-                let same = |one: &&&[u32]| one[0] & 0xffff == code && one.ends_with(tail);
-                all.iter().filter(same).count()
+                let same = |instruction: &&&[u32]| {
+                    instruction[0] & 0xffff == code && instruction.ends_with(tail)
+                };
+                found.iter().filter(same).count()
             };
             assert_eq!(count(CAPABILITY, &[STENCIL_EXPORT]), 1);
             assert_eq!(count(EXTENSION, &spirv::extension(EXTENSION_NAME)[1..]), 1);
@@ -94,11 +96,19 @@ mod tests {
             assert_eq!(count(DECORATE, &[BUILT_IN, FRAG_STENCIL_REF]), 1);
             assert_eq!(count(DECORATE, &[LOCATION, STENCIL_REFERENCE]), 0);
             // The order of a module's sections (SPIR-V, Logical Layout of a Module).
-            let at = |code: u32| all.iter().position(|one| one[0] & 0xffff == code);
-            let last = |code: u32| all.iter().rposition(|one| one[0] & 0xffff == code);
-            assert!(last(CAPABILITY) < at(EXTENSION));
-            assert!(last(ENTRY_POINT) < at(EXECUTION_MODE));
-            assert!(last(EXECUTION_MODE) < at(DECORATE));
+            let first = |code: u32| {
+                found
+                    .iter()
+                    .position(|instruction| instruction[0] & 0xffff == code)
+            };
+            let last = |code: u32| {
+                found
+                    .iter()
+                    .rposition(|instruction| instruction[0] & 0xffff == code)
+            };
+            assert!(last(CAPABILITY) < first(EXTENSION));
+            assert!(last(ENTRY_POINT) < first(EXECUTION_MODE));
+            assert!(last(EXECUTION_MODE) < first(DECORATE));
         }
     }
 }

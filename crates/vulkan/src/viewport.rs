@@ -19,18 +19,18 @@ pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
         VIEWPORT_INDEX_LAYER,
         "SPV_EXT_shader_viewport_index_layer",
     );
-    let (header, all) = instructions(&words);
-    let opcode = |one: &[u32]| one[0] & 0xffff;
-    let is = |one: &[u32], code: u32| opcode(one) == code;
-    let vertex = all
+    let (header, instructions) = instructions(&words);
+    let opcode = |instruction: &[u32]| instruction[0] & 0xffff;
+    let is = |instruction: &[u32], code: u32| opcode(instruction) == code;
+    let vertex = instructions
         .iter()
-        .find(|one| is(one, ENTRY_POINT) && one[1] == 0)
-        .map(|one| one[2]);
+        .find(|instruction| is(instruction, ENTRY_POINT) && instruction[1] == 0)
+        .map(|instruction| instruction[2]);
     // Two types of the same integers are not allowed; two pointers to them are.
-    let unsigned = all
+    let unsigned = instructions
         .iter()
-        .find(|one| is(one, TYPE_INT) && one[2..] == [32, 0])
-        .map(|one| one[1]);
+        .find(|instruction| is(instruction, TYPE_INT) && instruction[2..] == [32, 0])
+        .map(|instruction| instruction[1]);
     let first = header[3];
     let [variable, pointer, one, made] = [first, first + 1, first + 2, first + 3];
     let integer = unsigned.unwrap_or(made);
@@ -38,7 +38,7 @@ pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
     out[3] = first + 4;
     let (mut decorated, mut declared) = (false, false);
     let mut function = None;
-    for line in all {
+    for line in instructions {
         if !decorated && (is(line, DECORATE) || opcode(line) == 72) {
             out.extend(instruction(DECORATE, &[variable, BUILT_IN, VIEWPORT_INDEX]));
             decorated = true;

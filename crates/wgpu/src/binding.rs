@@ -75,10 +75,10 @@ impl<'a, 's> Groups<'a, 's> {
     ) -> Result<Option<Bound>, BackendError> {
         let bindings = Bindings::of(draw.shader);
         let offset = bindings.params.then(|| {
-            let at = self.params.len();
+            let start = self.params.len();
             self.params.extend_from_slice(&draw.params.to_bytes());
-            self.params.resize(at + self.stride, 0);
-            at as u32
+            self.params.resize(start + self.stride, 0);
+            start as u32
         });
         let key = Key {
             bindings,

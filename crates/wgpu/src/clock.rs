@@ -41,8 +41,8 @@ impl Clock {
     pub(crate) fn elapsed(&self) -> Option<Duration> {
         let ticks = {
             let bytes = self.mapped.slice(..).get_mapped_range().ok()?;
-            let tick = |at: usize| {
-                let bytes = bytes.get(at..at + 8)?.try_into().ok()?;
+            let tick = |start: usize| {
+                let bytes = bytes.get(start..start + 8)?.try_into().ok()?;
                 Some(u64::from_le_bytes(bytes))
             };
             // `None` if the clock went backwards.

@@ -74,8 +74,8 @@ impl Queries {
     }
 
     fn resolve(&self, encoder: &mut wgpu::CommandEncoder, results: &wgpu::Buffer) {
-        let all = 0..self.counters.len() as u32;
-        encoder.resolve_query_set(&self.set, all, results, self.offset);
+        let queries = 0..self.counters.len() as u32;
+        encoder.resolve_query_set(&self.set, queries, results, self.offset);
     }
 }
 
@@ -88,12 +88,13 @@ impl<'a> Counting<'a> {
                 counters.push(counter);
                 counters.len() as u32 - 1
             };
-            let of = |kind| draw.counter(scene, |k| k == kind);
+            let counter = |kind| draw.counter(scene, |k| k == kind);
             Counted {
-                occlusion: of(CounterKind::AnySamplesPassed).map(|c| number(&mut occlusion, c)),
-                statistics: of(CounterKind::FragmentInvocations)
+                occlusion: counter(CounterKind::AnySamplesPassed)
+                    .map(|c| number(&mut occlusion, c)),
+                statistics: counter(CounterKind::FragmentInvocations)
                     .map(|c| number(&mut statistics, c)),
-                runs: of(CounterKind::ShaderRuns),
+                runs: counter(CounterKind::ShaderRuns),
             }
         };
         let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
@@ -184,8 +185,8 @@ impl<'a> Counting<'a> {
     }
 
     fn runs_bytes(&self) -> u64 {
-        let all = self.kinds.len() as u64 * self.stride;
-        self.runs.as_ref().map_or(0, |_| all)
+        let bytes = self.kinds.len() as u64 * self.stride;
+        self.runs.as_ref().map_or(0, |_| bytes)
     }
 
     /// Records the copy of all counts to a buffer.
@@ -247,8 +248,9 @@ impl<'a> Counting<'a> {
                 return Vec::new();
             };
             let results = (0..).zip(&queries.counters);
-            let own = results.filter(|(_, of)| **of == counter);
-            own.map(|(i, _)| part(queries.offset + i * RESULT_BYTES, RESULT_BYTES))
+            let results_of_counter = results.filter(|(_, owner)| **owner == counter);
+            results_of_counter
+                .map(|(i, _)| part(queries.offset + i * RESULT_BYTES, RESULT_BYTES))
                 .collect()
         };
         let counter = |(index, kind): (usize, &CounterKind)| RecordedCounter {
@@ -272,13 +274,13 @@ fn sum(bytes: &[u8], queries: Option<&Queries>, counter: usize) -> u64 {
     let Some(queries) = queries else { return 0 };
     let results = (0..).zip(&queries.counters);
     results
-        .filter(|(_, of)| **of == counter)
+        .filter(|(_, owner)| **owner == counter)
         .map(|(i, _)| number(bytes, queries.offset + i * RESULT_BYTES, RESULT_BYTES))
         .fold(0, u64::saturating_add)
 }
 
 /// Returns the little-endian number of this many bytes.
-fn number(bytes: &[u8], at: u64, size: u64) -> u64 {
-    let bytes = bytes[at as usize..(at + size) as usize].iter().rev();
+fn number(bytes: &[u8], start: u64, size: u64) -> u64 {
+    let bytes = bytes[start as usize..(start + size) as usize].iter().rev();
     bytes.fold(0, |value, byte| value << 8 | u64::from(*byte))
 }

@@ -61,7 +61,7 @@ impl Errors {
     /// Takes the first error, which caused the others. A lost device comes before all.
     fn first(&self) -> Result<Option<wgpu::Error>, BackendError> {
         if let Some(message) = &*locked(&self.lost) {
-            return Err(BackendError::DeviceLost(message.clone()));
+            return Err(BackendError::lost(message));
         }
         let mut raised = locked(&self.raised);
         let first = (!raised.is_empty()).then(|| raised.swap_remove(0));
@@ -81,8 +81,8 @@ impl Errors {
         what: &str,
         action: impl FnOnce() -> Result<T, BackendError>,
     ) -> Result<T, BackendError> {
-        let result = catch_unwind(AssertUnwindSafe(action))
-            .unwrap_or_else(|panic| Err(BackendError::Internal(message_of(&*panic))));
+        let result =
+            catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|panic| Err(panicked(&*panic)));
         // Raised errors come first: the result follows from them. A shader's error has taken those
         // raised with it.
         self.check(what)?;
@@ -92,31 +92,42 @@ impl Errors {
 
 fn backend_error(what: &str, error: wgpu::Error) -> BackendError {
     match error {
-        wgpu::Error::OutOfMemory { source } => BackendError::Resource {
-            what: what.to_owned(),
-            message: chain(&*source),
-        },
-        other => BackendError::Internal(format!("{what}: {other}")),
+        wgpu::Error::OutOfMemory { source } => BackendError::refused(what, chain(&*source)),
+        wgpu::Error::Validation { ref source, .. } => {
+            let failed = BackendError::internal_of(what, error.to_string());
+            match variant(&**source) {
+                Some(code) => failed.with_code(code),
+                None => failed,
+            }
+        }
+        other => BackendError::internal_of(what, other.to_string()),
     }
 }
 
+/// Returns the name of the variant that the innermost error is, by its debug form: wgpu has no codes.
+fn variant(error: &(dyn std::error::Error + 'static)) -> Option<String> {
+    let innermost = std::iter::successors(Some(error), |error| error.source()).last()?;
+    let form = format!("{innermost:?}");
+    let end = form
+        .find(|c: char| !c.is_alphanumeric())
+        .unwrap_or(form.len());
+    (end > 0).then(|| form[..end].to_owned())
+}
+
 fn shader_error(shader: &str, error: &wgpu::Error) -> BackendError {
-    BackendError::Shader {
-        shader: shader.to_owned(),
-        message: error.to_string(),
-    }
+    BackendError::shader(shader, error.to_string())
 }
 
 pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn message_of(panic: &(dyn Any + Send)) -> String {
+fn panicked(panic: &(dyn Any + Send)) -> BackendError {
     let text = panic
         .downcast_ref::<String>()
         .map(String::as_str)
         .or_else(|| panic.downcast_ref::<&str>().copied());
-    format!("wgpu panicked: {}", text.unwrap_or("without a message"))
+    BackendError::internal_of("wgpu panicked", text.unwrap_or("without a message"))
 }
 
 fn chain(error: &(dyn std::error::Error + 'static)) -> String {
@@ -133,6 +144,7 @@ fn chain(error: &(dyn std::error::Error + 'static)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::ErrorKind;
 
     fn raise(errors: &Errors, error: wgpu::Error) {
         locked(&errors.raised).push(error);
@@ -155,28 +167,33 @@ mod tests {
             },
         );
         raise(&errors, internal());
-        let expected = BackendError::Resource {
-            what: "drawing".to_owned(),
-            message: "full".to_owned(),
-        };
+        let expected = BackendError::refused("drawing", "full");
         assert_eq!(errors.check("drawing"), Err(expected));
         assert_eq!(errors.check("drawing"), Ok(()));
+        let invalid = || wgpu::Error::Validation {
+            source: Box::new(std::fmt::Error),
+            description: "3 bytes are missing".to_owned(),
+        };
+        raise(&errors, invalid());
+        let expected = BackendError::internal_of("drawing", invalid().to_string());
+        assert_eq!(errors.check("drawing"), Err(expected.with_code("Error")));
         raise(&errors, internal());
         let shader = errors.check_pipeline("flat_color");
-        assert!(matches!(shader, Err(BackendError::Shader { .. })));
+        let expected = ErrorKind::Shader("flat_color".to_owned());
+        assert!(matches!(shader, Err(BackendError::Failed { kind, .. }) if kind == expected));
     }
 
     #[test]
     fn a_panic_is_an_error_and_a_lost_device_comes_first() {
         let errors = Errors::default();
         let result: Result<(), _> = errors.guard("waiting", || panic!("no fence"));
-        let message = "wgpu panicked: no fence".to_owned();
-        assert_eq!(result, Err(BackendError::Internal(message)));
+        let expected = BackendError::internal_of("wgpu panicked", "no fence");
+        assert_eq!(result, Err(expected));
         let result = errors.guard("waiting", || {
             *locked(&errors.lost) = Some("gone".to_owned());
             raise(&errors, internal());
             Ok(())
         });
-        assert_eq!(result, Err(BackendError::DeviceLost("gone".to_owned())));
+        assert_eq!(result, Err(BackendError::lost("gone")));
     }
 }

@@ -39,27 +39,34 @@ pub(crate) fn pipeline(
     module: &wgpu::ShaderModule,
     key: FetchKey,
 ) -> Result<wgpu::RenderPipeline, BackendError> {
-    let all = wgpu::ColorWrites::ALL;
+    let writes = wgpu::ColorWrites::ALL;
     let (layout, vertex, entry, color, write_mask, depth_stencil) = match key {
         FetchKey::Depth => {
             let color = wgpu::TextureFormat::R32Uint;
-            (&layouts.texture, "everywhere", "depth", color, all, None)
+            (&layouts.texture, "everywhere", "depth", color, writes, None)
         }
         FetchKey::Texel => {
             let color = wgpu::TextureFormat::Rgba32Uint;
-            (&layouts.texture, "everywhere", "texel", color, all, None)
+            (&layouts.texture, "everywhere", "texel", color, writes, None)
         }
         FetchKey::IntegerTexel => {
             let (layout, color) = (&layouts.integer_texture, wgpu::TextureFormat::Rgba32Uint);
-            (layout, "everywhere", "integer_texel", color, all, None)
+            (layout, "everywhere", "integer_texel", color, writes, None)
         }
         FetchKey::Sample => {
             let color = wgpu::TextureFormat::Rgba32Uint;
-            (&layouts.samples, "sampled", "floats", color, all, None)
+            (&layouts.samples, "sampled", "floats", color, writes, None)
         }
         FetchKey::StencilSample => {
             let color = wgpu::TextureFormat::Rgba32Uint;
-            (&layouts.integers, "sampled", "integers", color, all, None)
+            (
+                &layouts.integers,
+                "sampled",
+                "integers",
+                color,
+                writes,
+                None,
+            )
         }
         FetchKey::StencilBit { format, bit } => (
             &layouts.none,

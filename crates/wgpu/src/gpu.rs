@@ -250,7 +250,7 @@ impl Gpu {
         };
         match self.device.poll(poll) {
             Ok(_) => Ok(()),
-            Err(error) => Err(BackendError::Internal(format!("waiting: {error}"))),
+            Err(error) => Err(BackendError::internal_of("waiting", error.to_string())),
         }
     }
 }

@@ -40,27 +40,27 @@ impl Bindings {
     }
 
     fn entries(self) -> Vec<wgpu::BindGroupLayoutEntry> {
-        let mut all = Vec::new();
+        let mut entries = Vec::new();
         if self.params {
             let uniform = wgpu::BufferBindingType::Uniform;
-            all.push(entry(0, buffer(uniform, true, PARAMS_BYTES)));
+            entries.push(entry(0, buffer(uniform, true, PARAMS_BYTES)));
         }
         let sample_type = wgpu::TextureSampleType::Float {
             filterable: self.sampler,
         };
-        all.extend((1..).take(self.textures).map(|binding| {
+        entries.extend((1..).take(self.textures).map(|binding| {
             let texture = texture(sample_type, false);
             entry(binding, texture)
         }));
         if self.storage {
             let storage = wgpu::BufferBindingType::Storage { read_only: false };
-            all.push(entry(3, buffer(storage, false, RUNS_BYTES)));
+            entries.push(entry(3, buffer(storage, false, RUNS_BYTES)));
         }
         if self.sampler {
             let filtering = wgpu::SamplerBindingType::Filtering;
-            all.push(entry(4, wgpu::BindingType::Sampler(filtering)));
+            entries.push(entry(4, wgpu::BindingType::Sampler(filtering)));
         }
-        all
+        entries
     }
 }
 

@@ -168,13 +168,13 @@ fn support(
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
 /// GLSL versions that have them. What wgpu offers and then refuses fails its cases.
-fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTreeSet<Feature> {
-    let max_size = of.max_texture_dimension_2d;
+fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> BTreeSet<Feature> {
+    let max_size = limits.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
     let storage = flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
-        && of.max_storage_buffers_per_shader_stage > 0;
-    let all = [
+        && limits.max_storage_buffers_per_shader_stage > 0;
+    let features_found = [
         (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
         (Feature::CentroidInterpolation, true),
         (Feature::ClipDistances, feature(Features::CLIP_DISTANCES)),
@@ -229,7 +229,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         // WebGPU limits a viewport to twice the largest texture (setViewport).
         (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
     ];
-    all.into_iter()
+    features_found
+        .into_iter()
         .filter_map(|(f, has)| has.then_some(f))
         .collect()
 }
@@ -260,14 +261,14 @@ fn exempt(adapter: &wgpu::Adapter, abilities: Abilities) -> BTreeSet<Requirement
 
 /// Returns the limits of an adapter's device with these features, all of them by wgpu's own word.
 pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abilities) -> Limits {
-    let of = adapter.limits();
+    let limits = adapter.limits();
     let flags = adapter.get_downlevel_capabilities().flags;
     let formats: BTreeMap<_, _> = TextureFormat::ALL
         .into_iter()
         .filter_map(|f| Some((f, support(adapter, features, abilities, f)?)))
         .collect();
-    let max_size = of.max_texture_dimension_2d;
-    let offered = offered(flags, features, &of);
+    let max_size = limits.max_texture_dimension_2d;
+    let offered = offered(flags, features, &limits);
     Limits {
         api: Api::WebGpu,
         version: ApiVersion::UNKNOWN,
@@ -275,9 +276,9 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
         exempt: exempt(adapter, abilities),
         sub_pixel_bits: SUB_PIXEL_BITS,
         max_size,
-        max_color_attachments: of
+        max_color_attachments: limits
             .max_color_attachments
-            .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
+            .min(limits.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
         paths: path::offered(flags, &offered),
         features: offered,

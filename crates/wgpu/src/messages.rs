@@ -68,8 +68,8 @@ fn is_mistake(text: &str) -> bool {
     ];
     let head = text.lines().next().unwrap_or_default();
     match head.strip_prefix("GLES: ") {
-        Some(rest) => {
-            let kind = rest.split_inclusive(']').next().unwrap_or_default();
+        Some(message) => {
+            let kind = message.split_inclusive(']').next().unwrap_or_default();
             mistakes.iter().any(|m| kind.ends_with(m))
         }
         None => head.starts_with("VALIDATION") && !intended.iter().any(|m| head.contains(m)),

@@ -129,7 +129,7 @@ impl Shape {
     }
 }
 
-/// What an adapter does by default with attachments of a format.
+/// The default reading of attachments of a format.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     /// Depth and stencil can be copied.
@@ -233,28 +233,40 @@ mod tests {
         let indirect = PathValue::Draws(PathDraws::Indirect);
         let none = offered(DownlevelFlags::empty(), &BTreeSet::new());
         assert!(!none.contains(&base) && !none.contains(&indirect));
-        let all = offered(
+        let paths = offered(
             DownlevelFlags::all(),
             &BTreeSet::from([Feature::BaseVertex]),
         );
-        assert!(all.contains(&base) && all.contains(&indirect));
-        assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
+        assert!(paths.contains(&base) && paths.contains(&indirect));
+        assert!(!paths.contains(&PathValue::Target(PathTarget::Renderbuffer)));
     }
 
     #[test]
     fn attachments_are_the_parts_that_they_can_be() {
-        let of = |format, samples, due| {
+        let found_target = |format, samples, wanted| {
             let path = Path {
-                target: due,
+                target: wanted,
                 ..Path::default()
             };
             target(&scene(format, samples, path), 0)
         };
         let (color, depth) = (TextureFormat::Rgba8Unorm, TextureFormat::Depth32Float);
-        assert_eq!(of(color, 1, PathTarget::Slice3d), PathTarget::Slice3d);
-        assert_eq!(of(depth, 1, PathTarget::Slice3d), PathTarget::Plain);
-        assert_eq!(of(depth, 1, PathTarget::CubeFace), PathTarget::CubeFace);
-        assert_eq!(of(color, 4, PathTarget::ArrayLayer), PathTarget::Plain);
+        assert_eq!(
+            found_target(color, 1, PathTarget::Slice3d),
+            PathTarget::Slice3d
+        );
+        assert_eq!(
+            found_target(depth, 1, PathTarget::Slice3d),
+            PathTarget::Plain
+        );
+        assert_eq!(
+            found_target(depth, 1, PathTarget::CubeFace),
+            PathTarget::CubeFace
+        );
+        assert_eq!(
+            found_target(color, 4, PathTarget::ArrayLayer),
+            PathTarget::Plain
+        );
         let mip = Shape::of(PathTarget::MipLevel, [8, 5]);
         assert_eq!(
             (mip.size.width >> mip.level, mip.size.height >> mip.level),
@@ -266,34 +278,34 @@ mod tests {
 
     #[test]
     fn what_would_round_is_read_by_default() {
-        let of = |format, due| {
+        let found_end = |format, wanted| {
             let path = Path {
-                end: due,
+                end: wanted,
                 ..Path::default()
             };
             end(&scene(format, 1, path), 0, READING)
         };
         let color = TextureFormat::Rgba8Unorm;
-        assert_eq!(of(color, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        assert_eq!(found_end(color, PathEnd::ShaderRead), PathEnd::ShaderRead);
         let srgb = TextureFormat::Rgba8UnormSrgb;
-        assert_eq!(of(srgb, PathEnd::ShaderRead), PathEnd::Store);
+        assert_eq!(found_end(srgb, PathEnd::ShaderRead), PathEnd::Store);
         let short = TextureFormat::Depth16Unorm;
-        assert_eq!(of(short, PathEnd::ShaderRead), PathEnd::Store);
+        assert_eq!(found_end(short, PathEnd::ShaderRead), PathEnd::Store);
         let depth = TextureFormat::Depth32Float;
-        assert_eq!(of(depth, PathEnd::ShaderRead), PathEnd::ShaderRead);
-        assert_eq!(of(depth, PathEnd::Part), PathEnd::Store);
+        assert_eq!(found_end(depth, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        assert_eq!(found_end(depth, PathEnd::Part), PathEnd::Store);
     }
 
     #[test]
     fn each_pass_has_a_command_buffer() {
-        let of = |due| {
+        let found_commands = |wanted| {
             let path = Path {
-                commands: due,
+                commands: wanted,
                 ..Path::default()
             };
             commands(&scene(TextureFormat::Rgba8Unorm, 1, path))
         };
-        assert_eq!(of(PathCommands::One).first(), Some(&(0..2)));
-        assert_eq!(of(PathCommands::Several), [0..1, 1..2]);
+        assert_eq!(found_commands(PathCommands::One).first(), Some(&(0..2)));
+        assert_eq!(found_commands(PathCommands::Several), [0..1, 1..2]);
     }
 }

@@ -172,14 +172,15 @@ impl Pipelines {
                     compiled(device, errors, shader.name(), shader.wgsl_with(*tests))
                 })?;
             let layout = self.layouts.draw(device, key.bindings)?;
-            let all = attributes(shader);
+            let attributes = attributes(shader);
             let apart: Vec<_> = if key.instanced {
-                all.iter()
+                attributes
+                    .iter()
                     .filter(|a| a.shader_location != COLOR)
                     .copied()
                     .collect()
             } else {
-                all.to_vec()
+                attributes.to_vec()
             };
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,
@@ -189,7 +190,7 @@ impl Pipelines {
             let colors = wgpu::VertexBufferLayout {
                 array_stride: size_of::<[f32; 4]>() as u64,
                 step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &INSTANCE[..usize::from(apart.len() < all.len())],
+                attributes: &INSTANCE[..usize::from(apart.len() < attributes.len())],
             };
             let buffers = [Some(vertices), Some(colors)];
             let used = if key.instanced { 2 } else { 1 };

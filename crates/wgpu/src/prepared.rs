@@ -88,14 +88,14 @@ struct Geometry {
 }
 
 /// Adds bytes, and zeroes up to the alignment of copies. Returns the place of the bytes.
-fn append(all: &mut Vec<u8>, bytes: &[u8]) -> Range<u64> {
-    let first = all.len() as u64;
-    all.extend_from_slice(bytes);
-    let place = first..all.len() as u64;
-    let aligned = all
+fn append(buffer: &mut Vec<u8>, bytes: &[u8]) -> Range<u64> {
+    let first = buffer.len() as u64;
+    buffer.extend_from_slice(bytes);
+    let place = first..buffer.len() as u64;
+    let aligned = buffer
         .len()
         .next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT as usize);
-    all.resize(aligned, 0);
+    buffer.resize(aligned, 0);
     place
 }
 
@@ -319,13 +319,15 @@ impl<'a> PreparedScene<'a> {
             (Some((place, format)), Some(indices)) => {
                 encoder.set_index_buffer(indices.slice(place.clone()), *format);
                 match (draw.arguments, &self.arguments) {
-                    (Some(at), Some(arguments)) => encoder.draw_indexed_indirect(arguments, at),
+                    (Some(offset), Some(arguments)) => {
+                        encoder.draw_indexed_indirect(arguments, offset)
+                    }
                     _ => encoder.draw_indexed(drawn, draw.base_vertex, instances),
                 }
             }
             (Some(_), None) => {}
             (None, _) => match (draw.arguments, &self.arguments) {
-                (Some(at), Some(arguments)) => encoder.draw_indirect(arguments, at),
+                (Some(offset), Some(arguments)) => encoder.draw_indirect(arguments, offset),
                 _ => encoder.draw(drawn, instances),
             },
         }
@@ -364,8 +366,9 @@ impl Prepared for PreparedScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            let message = "read back before anything was drawn".to_owned();
-            return Err(BackendError::Internal(message));
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
+            ));
         }
         let source = |(index, end): &(usize, PathEnd)| {
             let attachment = &self.attachments[*index];

@@ -103,7 +103,7 @@ pub(crate) fn frame(
         let bytes = buffer
             .slice(..)
             .get_mapped_range()
-            .map_err(|error| BackendError::Internal(format!("mapping a buffer: {error}")))?;
+            .map_err(|error| BackendError::internal_of("mapping a buffer", error.to_string()))?;
         Frame {
             images: plans
                 .iter()

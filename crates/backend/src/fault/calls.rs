@@ -23,7 +23,7 @@ pub struct DrawNumbers {
     pub first_instance: u32,
 }
 
-/// What a planted fault has seen of the calls to a driver.
+/// The calls to a driver that a planted fault has seen.
 ///
 /// A backend that is opened with a fault puts functions of its own in the place of the driver's, which ask here how to
 /// change a call. The rest of the backend knows nothing of the fault. Rectangles have the origin of the API.

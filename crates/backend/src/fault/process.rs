@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What goes wrong in the process of an adapter when it draws one of the [`FaultyScenes`].
+/// The failure of an adapter's process when it draws one of the [`FaultyScenes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ProcessFault {

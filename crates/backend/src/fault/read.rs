@@ -40,14 +40,14 @@ impl ReadFault {
             Self::ZeroChannel => codes.iter_mut().step_by(sample).for_each(|code| *code = 0),
             Self::SwappedSamples if samples > 1 => {
                 for texel in codes.chunks_exact_mut(texel) {
-                    let (first, rest) = texel.split_at_mut(sample);
-                    first.swap_with_slice(&mut rest[..sample]);
+                    let (first, others) = texel.split_at_mut(sample);
+                    first.swap_with_slice(&mut others[..sample]);
                 }
             }
             Self::SwappedSamples => {}
             Self::WrongBlock => {
-                for (at, texel) in codes.chunks_exact_mut(texel).enumerate() {
-                    let (x, y) = (at % width.max(1), at / width.max(1));
+                for (number, texel) in codes.chunks_exact_mut(texel).enumerate() {
+                    let (x, y) = (number % width.max(1), number / width.max(1));
                     let inside = |v: usize| (v as u32).wrapping_sub(BLOCK) < 2;
                     if inside(x) && inside(y) {
                         for (code, encoding) in texel.iter_mut().zip(channels.iter().cycle()) {
@@ -77,18 +77,18 @@ mod tests {
         let (before, after) = changed(ReadFault::OffByOne);
         assert!(before.iter().zip(&after).all(|(b, a)| b.abs_diff(*a) == 1));
         let (before, after) = changed(ReadFault::ZeroChannel);
-        for (at, (b, a)) in before.iter().zip(&after).enumerate() {
-            assert_eq!(*a, if at % 2 == 0 { 0 } else { *b });
+        for (number, (b, a)) in before.iter().zip(&after).enumerate() {
+            assert_eq!(*a, if number % 2 == 0 { 0 } else { *b });
         }
         let (before, after) = changed(ReadFault::SwappedSamples);
         for (b, a) in before.chunks(4).zip(after.chunks(4)) {
             assert_eq!(a, [b[2], b[3], b[0], b[1]]);
         }
         let (before, after) = changed(ReadFault::WrongBlock);
-        for (at, (b, a)) in before.chunks(4).zip(after.chunks(4)).enumerate() {
-            let wrong = at % 3 > 0 && at / 3 > 0;
+        for (number, (b, a)) in before.chunks(4).zip(after.chunks(4)).enumerate() {
+            let wrong = number % 3 > 0 && number / 3 > 0;
             let flipped: Vec<u32> = b.iter().map(|code| code ^ 0xff).collect();
-            assert_eq!(a, if wrong { &flipped } else { b }, "texel {at}");
+            assert_eq!(a, if wrong { &flipped } else { b }, "texel {number}");
         }
     }
 

@@ -105,8 +105,8 @@ impl Printer {
     }
 
     /// Returns a new variable for an object.
-    fn define(&mut self, kind: &str, number: u64, program: u64, own: &'static str) -> String {
-        let variable = self.declarations.variable(own, kind);
+    fn define(&mut self, kind: &str, number: u64, program: u64, type_name: &'static str) -> String {
+        let variable = self.declarations.variable(type_name, kind);
         let key = key(kind, number, program);
         self.objects.insert(key, variable.clone());
         variable
@@ -124,9 +124,9 @@ impl Printer {
             Argument::Float(bits) => c::float(*bits),
             Argument::Double(bits) => c::double(f64::from_bits(*bits)),
             Argument::Constant(constant) => self.constant(constant),
-            Argument::Bits(all) => {
-                let all: Vec<String> = all.iter().map(|bit| self.constant(bit)).collect();
-                all.join(" | ")
+            Argument::Bits(bits) => {
+                let names: Vec<String> = bits.iter().map(|bit| self.constant(bit)).collect();
+                names.join(" | ")
             }
             Argument::Object(_, 0) => "0".to_owned(),
             Argument::Object(kind, number) => {
@@ -211,7 +211,7 @@ fn kind_of(argument: &Argument) -> String {
         Argument::Object(kind, _) if kind == "location" => "GLint",
         Argument::Object(..) => "GLuint",
         Argument::Created(..) => "GLuint *",
-        Argument::Array(all) => return format!("const {} *", element_of(all)),
+        Argument::Array(values) => return format!("const {} *", element_of(values)),
         Argument::Text(_) => "const char *",
         Argument::Bytes(_)
         | Argument::Offset(_)
@@ -225,6 +225,6 @@ fn kind_of(argument: &Argument) -> String {
 }
 
 /// Returns the type of an array's elements.
-fn element_of(all: &[Argument]) -> String {
-    all.first().map_or_else(|| "GLenum".to_owned(), kind_of)
+fn element_of(values: &[Argument]) -> String {
+    values.first().map_or_else(|| "GLenum".to_owned(), kind_of)
 }

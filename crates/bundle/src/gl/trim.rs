@@ -355,8 +355,8 @@ fn known_of(function: &str) -> Option<&'static Known> {
             .find_map(|suffix| function.strip_suffix(suffix))
             .is_some_and(|stem| stem == name)
     };
-    let mut all = KNOWN.iter();
-    all.find(|k| k.function == function || core(k.function))
+    let mut known = KNOWN.iter();
+    known.find(|k| k.function == function || core(k.function))
 }
 
 fn is_whole((function, _): &Value) -> bool {

@@ -44,12 +44,12 @@ impl Printer {
     pub(super) fn types(&self) -> String {
         let mut text = String::new();
         for kind in &self.handles {
-            let own = if DISPATCHABLE.contains(&kind.as_str()) {
+            let variable = if DISPATCHABLE.contains(&kind.as_str()) {
                 "void *"
             } else {
                 "uint64_t "
             };
-            let _ = writeln!(text, "typedef {own}{kind};");
+            let _ = writeln!(text, "typedef {variable}{kind};");
         }
         for (_, declaration) in &self.structures {
             text.push('\n');
@@ -64,8 +64,8 @@ impl Printer {
         if !c::is_identifier(name) {
             return Err(unknown());
         }
-        let all = call.arguments.as_slice();
-        match (name, all) {
+        let arguments = call.arguments.as_slice();
+        match (name, arguments) {
             ("write", [mapped, Argument::Size(offset), Argument::Bytes(bytes)]) => {
                 let mapped = self.value(call, mapped)?;
                 let data = self.declarations.bytes(bytes, WORDS);
@@ -88,8 +88,8 @@ impl Printer {
             }
             ("vkGetBufferMemoryRequirements" | "vkGetImageMemoryRequirements", [_, object, _]) => {
                 let object = self.value(call, object)?;
-                let device = self.value(call, &all[0])?;
-                let kind = kind_of(&all[1]);
+                let device = self.value(call, &arguments[0])?;
+                let kind = kind_of(&arguments[1]);
                 let parameters = vec!["VkDevice".to_owned(), kind, "void *".to_owned()];
                 self.declarations.function(name, "void", parameters);
                 return Ok(format!("{name}({device}, {object}, &needs);"));
@@ -124,10 +124,10 @@ impl Printer {
             _ => {}
         }
         let mut values = Vec::new();
-        for argument in all {
+        for argument in arguments {
             values.push(self.value(call, argument)?);
         }
-        let types = all.iter().map(kind_of).collect();
+        let types = arguments.iter().map(kind_of).collect();
         let made = format!("{name}({})", values.join(", "));
         let void = name.starts_with("vkCmd")
             || matches!(name, "vkGetDeviceQueue" | "vkUpdateDescriptorSets");
@@ -150,14 +150,14 @@ impl Printer {
             }
             stem.extend(c.to_lowercase());
         }
-        let own = match kind {
+        let word = match kind {
             "mapped" => "unsigned char *",
             kind => kind,
         };
-        if own == kind {
+        if word == kind {
             self.handles.insert(kind.to_owned());
         }
-        let variable = self.declarations.variable(own, &stem);
+        let variable = self.declarations.variable(word, &stem);
         self.objects
             .insert((kind.to_owned(), number), variable.clone());
         variable
@@ -246,7 +246,7 @@ impl Printer {
                 return Err(BundleError::Call(kind.to_owned()));
             }
             let first = match &member.value {
-                Argument::Values(all) => all.first(),
+                Argument::Values(values) => values.first(),
                 value => Some(value),
             };
             if let Some(Argument::Struct {
@@ -258,17 +258,17 @@ impl Printer {
                 nested.push((kind.clone(), *size, members.clone()));
             }
             let declaration = match &member.value {
-                Argument::Values(all) => {
-                    format!("{} {}[{}]", element_of(all), member.name, all.len())
+                Argument::Values(values) => {
+                    format!("{} {}[{}]", element_of(values), member.name, values.len())
                 }
                 Argument::Struct { kind, .. } => format!("{kind} {}", member.name),
                 value => {
                     if let Argument::Object(kind, _) = value {
                         self.handles.insert(kind.clone());
                     }
-                    let own = kind_of(value);
-                    let space = if own.ends_with('*') { "" } else { " " };
-                    format!("{own}{space}{}", member.name)
+                    let value_kind = kind_of(value);
+                    let space = if value_kind.ends_with('*') { "" } else { " " };
+                    format!("{value_kind}{space}{}", member.name)
                 }
             };
             let _ = writeln!(text, "    {declaration};");
@@ -297,7 +297,7 @@ fn is_zero(value: &Argument) -> bool {
         | Argument::Object(_, 0)
         | Argument::Null => true,
         Argument::Constant(constant) => constant.value == 0,
-        Argument::Values(all) => all.iter().all(is_zero),
+        Argument::Values(values) => values.iter().all(is_zero),
         Argument::Struct { members, .. } => members.iter().all(|member| is_zero(&member.value)),
         _ => false,
     }
@@ -336,8 +336,8 @@ fn kind_of(argument: &Argument) -> String {
 }
 
 /// Returns the type of the values of an array.
-fn element_of(all: &[Argument]) -> String {
-    match all.first() {
+fn element_of(values: &[Argument]) -> String {
+    match values.first() {
         Some(Argument::Struct { kind, .. }) if c::is_identifier(kind) => kind.clone(),
         Some(Argument::Text(_)) => "char *const".to_owned(),
         Some(value) => kind_of(value),

@@ -184,7 +184,7 @@ pub(super) fn check(recording: &Recording, due: &Due) -> Result<Code, BundleErro
             rust: wrapped(&format!("\nstatic TEXELS: &[Texel] = {};", all.rust)) + "\n",
             script: all
                 .script
-                .map(|all| wrapped(&format!("\nconst texels = {all};")) + "\n"),
+                .map(|texels| wrapped(&format!("\nconst texels = {texels};")) + "\n"),
         });
     }
     text.push(&Code::new(

@@ -40,9 +40,11 @@ impl Code {
 
     /// Returns a structure that is its members in a script, without their braces.
     pub(super) fn members(self) -> Self {
-        let inner = |all: String| {
-            let inner = all.strip_prefix('{').and_then(|all| all.strip_suffix('}'));
-            inner.unwrap_or(&all).trim().to_owned()
+        let inner = |text: String| {
+            let inner = text
+                .strip_prefix('{')
+                .and_then(|text| text.strip_suffix('}'));
+            inner.unwrap_or(&text).trim().to_owned()
         };
         Self {
             script: self.script.map(inner),
@@ -62,27 +64,29 @@ impl Code {
     pub(super) fn push(&mut self, other: &Self) {
         self.rust.push_str(&other.rust);
         match (&mut self.script, &other.script) {
-            (Some(all), Some(other)) => all.push_str(other),
-            (all, _) => *all = None,
+            (Some(text), Some(other)) => text.push_str(other),
+            (text, _) => *text = None,
         }
     }
 }
 
 /// Returns pieces with commas between them.
 pub(super) fn joined(pieces: impl IntoIterator<Item = Code>) -> Code {
-    let mut all = Code::same("");
+    let mut code = Code::same("");
     for piece in pieces {
-        if !all.rust.is_empty() {
-            all.push(&Code::same(", "));
+        if !code.rust.is_empty() {
+            code.push(&Code::same(", "));
         }
-        all.push(&piece);
+        code.push(&piece);
     }
-    all
+    code
 }
 
 /// Returns a list.
 pub(super) fn list(values: impl IntoIterator<Item = Code>) -> Code {
-    joined(values).map(|all| format!("[{all}]")).borrowed()
+    joined(values)
+        .map(|values| format!("[{values}]"))
+        .borrowed()
 }
 
 /// Returns an option, which is the value or `null` in a script.
@@ -103,7 +107,7 @@ pub(super) fn call(on: &str, method: &str, arguments: impl IntoIterator<Item = C
         rust: format!("{on}.{method}({})", arguments.rust),
         script: arguments
             .script
-            .map(|all| format!("{on}.{}({all})", camel(method))),
+            .map(|arguments| format!("{on}.{}({arguments})", camel(method))),
     }
 }
 
@@ -174,7 +178,7 @@ impl Structure {
         match (&mut self.script, value.script) {
             (_, Some(members)) if members.is_empty() => {}
             (Some(all), Some(members)) => all.push(members),
-            (all, _) => *all = None,
+            (members, _) => *members = None,
         }
         self
     }
@@ -247,7 +251,7 @@ mod tests {
     fn what_webgpu_lacks_is_in_no_script() {
         let part = Structure::of("A").with("b", Code::of_wgpu("wgpu::B"));
         assert_eq!(part.end().script, None);
-        let all = joined([Code::same("1"), Code::of_wgpu("x"), Code::same("2")]);
-        assert_eq!((all.rust.as_str(), all.script), ("1, x, 2", None));
+        let code = joined([Code::same("1"), Code::of_wgpu("x"), Code::same("2")]);
+        assert_eq!((code.rust.as_str(), code.script), ("1, x, 2", None));
     }
 }

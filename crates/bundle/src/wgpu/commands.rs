@@ -310,24 +310,26 @@ fn drawing<'t>(
 ) -> Printed {
     let number = |name: &str| plain(field(c, name)?);
     let rect = |rect: &Tree| {
-        let all = ["x", "y", "w", "h"].map(|name| plain(field(rect, name)?));
-        all.into_iter().collect::<Result<Vec<Code>, BundleError>>()
+        let sides = ["x", "y", "w", "h"].map(|name| plain(field(rect, name)?));
+        sides
+            .into_iter()
+            .collect::<Result<Vec<Code>, BundleError>>()
     };
-    let one = |method: &str, argument: Code| call(on, method, [argument]);
+    let command = |method: &str, argument: Code| call(on, method, [argument]);
     Ok(match c.name() {
         "SetPipeline" => {
             let pipeline = objects.name("pipeline", part(c, 0)?)?;
-            one("set_pipeline", Code::same(pipeline).borrowed())
+            command("set_pipeline", Code::same(pipeline).borrowed())
         }
         "SetBindGroup" => {
             let count: usize = digits(field(c, "num_dynamic_offsets")?)?
                 .parse()
                 .unwrap_or(0);
-            let own: Vec<Code> = offsets.take(count).map(plain).collect::<Result<_, _>>()?;
+            let values: Vec<Code> = offsets.take(count).map(plain).collect::<Result<_, _>>()?;
             let group = held(field(c, "bind_group")?, |id| {
                 Ok(Code::same(objects.name("bind_group", id)?).borrowed())
             })?;
-            let arguments = [number("index")?, option(group), list(own)];
+            let arguments = [number("index")?, option(group), list(values)];
             call(on, "set_bind_group", arguments)
         }
         "SetIndexBuffer" => {
@@ -356,8 +358,8 @@ fn drawing<'t>(
                 }
             }
         }
-        "SetBlendConstant" => one("set_blend_constant", clear_color(part(c, 0)?)?),
-        "SetStencilReference" => one("set_stencil_reference", plain(part(c, 0)?)?),
+        "SetBlendConstant" => command("set_blend_constant", clear_color(part(c, 0)?)?),
+        "SetStencilReference" => command("set_stencil_reference", plain(part(c, 0)?)?),
         "SetViewport" => {
             let mut arguments = rect(field(c, "rect")?)?;
             arguments.extend([number("depth_min")?, number("depth_max")?]);
@@ -401,7 +403,7 @@ fn drawing<'t>(
                 [Code::same(buffer).borrowed(), number("offset")?],
             )
         }
-        "BeginOcclusionQuery" => one("begin_occlusion_query", number("query_index")?),
+        "BeginOcclusionQuery" => command("begin_occlusion_query", number("query_index")?),
         "EndOcclusionQuery" => call(on, "end_occlusion_query", []),
         "BeginPipelineStatisticsQuery" => Code::of_wgpu(format!(
             "{on}.begin_pipeline_statistics_query(&{}, {})",
@@ -413,7 +415,7 @@ fn drawing<'t>(
         }
         "ExecuteBundle" => {
             let bundle = objects.name("render_bundle", part(c, 0)?)?;
-            one(
+            command(
                 "execute_bundles",
                 Code::new(format!("[&{bundle}]"), format!("[{bundle}]")),
             )

@@ -19,8 +19,8 @@ pub(super) fn held(
 
 /// Returns a list, each value printed.
 pub(super) fn each(value: &Tree, print: impl FnMut(&Tree) -> Printed) -> Printed {
-    let all: Vec<Code> = value.list().iter().map(print).collect::<Result<_, _>>()?;
-    Ok(list(all))
+    let codes: Vec<Code> = value.list().iter().map(print).collect::<Result<_, _>>()?;
+    Ok(list(codes))
 }
 
 /// Returns the size of a texture or of what is copied.

@@ -208,12 +208,12 @@ pub(super) fn bits(kind: &str, value: &Tree) -> Result<Code, BundleError> {
     if names.is_empty() {
         return Ok(Code::new(format!("wgpu::{kind}::empty()"), "0"));
     }
-    let union = |of: &str, between: &str| {
-        let all: Vec<String> = names
+    let union = |owner: &str, between: &str| {
+        let flags: Vec<String> = names
             .iter()
-            .map(|name| format!("{of}{between}{name}"))
+            .map(|name| format!("{owner}{between}{name}"))
             .collect();
-        all.join(" | ")
+        flags.join(" | ")
     };
     let web = web.filter(|(_, _, known)| names.iter().all(|name| known.contains(name)));
     Ok(Code {
@@ -225,13 +225,13 @@ pub(super) fn bits(kind: &str, value: &Tree) -> Result<Code, BundleError> {
 /// Returns a name in WebGPU's spelling as wgpu's variant.
 fn variant(word: &str) -> String {
     let word = match word.split_once('d') {
-        Some((side @ ("1" | "2" | "3"), rest)) => format!("D{side}{rest}"),
+        Some((side @ ("1" | "2" | "3"), dimension)) => format!("D{side}{dimension}"),
         _ => word.to_owned(),
     };
     let capital = |part: &str| {
-        let mut rest = part.chars();
-        let first = rest.next().map(|c| c.to_ascii_uppercase());
-        first.into_iter().chain(rest).collect::<String>()
+        let mut letters = part.chars();
+        let first = letters.next().map(|c| c.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
     };
     word.split('-').map(capital).collect()
 }
@@ -342,8 +342,8 @@ mod tests {
         let code = bits("TextureUsages", &usage).unwrap();
         let script = "GPUTextureUsage.COPY_SRC | GPUTextureUsage.RENDER_ATTACHMENT";
         assert_eq!(code.script.unwrap(), script);
-        let own = Tree::Text("COPY_SRC | TRANSIENT".to_owned());
-        assert_eq!(bits("TextureUsages", &own).unwrap().script, None);
+        let usage = Tree::Text("COPY_SRC | TRANSIENT".to_owned());
+        assert_eq!(bits("TextureUsages", &usage).unwrap().script, None);
         let mask = Tree::Number("15".to_owned());
         assert_eq!(
             bits("ColorWrites", &mask).unwrap().script.as_deref(),

@@ -24,7 +24,7 @@ const FEATURES: [(&str, &str); 8] = [
 pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Option<String> {
     let body = statements.body.script.as_ref()?;
     let check = check.script.as_ref()?;
-    let web = |name: &&str| FEATURES.iter().find(|(of, _)| of == name);
+    let web = |name: &&str| FEATURES.iter().find(|(rust, _)| rust == name);
     let needed: Option<Vec<_>> = statements.needed.iter().map(web).collect();
     let names = |features: &[&(&str, &str)]| {
         let names = features.iter().map(|(_, name)| format!("\"{name}\""));

@@ -58,8 +58,8 @@ pub(super) fn statements(recording: &Recording) -> Result<Statements<'_>, Bundle
         }
     }
     let uses = |feature: &&str| {
-        let of = |(name, word): &(&str, &str)| name == feature && body.rust.contains(word);
-        NEEDED.iter().any(of)
+        let is_used = |(name, word): &(&str, &str)| name == feature && body.rust.contains(word);
+        NEEDED.iter().any(is_used)
     };
     let needed = features.iter().copied().filter(uses).collect();
     let unread = || BundleError::Unread("the frame".to_owned());

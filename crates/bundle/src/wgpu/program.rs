@@ -98,7 +98,7 @@ fn union(names: &[&str]) -> String {
     let Some(first) = names.next() else {
         return "wgpu::Features::empty()".to_owned();
     };
-    names.fold(first, |all, name| format!("{all}.union({name})"))
+    names.fold(first, |union, name| format!("{union}.union({name})"))
 }
 
 const MAIN: &str = r#"

@@ -131,8 +131,12 @@ impl Candidate {
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
                 // The file names packages, but not those of validation layers.
-                let own = query.validate || self.remedy().is_empty();
-                let remedy = if own { &u.remedy } else { self.remedy() };
+                let starts_itself = query.validate || self.remedy().is_empty();
+                let remedy = if starts_itself {
+                    &u.remedy
+                } else {
+                    self.remedy()
+                };
                 NoStart::Absent(self.absent(&u.reason, remedy))
             }
             StartError::Launcher(reason) => {

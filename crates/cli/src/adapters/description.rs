@@ -108,11 +108,11 @@ pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
 
 /// Returns the names of the adapters that the built-in file and another one describe.
 pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failure> {
-    let mut all = built_in()?;
+    let mut descriptions = built_in()?;
     if let Some(file) = file {
-        all.append(&mut read(file)?);
+        descriptions.append(&mut read(file)?);
     }
-    Ok(all.into_iter().map(|entry| entry.name).collect())
+    Ok(descriptions.into_iter().map(|entry| entry.name).collect())
 }
 
 /// Returns the adapters of a line, oldest release first.
@@ -408,8 +408,8 @@ fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Op
 /// Replaces the variables in a text.
 fn expand(text: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<String, Unresolved> {
     let mut expanded = String::new();
-    let mut rest = text;
-    while let Some((before, behind)) = rest.split_once("${") {
+    let mut text_left = text;
+    while let Some((before, behind)) = text_left.split_once("${") {
         expanded.push_str(before);
         let (name, after) = behind
             .split_once('}')
@@ -417,9 +417,9 @@ fn expand(text: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Strin
             .ok_or_else(|| Unresolved::Form(text.to_owned()))?;
         let value = variable(name).filter(|value| !value.is_empty());
         expanded.push_str(&value.ok_or_else(|| Unresolved::Variable(name.to_owned()))?);
-        rest = after;
+        text_left = after;
     }
-    expanded.push_str(rest);
+    expanded.push_str(text_left);
     Ok(expanded)
 }
 
@@ -442,9 +442,9 @@ mod tests {
 
     #[test]
     fn the_built_in_file_is_well_formed_and_names_remedies() {
-        let all = built_in().unwrap();
-        assert!(all.len() >= 9);
-        for entry in &all {
+        let descriptions = built_in().unwrap();
+        assert!(descriptions.len() >= 9);
+        for entry in &descriptions {
             let needs = entry.backend != BackendName::Cpu;
             assert_eq!(needs, !entry.remedy.is_empty(), "{}", entry.name);
             assert_eq!(needs, entry.answers.is_some(), "{}", entry.name);

@@ -122,21 +122,21 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
 /// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.
 fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
     let built_in = description::built_in()?;
-    let mut all: Vec<Candidate> = built_in
+    let mut candidates: Vec<Candidate> = built_in
         .into_iter()
         .map(|description| Candidate::described(description, None))
         .collect();
     let Some(file) = file else {
-        return Ok(all);
+        return Ok(candidates);
     };
     for description in description::read(file)? {
-        let own = Candidate::described(description, Some(file));
-        match all.iter_mut().find(|c| c.name() == own.name()) {
-            Some(place) => *place = own,
-            None => all.push(own),
+        let candidate = Candidate::described(description, Some(file));
+        match candidates.iter_mut().find(|c| c.name() == candidate.name()) {
+            Some(place) => *place = candidate,
+            None => candidates.push(candidate),
         }
     }
-    Ok(all)
+    Ok(candidates)
 }
 
 /// Returns the devices that backends enumerate, and adds the backends that fail to `absent`.
@@ -152,13 +152,13 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
             .collect()
     });
     let mut taken = taken.clone();
-    let mut all = Vec::new();
+    let mut ready = Vec::new();
     for ((_, prefix, backend), found) in BACKENDS.into_iter().zip(found) {
         match found {
             Ok(found) => {
                 for device in devices::unique_names(&taken, found) {
                     taken.insert(device.name.clone());
-                    all.push(Candidate::enumerated(device, backend));
+                    ready.push(Candidate::enumerated(device, backend));
                 }
             }
             Err(reason) => absent.push(AbsentAdapter {
@@ -171,7 +171,7 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
             }),
         }
     }
-    all
+    ready
 }
 
 /// Prints the adapters that are absent.

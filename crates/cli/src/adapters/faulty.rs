@@ -93,9 +93,9 @@ impl Faulty {
                 black_box(0);
             },
             ProcessFault::Memory => {
-                let mut all: Vec<Vec<u8>> = Vec::new();
+                let mut hoard: Vec<Vec<u8>> = Vec::new();
                 loop {
-                    all.push(black_box(vec![1; 16 << 20]));
+                    hoard.push(black_box(vec![1; 16 << 20]));
                     thread::sleep(Duration::from_millis(5));
                 }
             }
@@ -108,11 +108,8 @@ impl Faulty {
                 self.write(&[16, 0, 0, 0, 1, 0]);
                 std::process::exit(0)
             }
-            ProcessFault::Lost => Err(BackendError::DeviceLost(planted())),
-            ProcessFault::Refused => Err(BackendError::Resource {
-                what: "a buffer".to_owned(),
-                message: planted(),
-            }),
+            ProcessFault::Lost => Err(BackendError::lost(planted())),
+            ProcessFault::Refused => Err(BackendError::refused("a buffer", planted())),
             ProcessFault::Chatter => {
                 for line in 0..100_000 {
                     say!("line {line} of a long output");
@@ -191,9 +188,9 @@ impl Backend for Faulty {
     }
 
     fn messages(&self) -> Vec<String> {
-        let mut all = self.inner.messages();
-        all.append(&mut self.messages.borrow_mut());
-        all
+        let mut messages = self.inner.messages();
+        messages.append(&mut self.messages.borrow_mut());
+        messages
     }
 }
 

@@ -76,16 +76,16 @@ fn edges(draw: &Draw) -> Vec<[[f64; 2]; 2]> {
             ]
         })
     };
-    let mut all = Vec::new();
+    let mut edges = Vec::new();
     for primitive in draw.primitives().into_iter().take(MAX_PRIMITIVES) {
         let PrimitiveVertices::Triangle(corners) = primitive else {
             continue;
         };
         if let [Some(a), Some(b), Some(c)] = corners.map(place) {
-            all.extend([[a, b], [b, c], [c, a]]);
+            edges.extend([[a, b], [b, c], [c, a]]);
         }
     }
-    all
+    edges
 }
 
 /// Calls a function with each texel to whose centre an edge is near.
@@ -99,14 +99,14 @@ fn each_near(a: [f64; 2], b: [f64; 2], size: [u32; 2], mut tell: impl FnMut([u32
     let rows = clamp(a[1].min(b[1]) - 1.0, size[1])..clamp(a[1].max(b[1]) + 2.0, size[1]);
     for y in rows {
         // The part of the edge inside the row and a margin.
-        let at = |row: f64| {
+        let channel = |row: f64| {
             if dy == 0.0 {
                 0.0
             } else {
                 ((row - a[1]) / dy).clamp(0.0, 1.0)
             }
         };
-        let (mut from, mut to) = (at(f64::from(y) - 0.5), at(f64::from(y) + 1.5));
+        let (mut from, mut to) = (channel(f64::from(y) - 0.5), channel(f64::from(y) + 1.5));
         if dy == 0.0 {
             (from, to) = (0.0, 1.0);
         }

@@ -12,9 +12,9 @@ use crate::{expectations, provenance, report_files};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
-    AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FORMAT, FolderKind,
-    FolderLock, Header, Release, ReleaseRecord, Run, Settings, Standing, VERSIONS_FILE,
-    VERSIONS_FORMAT, Verdict, Versions, VersionsHeader,
+    AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, FolderLock,
+    Header, Release, ReleaseRecord, Run, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Verdict,
+    Versions, VersionsHeader,
 };
 use etalon_runner::{
     Event, Launch, Options, Plan, RunError, Worker, releases_to_draw, run as draw,
@@ -68,7 +68,7 @@ struct Drawn {
     adapter: AdapterRecord,
 }
 
-/// What stays the same over all rounds.
+/// The part of a search that all rounds share.
 struct Search<'a> {
     folder: &'a Path,
     cases: &'a [Case],
@@ -168,8 +168,8 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
         let run = Run::read(folder).map_err(Failure::usage)?;
         let bad =
             |verdict: Verdict| matches!(Standing::from(verdict), Standing::Bad | Standing::Flaky);
-        let all = run.records.iter();
-        let failed = all.filter(|r| bad(r.verdict) && r.area() != "selftest");
+        let records = run.records.iter();
+        let failed = records.filter(|r| bad(r.verdict) && r.area() != "selftest");
         let before = globs.len();
         globs.extend(failed.map(|r| globset::escape(&r.case)));
         if globs.len() == before {
@@ -343,16 +343,12 @@ impl Search<'_> {
             folder: self.folder,
             reports: report_files::RUN,
             header: Header {
-                format: FORMAT,
                 etalon: provenance::VERSION.to_owned(),
                 commit: provenance::commit(),
                 machine: provenance::machine(),
                 started: provenance::now(),
                 command: provenance::command(),
-                cases: cases.len() as u64,
-                settings: Settings::default(),
-                adapters: vec![drawn.adapter.clone()],
-                absent: Vec::new(),
+                ..Header::new(vec![drawn.adapter.clone()], cases.len() as u64)
             },
             resume: false,
             stop: self.stop,

@@ -4,11 +4,10 @@ use crate::adapters::{Query, discover, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::flags::Format;
 use crate::output::{say, summarize, summarize_json};
 use crate::provenance;
-use crate::reducing::{Failing, smallest, started};
-use crate::reduction::{Shown, TIMEOUT};
+use crate::reducing::{Failing, FailingArguments, smallest, started};
 use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
@@ -21,7 +20,7 @@ use etalon_explore::states;
 use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Record, Source};
-use etalon_report::story_text;
+use etalon_report::{ReducedCase, story_text};
 use etalon_runner::{Launch, Recorded, Worker};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -37,13 +36,7 @@ const RUNS: u32 = 20;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    pub(crate) file: AdapterFileArguments,
-    /// Id of the case
-    #[arg(value_name = "CASE")]
-    pub(crate) case: String,
-    /// The adapter on which it fails
-    #[arg(long, value_name = "NAME")]
-    pub(crate) adapter: String,
+    pub(crate) failing: FailingArguments,
     /// Line of drivers whose newest release draws the case too
     #[arg(long, value_name = "LINE")]
     pub(crate) latest: Option<String>,
@@ -53,32 +46,22 @@ pub(crate) struct Arguments {
     /// Replace the bundle of the same name
     #[arg(long)]
     pub(crate) force: bool,
-    /// Read case files from this folder instead of the built-in ones
-    #[arg(long, value_name = "DIR")]
-    pub(crate) cases: Option<PathBuf>,
-    /// Seconds that a case may take
-    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
-    pub(crate) timeout: f64,
-    /// Form of the summary
-    #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
 }
 
 /// Reduces a failing case, and writes a program that shows the bug without the suite, and a report.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let file = arguments.file.adapter_file.as_deref();
-    let cases = arguments.cases.as_ref();
+    let failing = &arguments.failing;
     let Failing {
         name,
         candidate,
         launch,
         worker,
-    } = Failing::find(&arguments.case, &arguments.adapter, cases, file)?;
+    } = Failing::find(failing)?;
     let hello = worker.hello.clone();
     etalon_bundle::free(&arguments.out, &name, arguments.force).map_err(Failure::usage)?;
     let adapter = AdapterRecord::from(&worker);
-    let timeout = Duration::from_secs_f64(arguments.timeout);
-    let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
+    let timeout = failing.timeout();
+    let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
     let document = &smallest.reduction.smallest.document;
     let reduced = Reduced {
         arguments,
@@ -105,9 +88,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<(), Failure> {
-    let Arguments { case, adapter, .. } = arguments;
+    let FailingArguments { case, adapter, .. } = &arguments.failing;
     let [failed, runs] = report.frequency;
-    match arguments.format {
+    match arguments.failing.format {
         Format::Text => summarize(&format!(
             "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
             report.title,
@@ -175,7 +158,7 @@ struct Reduced<'a> {
     timeout: Duration,
 }
 
-/// What the driver does with the smallest case.
+/// The driver's results on the smallest case.
 struct Evidence {
     checks: Checks,
     recording: Recording,
@@ -190,7 +173,7 @@ struct Evidence {
 impl Reduced<'_> {
     /// Returns the error of a case that has no bundle.
     fn refused(&self, why: &str) -> Failure {
-        let Arguments { case, adapter, .. } = self.arguments;
+        let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         Failure {
             code: UNEXPECTED,
             message: format!(
@@ -207,7 +190,7 @@ impl Reduced<'_> {
         let checks = self.checks()?;
         let recorded = self.recorded()?;
         let judged = self.judged(&recorded.frame)?;
-        let due = self.due(&recorded.frame, &judged.record)?;
+        let demanded = self.due(&recorded.frame, &judged.record)?;
         let Some(recording) = recorded.recording else {
             let backend = &self.device.backend;
             return Err(self.refused(&format!("calls of backend {backend} are not recorded")));
@@ -217,18 +200,18 @@ impl Reduced<'_> {
             checks,
             recording,
             judged,
-            due,
+            due: demanded,
             frequency: self.frequency()?,
-            finding: finding(self.adapter, &self.arguments.case)?,
+            finding: finding(self.adapter, &self.arguments.failing.case)?,
             newest: newest.map(|line| self.newest(line)).transpose()?,
         })
     }
 
-    fn shown<'a>(&'a self, evidence: &'a Evidence) -> Shown<'a> {
-        Shown {
-            document: self.document,
+    fn described<'a>(&'a self, evidence: &'a Evidence) -> ReducedCase<'a> {
+        ReducedCase {
             record: &evidence.judged.record,
             symptom: self.symptom,
+            states: states(&self.document["scene"]),
         }
     }
 
@@ -243,7 +226,7 @@ impl Reduced<'_> {
     fn program(&self, evidence: &Evidence) -> Result<(Program, Option<ProgramRun>), Failure> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
-            sentence: self.shown(evidence).sentence(),
+            sentence: self.described(evidence).sentence(),
             run: run_command(self.launch),
         };
         let (program, ran) = shortest(
@@ -264,10 +247,11 @@ impl Reduced<'_> {
 
     /// Returns the files beside the program: the case and the pictures.
     fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
-        let Arguments { case, adapter, .. } = self.arguments;
+        let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let origin = format!("Reduced from {case} on {adapter}.");
-        let described = self.shown(evidence).described(&origin);
-        let text = serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?;
+        let mut document = self.document.clone();
+        document["about"] = json!(self.described(evidence).about(&origin));
+        let text = serde_json::to_string_pretty(&document).map_err(Failure::incomplete)?;
         let about = "the scene as a case file of etalon";
         let mut files = vec![File::text("case.json", about, format!("{text}\n"))];
         files.extend(pictures(&evidence.judged));
@@ -283,14 +267,14 @@ impl Reduced<'_> {
         files: &[File],
     ) -> Report {
         let finding = evidence.finding.as_ref();
-        let shown = self.shown(evidence);
+        let described = self.described(evidence);
         let record = &evidence.judged.record;
         let known = finding.map(|f| f.clause.clone()).filter(|c| !c.is_empty());
         let story = record.story.iter().map(story_text);
         Report {
             title: self.title(finding),
-            sentence: shown.sentence(),
-            clause: known.or_else(|| shown.clause()),
+            sentence: described.sentence(),
+            clause: known.or_else(|| described.clause()),
             device: self.device.clone(),
             machine: {
                 let machine = provenance::machine();
@@ -317,7 +301,7 @@ impl Reduced<'_> {
 
     /// Draws the case where the API checks each call.
     fn checks(&self) -> Result<Checks, Failure> {
-        let Arguments { adapter, file, .. } = self.arguments;
+        let FailingArguments { adapter, file, .. } = &self.arguments.failing;
         let opened = started(Query {
             names: std::slice::from_ref(adapter),
             file: file.adapter_file.as_deref(),
@@ -344,8 +328,8 @@ impl Reduced<'_> {
     /// Draws the case and records the calls.
     fn recorded(&self) -> Result<Recorded, Failure> {
         let (_, mut worker) = started(Query {
-            names: std::slice::from_ref(&self.arguments.adapter),
-            file: self.arguments.file.adapter_file.as_deref(),
+            names: std::slice::from_ref(&self.arguments.failing.adapter),
+            file: self.arguments.failing.adapter_file(),
             record: true,
             ..Query::default()
         })?;
@@ -377,21 +361,21 @@ impl Reduced<'_> {
             .wrong
             .iter()
             .filter(|w| w.band > etalon_frame::Band::Imprecise);
-        let mut due = Due::default();
+        let mut demanded = Due::default();
         for wrong in wrong.take(CHECKED) {
-            due.texels.extend(self.texel(frame, wrong)?);
+            demanded.texels.extend(self.texel(frame, wrong)?);
         }
         for (index, counter) in record.counters.iter().enumerate() {
             let range = counter.range();
             if !range.contains(counter.actual) {
-                due.counters.push(DueCounter {
+                demanded.counters.push(DueCounter {
                     name: counter.name.clone(),
                     index,
                     range,
                 });
             }
         }
-        Ok(due)
+        Ok(demanded)
     }
 
     /// Returns what a sample must hold in all attachments of its shape.
@@ -399,12 +383,18 @@ impl Reduced<'_> {
         let WrongTexel { x, y, sample, .. } = *wrong;
         let judged = judge_texel(self.case, 0, self.limits, [x, y], Some(frame));
         let (judgement, _) = judged.map_err(Failure::incomplete)?;
-        let own = |image: &&etalon_frame::ImageInfo| {
+        let is_asked = |image: &&etalon_frame::ImageInfo| {
             let is =
                 |m: &ChannelMismatch| m.attachment == image.attachment && m.aspect == image.aspect;
             wrong.channels.iter().any(is)
         };
-        let Some(group) = judgement.legal.images.iter().find(own).map(|i| i.group) else {
+        let Some(group) = judgement
+            .legal
+            .images
+            .iter()
+            .find(is_asked)
+            .map(|i| i.group)
+        else {
             return Ok(None);
         };
         let set = judgement.legal.groups[group].sample(x, y, sample);
@@ -451,7 +441,7 @@ impl Reduced<'_> {
 
     /// Returns the newest release of a line, and whether it draws the case wrong.
     fn newest(&self, line: &str) -> Result<(String, bool), Failure> {
-        let file = self.arguments.file.adapter_file.as_deref();
+        let file = self.arguments.failing.adapter_file();
         let mut releases = releases_of(file, line)?;
         let Some((name, release)) = releases.pop() else {
             return Err(Failure::usage(format!("line {line} has no release")));
@@ -483,11 +473,11 @@ fn pictures(judged: &Judged) -> Vec<File> {
         .images
         .iter()
         .find(|i| i.attachment == mismatch.attachment && i.aspect == mismatch.aspect);
-    let at = [wrong.x, wrong.y, wrong.sample];
-    let Some(ringed) = image.and_then(|i| etalon_report::ringed_pictures(i, at)) else {
+    let sample = [wrong.x, wrong.y, wrong.sample];
+    let Some(ringed) = image.and_then(|i| etalon_report::ringed_pictures(i, sample)) else {
         return Vec::new();
     };
-    let [due, actual, difference] = ringed.pictures;
+    let [legal, actual, difference] = ringed.pictures;
     let shown = if ringed.alpha {
         ": alpha as grey, since nothing else differs"
     } else {
@@ -498,7 +488,7 @@ fn pictures(judged: &Judged) -> Vec<File> {
     let back = format!("the picture that came back{shown}");
     let about = "wrong texels in orange, the first with a ring";
     vec![
-        File::new("expected.png", &allowed, due),
+        File::new("expected.png", &allowed, legal),
         File::new("actual.png", &back, actual),
         File::new("difference.png", about, difference),
     ]
@@ -529,7 +519,7 @@ fn versions(finding: Option<&Finding>, newest: Option<(String, bool)>) -> Option
 /// Returns the first wrong values in words.
 fn expected(record: &Record) -> Vec<Expected> {
     const SHOWN: usize = 4;
-    let mut all = Vec::new();
+    let mut lines = Vec::new();
     for wrong in record.wrong.iter().take(SHOWN) {
         for m in &wrong.channels {
             let value = |code: u32| {
@@ -545,7 +535,7 @@ fn expected(record: &Record) -> Vec<Expected> {
                 0 => String::new(),
                 n => format!(", sample {n}"),
             };
-            all.push(Expected {
+            lines.push(Expected {
                 place: format!(
                     "{channel} of {}, texel {},{}{sample}",
                     m.attachment, wrong.x, wrong.y
@@ -561,14 +551,14 @@ fn expected(record: &Record) -> Vec<Expected> {
     }
     for counter in &record.counters {
         if !counter.range().contains(counter.actual) {
-            all.push(Expected {
+            lines.push(Expected {
                 place: format!("counter {}", counter.name),
                 due: counter.range().to_string(),
                 actual: counter.actual.to_string(),
             });
         }
     }
-    all
+    lines
 }
 
 /// Returns words under which a tracker may know the bug.

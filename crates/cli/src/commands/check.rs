@@ -48,17 +48,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Err(Failure::nothing("there are no case files"));
     }
     let checked = check(&files, arguments.profile.into());
-    let told = Told {
+    let report = Told {
         broken: &broken,
         files: &checked,
         // One file's cases fit on a screen.
         each: arguments.paths.iter().any(|path| path.is_file()),
     };
     match arguments.format {
-        Format::Text => print(&told.text())?,
-        Format::Json => print_json(&told.json())?,
+        Format::Text => print(&report.text())?,
+        Format::Json => print_json(&report.json())?,
     }
-    Ok(match (told.errors(), told.warnings()) {
+    Ok(match (report.errors(), report.warnings()) {
         (1.., _) => USAGE,
         (0, 1..) => UNEXPECTED,
         (0, 0) => 0,
@@ -77,7 +77,7 @@ fn read(path: &Path) -> Result<Result<CaseFile, CaseError>, Failure> {
     let start = parts
         .iter()
         .rposition(|part| part == "cases")
-        .map_or(parts.len() - 1, |at| at + 1);
+        .map_or(parts.len() - 1, |index| index + 1);
     Ok(CaseFile::parse(&parts[start..].join("/"), &text))
 }
 
@@ -144,7 +144,7 @@ impl Told<'_> {
 
     fn json(&self) -> Value {
         let place = |e: &CaseError| json!({ "file": e.file, "line": e.line, "key": e.key, "message": e.message });
-        let places = |all: &[CaseError]| -> Vec<Value> { all.iter().map(place).collect() };
+        let places = |errors: &[CaseError]| -> Vec<Value> { errors.iter().map(place).collect() };
         let files: Vec<Value> = self
             .files
             .iter()
@@ -201,6 +201,6 @@ fn figures<'c>(cases: impl IntoIterator<Item = &'c CheckedCase>) -> (f64, f64) {
 
 /// The case with the most legal codes per channel, and their number.
 fn blurriest<'c>(cases: &[&'c CheckedCase]) -> Option<(&'c CheckedCase, f64)> {
-    let all = cases.iter().map(|case| (*case, figures([*case]).1));
-    all.reduce(|worst, one| if one.1 > worst.1 { one } else { worst })
+    let shares = cases.iter().map(|case| (*case, figures([*case]).1));
+    shares.reduce(|worst, share| if share.1 > worst.1 { share } else { worst })
 }

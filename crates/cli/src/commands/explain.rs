@@ -58,9 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         sample: arguments.sample,
         frames: &frames,
     };
-    let told = asked.all(&limits, arguments.yardstick)?;
-    print(&told.text(&case))?;
-    let bad = told.worst() > Some(Band::Imprecise);
+    let sections = asked.all(&limits, arguments.yardstick)?;
+    print(&sections.text(&case))?;
+    let bad = sections.worst() > Some(Band::Imprecise);
     Ok(if bad && case.judged_as.is_none() {
         UNEXPECTED
     } else {
@@ -132,9 +132,9 @@ impl Asked<'_> {
         }
         for index in 1..self.frames.len() {
             // A variant is told where its own picture is wrong.
-            let own = self.scene(index, limits)?;
-            if own.worst() > Some(Band::Imprecise) {
-                sections.push(own);
+            let scene = self.scene(index, limits)?;
+            if scene.worst() > Some(Band::Imprecise) {
+                sections.push(scene);
             }
         }
         if let Some((band, story)) = story_of_relation(self.case, limits, self.frames, self.texel) {
@@ -161,16 +161,17 @@ impl Asked<'_> {
         let judged = judge_texel(self.case, index, limits, self.texel, frame);
         let (judgement, comparison) = judged.map_err(Failure::incomplete)?;
         let rules = judgement.rules.clone();
-        let band = |at: &Sample| {
+        let band = |sample: &Sample| {
             let wrong = &comparison.as_ref()?.wrong;
             // Attachments of several sizes have texels of the same place.
             let of_shape = |m: &ChannelMismatch| {
-                let mut all = scene.attachments.iter();
-                let own = all.find(|a| a.name == m.attachment);
-                own.is_some_and(|a| (a.size, a.samples) == (at.size, at.samples))
+                let mut attachments = scene.attachments.iter();
+                let attachment = attachments.find(|a| a.name == m.attachment);
+                attachment.is_some_and(|a| (a.size, a.samples) == (sample.size, sample.samples))
             };
             let here = |w: &&WrongTexel| {
-                (w.x, w.y, w.sample) == (at.x, at.y, at.sample) && w.channels.iter().all(of_shape)
+                (w.x, w.y, w.sample) == (sample.x, sample.y, sample.sample)
+                    && w.channels.iter().all(of_shape)
             };
             // What the yardstick alone forbids is told only if it is asked for.
             let found = wrong.iter().find(here)?;
@@ -179,13 +180,13 @@ impl Asked<'_> {
         let several = limits.alternatives(&scene.formats()).len() > 1;
         let encodings = |i: &ImageInfo| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]);
         let heading = several.then(|| {
-            let all: Vec<String> = judgement.legal.images.iter().map(encodings).collect();
+            let lines: Vec<String> = judgement.legal.images.iter().map(encodings).collect();
             let why = if self.frames.is_empty() {
                 "one of several encodings that the API leaves open"
             } else {
                 "the API leaves the encoding open, and this one fits the texel best"
             };
-            format!("{} ({why})", all.join(", "))
+            format!("{} ({why})", lines.join(", "))
         });
         let counters = comparison.as_ref().map_or_else(Vec::new, |c| {
             let word = |band: Option<Band>| match band {
@@ -251,9 +252,9 @@ impl Asked<'_> {
                 shapes.push(shape);
             }
         }
-        let mut told: Vec<Told> = Vec::new();
+        let mut texels: Vec<Told> = Vec::new();
         for (size, samples) in shapes {
-            let from = told.len();
+            let from = texels.len();
             for sample in (0..samples).filter(|s| self.sample.is_none_or(|asked| asked == *s)) {
                 let at = Sample {
                     size,
@@ -265,17 +266,20 @@ impl Asked<'_> {
                 let band = band(&at);
                 let frame = self.frames.get(index);
                 let story = story_of_sample(self.case, index, by, at, (frame, band));
-                match told[from..].iter_mut().find(|other| other.is_alike(&story)) {
+                match texels[from..]
+                    .iter_mut()
+                    .find(|other| other.is_alike(&story))
+                {
                     Some(Told { story: other, .. }) => {
                         if let Some(ruling) = &mut other.ruling {
                             ruling.samples.push(sample);
                         }
                     }
-                    None => told.push(Told { story, band }),
+                    None => texels.push(Told { story, band }),
                 }
             }
         }
-        told
+        texels
     }
 }
 
@@ -296,8 +300,8 @@ impl Told {
 
 impl Section {
     fn worst(&self) -> Option<Band> {
-        let told = self.told.iter().filter_map(|t| t.band).max();
-        told.max(self.counters.1)
+        let band = self.told.iter().filter_map(|t| t.band).max();
+        band.max(self.counters.1)
     }
 }
 
@@ -308,12 +312,12 @@ impl Explanation {
 
     /// Returns the text: the gravest verdict, the case, then all stories.
     fn text(&self, case: &Case) -> String {
-        let all = || {
+        let texels = || {
             let sections = self.sections.iter().filter(|s| !s.yardstick);
             sections.flat_map(|s| &s.told)
         };
-        let worst = all().filter_map(|t| t.band).max();
-        let first = all().find(|t| t.band == worst);
+        let worst = texels().filter_map(|t| t.band).max();
+        let first = texels().find(|t| t.band == worst);
         let mut text = String::new();
         // Writing to a string cannot fail.
         let lines = first.map(|t| [sentence(&t.story), judged_by(&t.story)]);
@@ -321,20 +325,20 @@ impl Explanation {
             let _ = writeln!(text, "{line}");
         }
         let _ = writeln!(text, "\n{}\n{}", case.id, case.about);
-        let alone = all().count() == 1 && self.sections.len() == 1;
+        let alone = texels().count() == 1 && self.sections.len() == 1;
         for section in &self.sections {
             text.push('\n');
             if let Some(heading) = &section.heading {
                 let _ = writeln!(text, "{heading}");
             }
-            for (i, one) in section.told.iter().enumerate() {
+            for (i, texel) in section.told.iter().enumerate() {
                 if i > 0 {
                     text.push('\n');
                 }
                 text.push_str(&if alone {
-                    operations_text(&one.story)
+                    operations_text(&texel.story)
                 } else {
-                    story_text(&one.story)
+                    story_text(&texel.story)
                 });
             }
             for line in &section.counters.0 {

@@ -152,42 +152,44 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         jobs: arguments.jobs.map_or_else(processors, usize::from),
         timeout: Duration::from_secs_f64(arguments.timeout),
     };
-    let mut all = Vec::new();
+    let mut tallies = Vec::new();
     for (launch, worker) in adapters.ready {
         if search.is_stopped() {
             break;
         }
-        all.push(search.on_adapter(launch, worker)?);
+        tallies.push(search.on_adapter(launch, worker)?);
         // What was found is kept, whatever happens to the next adapter.
-        write(arguments, &all, search.is_stopped())?;
+        write(arguments, &tallies, search.is_stopped())?;
     }
     let interrupted = search.is_stopped();
-    if all.iter().all(|t| t.scenes == 0) && !interrupted {
+    if tallies.iter().all(|t| t.scenes == 0) && !interrupted {
         return Err(Failure::nothing("no scene can be drawn on these adapters"));
     }
-    print(arguments, &all, interrupted)?;
+    print(arguments, &tallies, interrupted)?;
     if interrupted {
         say!("interrupted: what was found is kept");
         return Ok(INCOMPLETE);
     }
-    Ok(if all.iter().all(|t| t.unexplained().next().is_none()) {
-        0
-    } else {
-        UNEXPECTED
-    })
+    Ok(
+        if tallies.iter().all(|t| t.unexplained().next().is_none()) {
+            0
+        } else {
+            UNEXPECTED
+        },
+    )
 }
 
-fn print(arguments: &Arguments, all: &[Tally], interrupted: bool) -> Result<(), Failure> {
+fn print(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
     let report = arguments.out.join(GROUPS);
     match arguments.format {
         Format::Json => summarize_json(&json!({
             "interrupted": interrupted,
-            "adapters": all.iter().map(Tally::json).collect::<Vec<_>>(),
-            "groups": all.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
+            "adapters": tallies.iter().map(Tally::json).collect::<Vec<_>>(),
+            "groups": tallies.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
             "report": report,
         }))?,
         Format::Text => {
-            for tally in all {
+            for tally in tallies {
                 summarize(&tally.text());
             }
             summarize(&format!("Report: {}\n", report.display()));
@@ -222,7 +224,7 @@ fn free(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What stays the same for all adapters.
+/// The part of a search that all adapters share.
 struct Search<'a> {
     arguments: &'a Arguments,
     expectations: &'a Expectations,
@@ -382,7 +384,7 @@ fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
 }
 
 /// Writes the groups, behind a line about the search and one about each adapter.
-fn write(arguments: &Arguments, all: &[Tally], interrupted: bool) -> Result<(), Failure> {
+fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
     let mut lines = vec![json!({
         "fuzz": 1,
         "etalon": provenance::VERSION,
@@ -392,9 +394,10 @@ fn write(arguments: &Arguments, all: &[Tally], interrupted: bool) -> Result<(), 
         "seed": arguments.seed,
         "interrupted": interrupted,
     })];
-    lines.extend(all.iter().map(Tally::json));
+    lines.extend(tallies.iter().map(Tally::json));
     lines.extend(
-        all.iter()
+        tallies
+            .iter()
             .flat_map(|t| t.groups.iter().map(group_text::json)),
     );
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
@@ -481,17 +484,17 @@ impl Tally {
         );
         let new = self.groups.iter().filter(|g| g.known.is_none());
         let new: Vec<&Group> = new.collect();
-        let (shown, rest) = new.split_at(new.len().min(MOST_NEW));
+        let (shown, left) = new.split_at(new.len().min(MOST_NEW));
         text.extend(shown.iter().map(|group| group_text::text(group)));
-        if !rest.is_empty() {
-            text.push_str(&format!("\n  {}\n", others(rest)));
+        if !left.is_empty() {
+            text.push_str(&format!("\n  {}\n", others(left)));
         }
         for (known, groups) in self.by_finding(false) {
             text.push_str(&headed("looks like", known, &groups));
-            let (shown, rest) = groups.split_at(groups.len().min(MOST_ALIKE));
+            let (shown, left) = groups.split_at(groups.len().min(MOST_ALIKE));
             text.extend(shown.iter().map(|group| group_text::short(group)));
-            if !rest.is_empty() {
-                text.push_str(&format!("    {}\n", others(rest)));
+            if !left.is_empty() {
+                text.push_str(&format!("    {}\n", others(left)));
             }
         }
         for (known, groups) in self.by_finding(true) {
@@ -503,18 +506,18 @@ impl Tally {
 
     /// Returns the groups of each finding, which explains them or not, those of most scenes first.
     fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
-        let mut all: Vec<(&Match, Vec<&Group>)> = Vec::new();
+        let mut matches: Vec<(&Match, Vec<&Group>)> = Vec::new();
         for group in &self.groups {
             let Some(known) = group.known.as_ref().filter(|k| k.is_exact() == explained) else {
                 continue;
             };
-            match all.iter_mut().find(|(k, _)| k.finding == known.finding) {
+            match matches.iter_mut().find(|(k, _)| k.finding == known.finding) {
                 Some((_, groups)) => groups.push(group),
-                None => all.push((known, vec![group])),
+                None => matches.push((known, vec![group])),
             }
         }
-        all.sort_by_key(|(_, groups)| std::cmp::Reverse(scenes(groups)));
-        all
+        matches.sort_by_key(|(_, groups)| std::cmp::Reverse(scenes(groups)));
+        matches
     }
 }
 

@@ -142,10 +142,10 @@ fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
 }
 
 /// True if both paths name one folder.
-fn same(one: &Path, other: &Path) -> bool {
-    match (fs::canonicalize(one), fs::canonicalize(other)) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => one == other,
+fn same(folder: &Path, other: &Path) -> bool {
+    match (fs::canonicalize(folder), fs::canonicalize(other)) {
+        (Ok(folder), Ok(other)) => folder == other,
+        _ => folder == other,
     }
 }
 

@@ -303,8 +303,8 @@ fn recall(hunt: &Hunt) -> String {
     let mut classes: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     let mut missed = String::new();
     for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_none()) {
-        let [caught, all] = classes.entry(class(mutant)).or_default();
-        *all += 1;
+        let [caught, total] = classes.entry(class(mutant)).or_default();
+        *total += 1;
         match mutant.outcome {
             Catch::Caught => *caught += 1,
             _ => missed.push_str(&format!("  {}\n", mutant.mutant.name)),
@@ -312,16 +312,16 @@ fn recall(hunt: &Hunt) -> String {
     }
     let mut text = format!("Bugs that {} random scenes catch\n\n", hunt.cases);
     let mut sums = [0; 2];
-    for (class, [caught, all]) in &classes {
-        text.push_str(&format!("{class:16} {caught:5} of {all:5}\n"));
+    for (class, [caught, total]) in &classes {
+        text.push_str(&format!("{class:16} {caught:5} of {total:5}\n"));
         if class != LARGE {
-            sums = [sums[0] + caught, sums[1] + all];
+            sums = [sums[0] + caught, sums[1] + total];
         }
     }
-    let [caught, all] = sums;
-    let share = 100.0 * caught as f64 / (all as f64).max(1.0);
+    let [caught, total] = sums;
+    let share = 100.0 * caught as f64 / (total as f64).max(1.0);
     text.push_str(&format!(
-        "\nWithout {LARGE}: {caught} of {all}, {share:.1} %, in {:.0} s\n\nNot caught\n{missed}",
+        "\nWithout {LARGE}: {caught} of {total}, {share:.1} %, in {:.0} s\n\nNot caught\n{missed}",
         hunt.seconds
     ));
     for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_some()) {

@@ -79,11 +79,11 @@ fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
         summarize(&format!("{}\n", path.display()));
     }
     let adapters = bench.header.adapters.len() as u64;
-    let due = bench.header.cases.saturating_mul(adapters);
+    let expected = bench.header.cases.saturating_mul(adapters);
     let pictures = bench.records.len() as u64;
-    if pictures < due {
+    if pictures < expected {
         say!(
-            "etalon: {} is incomplete: {pictures} of {due} pictures were judged",
+            "etalon: {} is incomplete: {pictures} of {expected} pictures were judged",
             folder.display()
         );
         return Ok(INCOMPLETE);

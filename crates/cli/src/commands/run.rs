@@ -436,17 +436,17 @@ fn asserted(run: &Run, percent: f64) -> (bool, String) {
         .records
         .iter()
         .filter(|r| !FrameTimes::AREAS.contains(&r.area()));
-    let all = counted.clone().count();
-    if all == 0 {
+    let total = counted.clone().count();
+    if total == 0 {
         let line = "nothing was asserted: no selected case is judged (--min-asserted)";
         return (false, line.to_owned());
     }
     let asserted = counted.filter(|r| r.asserts()).count();
-    let share = 100.0 * asserted as f64 / all as f64;
+    let share = 100.0 * asserted as f64 / total as f64;
     // Rounded down, so that too little never reads as enough.
     let shown = (share * 10.0).floor() / 10.0;
     let line = format!(
-        "{asserted} of {all} records asserted something: {shown} % where --min-asserted demands {percent} %"
+        "{asserted} of {total} records asserted something: {shown} % where --min-asserted demands {percent} %"
     );
     (share >= percent, line)
 }

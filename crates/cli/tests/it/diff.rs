@@ -3,8 +3,8 @@
 
 use assert_cmd::Command;
 use etalon_record::{
-    AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, Expectations, FORMAT, Header,
-    Machine, Picture, Record, Round, RunWriter, Settings, ShaderCache, Verdict,
+    AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, Expectations, Header,
+    Machine, Picture, Record, Round, RunWriter, ShaderCache, Verdict,
 };
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -111,16 +111,10 @@ fn a_slower_bench_gives_one_and_any_other_nothing() {
 /// A run of one adapter with a case per verdict.
 fn run(folder: &Path, name: &str, verdicts: &[Verdict]) {
     let header = Header {
-        format: FORMAT,
         etalon: "0.1.0".to_owned(),
-        commit: None,
-        machine: Machine::default(),
         started: "2026-01-01T00:00:00Z".to_owned(),
         command: vec!["etalon".to_owned(), "run".to_owned()],
-        cases: verdicts.len() as u64,
-        settings: Settings::default(),
-        adapters: vec![adapter(name)],
-        absent: Vec::new(),
+        ..Header::new(vec![adapter(name)], verdicts.len() as u64)
     };
     let mut writer = RunWriter::create(folder, &header).unwrap();
     for (i, verdict) in verdicts.iter().enumerate() {

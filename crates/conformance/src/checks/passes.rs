@@ -24,7 +24,7 @@ fn stencil_equal(reference: u8) -> Value {
     json!({ "stencil": { "front": { "compare": "equal" }, "reference": reference } })
 }
 
-/// What a pass drew is gone with the next one's load operation, which clears again what it clears.
+/// A load operation that clears removes the drawing of the pass before.
 pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
     let load = json!({ "color": [{ "load": { "clear": [1, 0, 0, 1] } }] });
     for draws in [json!([]), json!([green_over([3, 2, 7, 11])])] {
@@ -101,7 +101,7 @@ pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// What was discarded and cleared again is as if it had been stored.
+/// Contents that were discarded and cleared again are as if they had been stored.
 pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
     let discard = json!({ "store": "discard" });
     let frame = s.show(json!({

@@ -300,8 +300,8 @@ impl Prepared for TiledScene {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            return Err(BackendError::Internal(
-                "read back before anything was drawn".to_owned(),
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
             ));
         }
         let mut frame = Frame::default();

@@ -6,23 +6,23 @@ use serde_json::{Value, json};
 
 /// Each attachment of a pass, with all that is said of it.
 pub(crate) fn bound(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
-        let own = place!["scene", "passes", p];
+        let place = place!["scene", "passes", p];
         if pass.get("depth_stencil").is_some() {
-            all.push(without_depth_stencil(pass, &own));
+            edits.push(without_depth_stencil(pass, &place));
         }
         if pass.get("depth_stencil_resolve").is_some() {
-            all.push(Edit::removal(below(&own, "depth_stencil_resolve")));
+            edits.push(Edit::removal(below(&place, "depth_stencil_resolve")));
         }
         for location in (0..list(pass, "color").len()).rev() {
-            all.push(without_color(pass, &own, location));
+            edits.push(without_color(pass, &place, location));
         }
     }
-    all
+    edits
 }
 
-fn without_depth_stencil(pass: &Value, own: &[crate::edit::Step]) -> Edit {
+fn without_depth_stencil(pass: &Value, place: &[crate::edit::Step]) -> Edit {
     let mut edit = Edit::default();
     let keys = [
         "depth_stencil",
@@ -31,56 +31,57 @@ fn without_depth_stencil(pass: &Value, own: &[crate::edit::Step]) -> Edit {
     ];
     for key in keys {
         if pass.get(key).is_some() {
-            edit.remove.push(below(own, key));
+            edit.remove.push(below(place, key));
         }
     }
     for key in ["depth", "stencil"] {
         if pass["operations"].get(key).is_some() {
-            edit.remove.push(below(&below(own, "operations"), key));
+            edit.remove.push(below(&below(place, "operations"), key));
         }
     }
     for (c, clear) in list(pass, "clears").iter().enumerate() {
         if clear.get("color").is_none() {
-            edit.remove.push(below(&below(own, "clears"), c));
+            edit.remove.push(below(&below(place, "clears"), c));
         }
     }
     for (d, draw) in list(pass, "draws").iter().enumerate() {
         for key in ["depth", "stencil", "depth_bounds"] {
             if draw.get(key).is_some() {
                 edit.remove
-                    .push(below(&below(&below(own, "draws"), d), key));
+                    .push(below(&below(&below(place, "draws"), d), key));
             }
         }
     }
     edit
 }
 
-fn without_color(pass: &Value, own: &[crate::edit::Step], location: usize) -> Edit {
-    let mut edit = Edit::removal(below(&below(own, "color"), location));
-    for (place, all) in [
-        (below(own, "resolve"), list(pass, "resolve")),
+fn without_color(pass: &Value, place: &[crate::edit::Step], location: usize) -> Edit {
+    let mut edit = Edit::removal(below(&below(place, "color"), location));
+    for (part, members) in [
+        (below(place, "resolve"), list(pass, "resolve")),
         (
-            below(&below(own, "operations"), "color"),
+            below(&below(place, "operations"), "color"),
             list(&pass["operations"], "color"),
         ),
     ] {
-        if all.len() > location {
-            edit.remove.push(below(&place, location));
+        if members.len() > location {
+            edit.remove.push(below(&part, location));
         }
     }
     for (c, clear) in list(pass, "clears").iter().enumerate() {
-        let place = below(&below(own, "clears"), c);
+        let part = below(&below(place, "clears"), c);
         match clear.get("color").and_then(Value::as_u64) {
-            Some(at) if at == location as u64 => edit.remove.push(place),
-            Some(at) if at > location as u64 => {
-                edit.replace.push((below(&place, "color"), json!(at - 1)));
+            Some(number) if number == location as u64 => edit.remove.push(part),
+            Some(number) if number > location as u64 => {
+                edit.replace
+                    .push((below(&part, "color"), json!(number - 1)));
             }
             _ => {}
         }
     }
     for (d, draw) in list(pass, "draws").iter().enumerate() {
         if list(draw, "targets").len() > location {
-            let targets = below(&below(&below(own, "draws"), d), "targets");
+            let targets = below(&below(&below(place, "draws"), d), "targets");
             edit.remove.push(below(&targets, location));
         }
     }
@@ -121,11 +122,11 @@ pub(crate) fn unused(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
 }
 
 /// Adds all strings in a value.
-fn collect<'v>(value: &'v Value, all: &mut Vec<&'v str>) {
+fn collect<'v>(value: &'v Value, names: &mut Vec<&'v str>) {
     match value {
-        Value::String(text) => all.push(text),
-        Value::Array(list) => list.iter().for_each(|v| collect(v, all)),
-        Value::Object(map) => map.values().for_each(|v| collect(v, all)),
+        Value::String(text) => names.push(text),
+        Value::Array(list) => list.iter().for_each(|v| collect(v, names)),
+        Value::Object(map) => map.values().for_each(|v| collect(v, names)),
         _ => {}
     }
 }
@@ -145,13 +146,13 @@ mod tests {
             }],
             "read": ["a"]
         } });
-        let all = bound(&document, None);
-        let no_depth = all[0].apply(&document).unwrap();
+        let edits = bound(&document, None);
+        let no_depth = edits[0].apply(&document).unwrap();
         let pass = &no_depth["scene"]["passes"][0];
         assert_eq!(pass.get("depth_stencil"), None);
         assert_eq!(pass["clears"], json!([{ "color": 0 }, { "color": 1 }]));
         assert_eq!(pass["draws"][0].get("depth"), None);
-        let no_first = all[2].apply(&document).unwrap();
+        let no_first = edits[2].apply(&document).unwrap();
         let pass = &no_first["scene"]["passes"][0];
         assert_eq!(pass["color"], json!(["b"]));
         assert_eq!(pass["resolve"], json!(["t"]));

@@ -12,23 +12,23 @@ pub(crate) fn frames(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         .into_iter()
         .filter(|key| document.get(key).is_some())
         .collect();
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for sizes in parts(given.len()) {
         let places = given[sizes].iter().map(|key| place![*key]);
-        all.push(Edit {
+        edits.push(Edit {
             remove: places.collect(),
             ..Edit::default()
         });
     }
     for key in ["variants", "submissions", "expect"] {
         for part in parts(list(document, key).len()) {
-            all.push(Edit {
+            edits.push(Edit {
                 remove: part.map(|i| place![key, i]).collect(),
                 ..Edit::default()
             });
         }
     }
-    all
+    edits
 }
 
 /// Passes.
@@ -45,7 +45,7 @@ pub(crate) fn passes(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
 
 /// Draws. Clear commands keep their places between those that stay.
 pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
         for part in parts(list(pass, "draws").len()) {
             let mut edit = renumbered(document, &format!("/passes/{p}/draws"), &part);
@@ -61,25 +61,25 @@ pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             }
             let places = part.map(|d| place!["scene", "passes", p, "draws", d]);
             edit.remove = places.collect();
-            all.push(edit);
+            edits.push(edit);
         }
     }
-    all
+    edits
 }
 
 /// Clear commands.
 pub(crate) fn clears(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
         for part in parts(list(pass, "clears").len()) {
             let places = part.map(|c| place!["scene", "passes", p, "clears", c]);
-            all.push(Edit {
+            edits.push(Edit {
                 remove: places.collect(),
                 ..Edit::default()
             });
         }
     }
-    all
+    edits
 }
 
 /// Counters, with their names in draws.
@@ -89,7 +89,7 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         return Vec::new();
     };
     let names: Vec<&String> = counters.keys().collect();
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for part in parts(names.len()) {
         let gone = &names[part];
         let whole = gone.len() == names.len();
@@ -104,27 +104,27 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             ..Edit::default()
         };
         for draw in draws_of(document) {
-            let own = below(&draw, "counters");
-            let Some(Value::Array(used)) = crate::edit::at(document, &own) else {
+            let counters = below(&draw, "counters");
+            let Some(Value::Array(used)) = crate::edit::at(document, &counters) else {
                 continue;
             };
             let places = used.iter().enumerate().filter_map(|(i, name)| {
                 let name = name.as_str()?;
-                gone.iter().any(|g| *g == name).then(|| below(&own, i))
+                gone.iter().any(|g| *g == name).then(|| below(&counters, i))
             });
             if whole {
-                edit.remove.push(own.clone());
+                edit.remove.push(counters.clone());
             } else {
                 edit.remove.extend(places);
             }
         }
-        all.push(edit);
+        edits.push(edit);
     }
     // A draw that counts nothing.
     for draw in draws_of(document) {
-        all.push(Edit::removal(below(&draw, "counters")));
+        edits.push(Edit::removal(below(&draw, "counters")));
     }
-    all
+    edits
 }
 
 /// Returns an edit of the JSON pointers and orders of variants and of the judge's scene, when items of a list
@@ -136,18 +136,18 @@ fn renumbered(document: &Value, list: &str, gone: &Range<usize>) -> Edit {
         i => Some(i),
     };
     let pointer = |old: &str| -> Option<String> {
-        let Some(rest) = old.strip_prefix(list).and_then(|r| r.strip_prefix('/')) else {
+        let Some(path) = old.strip_prefix(list).and_then(|r| r.strip_prefix('/')) else {
             return Some(old.to_owned());
         };
-        let (item, rest) = rest
+        let (item, path) = path
             .split_once('/')
-            .map_or((rest, None), |(i, r)| (i, Some(r)));
+            .map_or((path, None), |(i, r)| (i, Some(r)));
         let Ok(item) = item.parse() else {
             return Some(old.to_owned());
         };
         let item = number(item)?;
-        Some(match rest {
-            Some(rest) => format!("{list}/{item}/{rest}"),
+        Some(match path {
+            Some(path) => format!("{list}/{item}/{path}"),
             None => format!("{list}/{item}"),
         })
     };
@@ -204,9 +204,9 @@ mod tests {
             }],
             "judged_as": { "/passes/0/draws/2/shader": "z" }
         });
-        let all = draws(&document, None);
+        let edits = draws(&document, None);
         // All, then one by one, since half of three is one.
-        let without_second = all[2].apply(&document).unwrap();
+        let without_second = edits[2].apply(&document).unwrap();
         let pass = &without_second["scene"]["passes"][0];
         assert_eq!(pass["draws"], json!([{ "shader": "a" }, { "shader": "c" }]));
         assert_eq!(
@@ -221,8 +221,8 @@ mod tests {
                 "permute": { "/passes/0/draws": [1, 0] }
             })
         );
-        let due = json!({ "/passes/0/draws/1/shader": "z" });
-        assert_eq!(without_second["judged_as"], due);
+        let expected = json!({ "/passes/0/draws/1/shader": "z" });
+        assert_eq!(without_second["judged_as"], expected);
     }
 
     #[test]
@@ -231,13 +231,13 @@ mod tests {
             "counters": { "a": "samples-passed", "b": "shader-runs" },
             "passes": [{ "draws": [{ "counters": ["a", "b"] }, { "counters": ["b"] }] }]
         } });
-        let all = counters(&document, None);
-        let none = all[0].apply(&document).unwrap();
+        let edits = counters(&document, None);
+        let none = edits[0].apply(&document).unwrap();
         assert_eq!(
             none,
             json!({ "scene": { "passes": [{ "draws": [{}, {}] }] } })
         );
-        let without_a = all[1].apply(&document).unwrap();
+        let without_a = edits[1].apply(&document).unwrap();
         let draws = &without_a["scene"]["passes"][0]["draws"];
         assert_eq!(
             *draws,

@@ -11,33 +11,33 @@ const PARTS: usize = 12;
 
 /// Each draw's mesh.
 pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for place in draws_of(document) {
-        let own = below(&place, "mesh");
-        let Some(Value::Object(mesh)) = at(document, &own) else {
+        let mesh_place = below(&place, "mesh");
+        let Some(Value::Object(mesh)) = at(document, &mesh_place) else {
             continue;
         };
         let kind = mesh.get("kind").and_then(Value::as_str).unwrap_or_default();
         let rank = WHOLE.iter().position(|k| *k == kind);
         for whole in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
             for mesh in wholes(mesh, whole, texel) {
-                all.push(Edit::replacement(own.clone(), mesh));
+                edits.push(Edit::replacement(mesh_place.clone(), mesh));
             }
         }
-        all.extend(shorter(mesh, &own));
+        edits.extend(shorter(mesh, &mesh_place));
     }
-    all
+    edits
 }
 
 /// The parts of a mesh as whole meshes of a kind. First the plain one.
 fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec<Value> {
-    let mut all = vec![json!({ "kind": kind })];
+    let mut meshes = vec![json!({ "kind": kind })];
     let list = |key: &str| -> Vec<Value> {
         let list = mesh.get(key).and_then(Value::as_array);
         list.cloned().unwrap_or_default()
     };
     let (values, z, windings) = (list("values"), list("z"), list("windings"));
-    let one = |key: &str, of: &[Value], part: usize| -> Option<Value> {
+    let part_of = |key: &str, of: &[Value], part: usize| -> Option<Value> {
         let single = mesh.get(key).filter(|v| !v.is_array() || key == "value");
         if of.is_empty() {
             single.cloned()
@@ -54,9 +54,9 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
     for part in order.take(PARTS) {
         let mut whole = json!({ "kind": kind });
         let keys = [
-            ("value", one("value", &values, part)),
-            ("z", one("z", &z, part)),
-            ("winding", one("winding", &windings, part)),
+            ("value", part_of("value", &values, part)),
+            ("z", part_of("z", &z, part)),
+            ("winding", part_of("winding", &windings, part)),
         ];
         for (key, value) in keys {
             let fits = key != "winding" || kind == "full";
@@ -64,24 +64,24 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
                 whole[key] = value;
             }
         }
-        if !all.contains(&whole) {
-            all.push(whole);
+        if !meshes.contains(&whole) {
+            meshes.push(whole);
         }
     }
-    all
+    meshes
 }
 
 /// The mesh with shorter lists: of vertices one primitive less, of others one item.
-fn shorter(mesh: &Map<String, Value>, own: &[crate::edit::Step]) -> Vec<Edit> {
-    let mut all = Vec::new();
+fn shorter(mesh: &Map<String, Value>, place: &[crate::edit::Step]) -> Vec<Edit> {
+    let mut edits = Vec::new();
     for key in ["values", "z", "windings", "uv", "indices"] {
         let length = mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);
         if !(2..=64).contains(&length) {
             continue;
         }
         for part in parts(length).into_iter().filter(|p| p.len() < length) {
-            let places = part.map(|i| below(&below(own, key), i));
-            all.push(Edit {
+            let places = part.map(|i| below(&below(place, key), i));
+            edits.push(Edit {
                 remove: places.collect(),
                 ..Edit::default()
             });
@@ -95,14 +95,14 @@ fn shorter(mesh: &Map<String, Value>, own: &[crate::edit::Step]) -> Vec<Edit> {
             let mut edit = Edit::default();
             for key in ["positions", "values", "uv"] {
                 if length(key) == count {
-                    let places = vertices.clone().map(|i| below(&below(own, key), i));
+                    let places = vertices.clone().map(|i| below(&below(place, key), i));
                     edit.remove.extend(places);
                 }
             }
-            all.push(edit);
+            edits.push(edit);
         }
     }
-    all
+    edits
 }
 
 #[cfg(test)]
@@ -119,8 +119,8 @@ mod tests {
             edit.apply(&document).unwrap()["scene"]["passes"][0]["draws"][0]["mesh"].clone()
         };
         assert_eq!(made(&edits[0]), json!({ "kind": "full" }));
-        let due = json!({ "kind": "full", "value": [1, 0, 0, 1], "z": 0.5, "winding": "cw" });
-        assert_eq!(made(&edits[1]), due);
+        let expected = json!({ "kind": "full", "value": [1, 0, 0, 1], "z": 0.5, "winding": "cw" });
+        assert_eq!(made(&edits[1]), expected);
     }
 
     #[test]

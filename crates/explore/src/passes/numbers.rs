@@ -26,7 +26,7 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             lists.push(list.to_vec());
         }
     });
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for list in &lists {
         let Some(Value::Array(items)) = at(document, list) else {
             continue;
@@ -36,7 +36,7 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         }
         // Four alike are written as one, where case files take that.
         if items.len() == 4 && items.iter().all(|item| *item == items[0]) {
-            all.push(Edit::replacement(list.clone(), items[0].clone()));
+            edits.push(Edit::replacement(list.clone(), items[0].clone()));
         }
         let rank = |items: &[Value]| {
             items
@@ -48,7 +48,7 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         for simple in [0, 1] {
             let alike = vec![json!(simple); items.len()];
             if rank(&alike) < rank(items) {
-                all.push(Edit::replacement(list.clone(), alike));
+                edits.push(Edit::replacement(list.clone(), alike));
             }
         }
     }
@@ -60,12 +60,12 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         });
         if length <= LONGEST {
             let simple = simpler(number).into_iter();
-            all.extend(simple.map(|n| Edit::replacement(place.clone(), n)));
+            edits.extend(simple.map(|n| Edit::replacement(place.clone(), n)));
         }
     }
     // A list of one key alone may be shorter than a default.
-    all.retain(|edit| edit.apply(document).is_some());
-    all
+    edits.retain(|edit| edit.apply(document).is_some());
+    edits
 }
 
 /// The simplest numbers, the first ones the simplest.
@@ -83,12 +83,12 @@ fn cost(number: f64) -> u32 {
 /// Returns the numbers that may stand for one, the simplest first.
 fn simpler(number: f64) -> Vec<Value> {
     let rounded = [1.0, 10.0, 100.0].map(|digits| (number * digits).round() / digits);
-    let mut all: Vec<f64> = Vec::new();
+    let mut numbers: Vec<f64> = Vec::new();
     for other in SIMPLEST.into_iter().chain(rounded) {
         // A whole number may have to stay one.
         let fits = number.fract() != 0.0 || other.fract() == 0.0 || number == 1.0;
-        if fits && cost(other) < cost(number) && !all.contains(&other) {
-            all.push(other);
+        if fits && cost(other) < cost(number) && !numbers.contains(&other) {
+            numbers.push(other);
         }
     }
     let value = |number: f64| {
@@ -98,7 +98,7 @@ fn simpler(number: f64) -> Vec<Value> {
             json!(number)
         }
     };
-    all.into_iter().map(value).collect()
+    numbers.into_iter().map(value).collect()
 }
 
 /// Returns a place with a key.
@@ -116,24 +116,24 @@ mod tests {
         assert_eq!(simpler(0.0), Vec::<Value>::new());
         assert_eq!(simpler(1.0), [json!(0)]);
         assert_eq!(simpler(37.0), [json!(0), json!(1), json!(-1), json!(255)]);
-        let due = [0.0, 1.0, 0.5, -1.0, 255.0, 0.6, 0.62].map(|n: f64| {
+        let expected = [0.0, 1.0, 0.5, -1.0, 255.0, 0.6, 0.62].map(|n: f64| {
             if n.fract() == 0.0 {
                 json!(n as i64)
             } else {
                 json!(n)
             }
         });
-        assert_eq!(simpler(0.6215), due);
+        assert_eq!(simpler(0.6215), expected);
     }
 
     #[test]
     fn lists_are_tried_as_a_whole_and_sizes_never() {
         let document =
             json!({ "scene": { "size": [3, 3], "color": [1, 1, 1, 1], "rect": [2, 7] } });
-        let all = numbers(&document, None);
-        assert!(all.contains(&Edit::replacement(of("color"), 1)));
-        assert!(all.contains(&Edit::replacement(of("rect"), json!([0, 0]))));
+        let edits = numbers(&document, None);
+        assert!(edits.contains(&Edit::replacement(of("color"), 1)));
+        assert!(edits.contains(&Edit::replacement(of("rect"), json!([0, 0]))));
         let touches = |edit: &Edit| edit.replace.iter().any(|(p, _)| p.starts_with(&of("size")));
-        assert!(!all.iter().any(touches));
+        assert!(!edits.iter().any(touches));
     }
 }

@@ -24,7 +24,7 @@ pub(crate) fn sizes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut all_sizes: Vec<[u64; 2]> = attachments.values().map(size).collect();
     all_sizes.sort_unstable();
     all_sizes.dedup();
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for from in all_sizes.into_iter().rev() {
         for side in SIDES {
             let to = from.map(|s| s.min(side));
@@ -41,17 +41,17 @@ pub(crate) fn sizes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
                 let mut edit = Edit::default();
                 for (name, attachment) in attachments {
                     if size(attachment) == from {
-                        let own = place!["scene", "attachments", name.as_str()];
-                        edit.replace.push((below(&own, "size"), json!(to)));
-                        window.crop_texels(attachment, &own, &mut edit);
+                        let place = place!["scene", "attachments", name.as_str()];
+                        edit.replace.push((below(&place, "size"), json!(to)));
+                        window.crop_texels(attachment, &place, &mut edit);
                     }
                 }
                 window.crop_rectangles(document, &mut edit);
-                all.push(edit);
+                edits.push(edit);
             }
         }
     }
-    all
+    edits
 }
 
 /// A part of a picture.
@@ -131,10 +131,10 @@ impl Window {
 fn numbers(value: &Value) -> Option<[u64; 4]> {
     let list = value.as_array()?.iter();
     let whole = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
-    let all: Vec<u64> = list
+    let sizes: Vec<u64> = list
         .map(|v| whole(v).map(|v| v as u64))
         .collect::<Option<_>>()?;
-    all.try_into().ok()
+    sizes.try_into().ok()
 }
 
 /// Fewer samples, in all attachments of as many; without any, what is resolved is read itself.
@@ -142,13 +142,13 @@ pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let Some(attachments) = document["scene"]["attachments"].as_object() else {
         return Vec::new();
     };
-    let of = |a: &Value| a["samples"].as_u64().unwrap_or(1);
-    let most = attachments.values().map(of).max().unwrap_or(1);
-    let mut all = Vec::new();
+    let samples_of = |a: &Value| a["samples"].as_u64().unwrap_or(1);
+    let most = attachments.values().map(samples_of).max().unwrap_or(1);
+    let mut edits = Vec::new();
     for to in [1, 2, 4, 8].into_iter().filter(|to| *to < most) {
         let mut edit = Edit::default();
         for (name, attachment) in attachments {
-            if of(attachment) == most {
+            if samples_of(attachment) == most {
                 let place = place!["scene", "attachments", name.as_str(), "samples"];
                 match to {
                     1 => edit.remove.push(place),
@@ -181,13 +181,13 @@ pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             unresolved
                 .replace
                 .push((place!["scene", "read"], json!(read)));
-            all.push(edit);
-            all.push(unresolved);
+            edits.push(edit);
+            edits.push(unresolved);
         } else {
-            all.push(edit);
+            edits.push(edit);
         }
     }
-    all
+    edits
 }
 
 #[cfg(test)]
@@ -204,14 +204,14 @@ mod tests {
             "passes": [{ "draws": [{ "scissor": [1, 0, 3, 2], "mesh": { "texels": [0, 0, 3, 3] } }] }]
         } });
         let first = sizes(&document, Some([2, 1]))[0].apply(&document).unwrap();
-        let due = json!({ "scene": {
+        let expected = json!({ "scene": {
             "attachments": {
                 "c": { "size": [1, 1] },
                 "t": { "size": [1, 1], "texels": { "kind": "columns", "values": [2] } }
             },
             "passes": [{ "draws": [{ "scissor": [0, 0, 1, 1], "mesh": { "texels": [0, 0, 1, 1] } }] }]
         } });
-        assert_eq!(first, due);
+        assert_eq!(first, expected);
     }
 
     #[test]
@@ -223,12 +223,12 @@ mod tests {
         } });
         let edits = samples(&document, None);
         let unresolved = edits[1].apply(&document).unwrap();
-        let due = json!({ "scene": {
+        let expected = json!({ "scene": {
             "attachments": { "m": {}, "r": {} },
             "passes": [{ "color": ["m"], "draws": [{}] }],
             "read": ["m"]
         } });
-        assert_eq!(unresolved, due);
+        assert_eq!(unresolved, expected);
         let two = edits[2].apply(&document).unwrap();
         assert_eq!(two["scene"]["attachments"]["m"]["samples"], 2);
     }

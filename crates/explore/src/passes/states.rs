@@ -16,7 +16,7 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         let keys = keys.filter(|key| !["mesh", "shader"].contains(&key.as_str()));
         keys.map(|key| below(draw, key.as_str())).collect()
     };
-    let mut all = vec![Edit {
+    let mut edits = vec![Edit {
         remove: draws.iter().flat_map(&states).collect(),
         ..Edit::default()
     }];
@@ -24,26 +24,26 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut keys: Vec<Place> = draws.iter().flat_map(states).collect();
     keys.sort_by(|a, b| a.last().cmp(&b.last()));
     for same in keys.chunk_by(|a, b| a.last() == b.last()) {
-        all.push(Edit {
+        edits.push(Edit {
             remove: same.to_vec(),
             ..Edit::default()
         });
     }
     for draw in &draws {
-        let own = states(draw);
-        for part in parts(own.len()) {
-            all.push(Edit {
-                remove: own[part].to_vec(),
+        let states_of_draw = states(draw);
+        for part in parts(states_of_draw.len()) {
+            edits.push(Edit {
+                remove: states_of_draw[part].to_vec(),
                 ..Edit::default()
             });
         }
     }
-    all
+    edits
 }
 
 /// Every key of the scene, those of outer values first.
 pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     let mut next = vec![place!["scene"]];
     while !next.is_empty() {
         let mut inner = Vec::new();
@@ -53,7 +53,7 @@ pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                     for key in map.keys() {
                         let member = below(&place, key.as_str());
                         if !KEPT.contains(&key.as_str()) {
-                            all.push(Edit::removal(member.clone()));
+                            edits.push(Edit::removal(member.clone()));
                         }
                         inner.push(member);
                     }
@@ -64,8 +64,8 @@ pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         }
         next = inner;
     }
-    all.extend(sizes(document));
-    all
+    edits.extend(sizes(document));
+    edits
 }
 
 /// Sizes that another attachment gives too.
@@ -95,7 +95,7 @@ mod tests {
             "attachments": { "a": { "format": "f", "size": [4, 4] }, "b": { "size": [4, 4] } },
             "passes": [{ "draws": [{ "stencil": { "front": { "compare": "less" } } }] }]
         } });
-        let all = members(&document, None);
+        let edits = members(&document, None);
         let place = |edit: &Edit| {
             let keys = edit.remove[0].iter().map(|step| match step {
                 crate::edit::Step::Key(key) => key.clone(),
@@ -103,9 +103,11 @@ mod tests {
             });
             keys.collect::<Vec<_>>().join("/")
         };
-        let places: Vec<String> = all.iter().map(place).collect();
-        let of = |name: &str| places.iter().position(|p| p.ends_with(name)).unwrap();
-        assert!(of("/stencil") < of("/front") && of("/front") < of("/compare"));
+        let places: Vec<String> = edits.iter().map(place).collect();
+        let place_of = |name: &str| places.iter().position(|p| p.ends_with(name)).unwrap();
+        assert!(
+            place_of("/stencil") < place_of("/front") && place_of("/front") < place_of("/compare")
+        );
         assert!(places.contains(&"scene/attachments/b/size".to_owned()));
         assert!(!places.contains(&"scene/attachments/a/size".to_owned()));
         assert!(!places.iter().any(|p| p.ends_with("format")));

@@ -12,7 +12,7 @@ const COLORS: usize = 6;
 
 /// Each draw's shader.
 pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for place in draws_of(document) {
         let Some(draw) = at(document, &place) else {
             continue;
@@ -27,22 +27,22 @@ pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
                     (below(&place, "shader"), json!(SIMPLE[0])),
                     (below(&place, "params"), json!({ "color": color })),
                 ];
-                all.push(edit);
+                edits.push(edit);
             }
         }
         if rank.is_none() {
             let mut edit = without_inputs(draw, &place);
             edit.replace = vec![(below(&place, "shader"), json!(SIMPLE[1]))];
-            all.push(edit.clone());
+            edits.push(edit.clone());
             for color in texels.into_iter().chain([json!(1)]) {
                 let mut edit = edit.clone();
                 let mesh = json!({ "kind": "cover", "value": color });
                 edit.replace.push((below(&place, "mesh"), mesh));
-                all.push(edit);
+                edits.push(edit);
             }
         }
     }
-    all
+    edits
 }
 
 /// An edit that leaves out what only a shader that reads textures has.
@@ -59,16 +59,16 @@ fn without_inputs(draw: &Value, place: &[crate::edit::Step]) -> Edit {
 fn colors(draw: &Value) -> Vec<Value> {
     let params = &draw["params"];
     let mesh = &draw["mesh"];
-    let own = [&params["color"], &params["back_color"], &mesh["value"]];
-    let own = own.into_iter().filter(|v| !v.is_null()).cloned();
+    let colors = [&params["color"], &params["back_color"], &mesh["value"]];
+    let colors = colors.into_iter().filter(|v| !v.is_null()).cloned();
     let of_mesh = mesh["values"].as_array().into_iter().flatten().cloned();
-    let mut all: Vec<Value> = Vec::new();
-    for color in own.chain([json!(1)]).chain(of_mesh) {
-        if !all.contains(&color) {
-            all.push(color);
+    let mut values: Vec<Value> = Vec::new();
+    for color in colors.chain([json!(1)]).chain(of_mesh) {
+        if !values.contains(&color) {
+            values.push(color);
         }
     }
-    all
+    values
 }
 
 /// Returns the colours under the wrong texel of the textures of a draw.
@@ -81,30 +81,30 @@ fn colors_of_textures(document: &Value, draw: &Value, texel: Option<[u32; 2]>) -
 
 /// Uploaded texels.
 pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     let attachments = document["scene"]["attachments"].as_object();
     for (name, attachment) in attachments.into_iter().flatten() {
         if attachment.get("texels").is_none() {
             continue;
         }
         let own = place!["scene", "attachments", name.as_str()];
-        all.push(Edit::removal(below(&own, "texels")));
+        edits.push(Edit::removal(below(&own, "texels")));
         if let Some(color) = color(attachment, texel) {
             let mut edit = Edit::removal(below(&own, "texels"));
             edit.replace.push((below(&own, "clear"), color));
-            all.push(edit);
+            edits.push(edit);
         }
         // All texels alike, for shaders that want uploaded ones.
         let values = attachment["texels"]["values"].as_array();
-        if let (Some(values), Some(one)) = (values, raw(attachment, texel))
+        if let (Some(values), Some(value)) = (values, raw(attachment, texel))
             && attachment["texels"]["kind"] != "grid"
         {
-            let alike = vec![one; values.len()];
+            let alike = vec![value; values.len()];
             let place = below(&below(&own, "texels"), "values");
-            all.push(Edit::replacement(place, alike));
+            edits.push(Edit::replacement(place, alike));
         }
     }
-    all
+    edits
 }
 
 /// Returns the uploaded values at a texel, or at the first one.
@@ -112,11 +112,11 @@ fn raw(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
     let texels: &Map<String, Value> = attachment["texels"].as_object()?;
     let values = texels.get("values")?.as_array()?;
     let [x, y] = texel.unwrap_or([0, 0]).map(|v| v as usize);
-    let of = |list: &[Value], at: usize| list.get(at).or(list.first()).cloned();
+    let nth = |list: &[Value], index: usize| list.get(index).or(list.first()).cloned();
     match texels.get("kind")?.as_str()? {
-        "columns" => of(values, x),
-        "rows" => of(values, y),
-        "grid" => of(of(values, y)?.as_array()?, x),
+        "columns" => nth(values, x),
+        "rows" => nth(values, y),
+        "grid" => nth(nth(values, y)?.as_array()?, x),
         _ => None,
     }
 }
@@ -164,14 +164,14 @@ mod tests {
         let edits = shaders(&document, Some([1, 7]));
         let draw =
             |edit: &Edit| edit.apply(&document).unwrap()["scene"]["passes"][0]["draws"][0].clone();
-        let due = json!({
+        let expected = json!({
             "mesh": { "kind": "full" }, "shader": "uniform_color",
             "params": { "color": [1, 0.2, 0, 1] }, "cull": "back"
         });
-        assert!(edits.iter().any(|edit| draw(edit) == due));
+        assert!(edits.iter().any(|edit| draw(edit) == expected));
         let cleared = texels(&document, Some([1, 7]))[1].apply(&document).unwrap();
-        let due = json!({ "format": "rgba8unorm", "clear": [1, 0.2, 0, 1] });
-        assert_eq!(cleared["scene"]["attachments"]["t"], due);
+        let expected = json!({ "format": "rgba8unorm", "clear": [1, 0.2, 0, 1] });
+        assert_eq!(cleared["scene"]["attachments"]["t"], expected);
         let simplest =
             json!({ "scene": { "passes": [{ "draws": [{ "shader": "uniform_color" }] }] } });
         assert_eq!(shaders(&simplest, None), []);

@@ -27,7 +27,7 @@ const DEPTH: [&str; 3] = ["depth32float", "stencil8", "depth24plus-stencil8"];
 
 /// Words of states, and truth values.
 pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     walk(
         &document["scene"]["passes"],
         place!["scene", "passes"],
@@ -37,7 +37,7 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 Step::Item(_) => None,
             });
             if *value == json!(true) {
-                all.push(Edit::replacement(place.clone(), false));
+                edits.push(Edit::replacement(place.clone(), false));
             }
             let (Some(key), Some(word)) = (key, value.as_str()) else {
                 return;
@@ -52,12 +52,12 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             for other in &simple[..rank] {
                 // A mask is narrowed, never moved.
                 if key != "write_mask" || word.contains(other) {
-                    all.push(Edit::replacement(place.clone(), *other));
+                    edits.push(Edit::replacement(place.clone(), *other));
                 }
             }
         },
     );
-    all
+    edits
 }
 
 /// Formats, those of all attachments of one format together.
@@ -69,7 +69,7 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut formats: Vec<String> = attachments.values().map(format).collect();
     formats.sort_unstable();
     formats.dedup();
-    let mut all = Vec::new();
+    let mut edits = Vec::new();
     for from in formats {
         let depth = from.starts_with("depth") || from.starts_with("stencil");
         let simple: &[&str] = if depth { &DEPTH } else { &["rgba8unorm"] };
@@ -80,21 +80,21 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 if format(attachment) != from {
                     continue;
                 }
-                let own = place!["scene", "attachments", name.as_str()];
-                edit.replace.push((below(&own, "format"), json!(to)));
+                let place = place!["scene", "attachments", name.as_str()];
+                edit.replace.push((below(&place, "format"), json!(to)));
                 let aspect = match *to {
                     "depth32float" => "depth",
                     "stencil8" => "stencil",
                     _ => continue,
                 };
                 if let Some(value) = attachment["clear"].get(aspect) {
-                    edit.replace.push((below(&own, "clear"), value.clone()));
+                    edit.replace.push((below(&place, "clear"), value.clone()));
                 }
             }
-            all.push(edit);
+            edits.push(edit);
         }
     }
-    all
+    edits
 }
 
 /// Calls a function with every word, number and truth value below a place.
@@ -128,10 +128,10 @@ mod tests {
             .map(|e| e.apply(&document).unwrap()["scene"]["passes"][0]["draws"][0].clone())
             .collect();
         let with = |key: &str| {
-            let all = draws.iter().map(|d| d[key].clone());
-            let mut all: Vec<Value> = all.collect();
-            all.dedup();
-            all
+            let values = draws.iter().map(|d| d[key].clone());
+            let mut values: Vec<Value> = values.collect();
+            values.dedup();
+            values
         };
         assert_eq!(
             with("logic"),

@@ -79,9 +79,9 @@ impl Maker<'_> {
 
     /// A stored stencil value, often the reference of the draws or near it.
     pub(super) fn stored_stencil(&mut self) -> u32 {
-        let own = self.reference;
+        let reference = self.reference;
         let other = self.choices.below(256);
-        self.choices.of(&[0, own, own + 1, 255, other])
+        self.choices.of(&[0, reference, reference + 1, 255, other])
     }
 
     /// A depth and stencil format, if the pass has one.

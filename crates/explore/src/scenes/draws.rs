@@ -53,7 +53,7 @@ impl Maker<'_> {
         if self.choices.once_in(3) {
             self.set("scissor", pass, shader, &mut draw);
         }
-        let rest = [
+        let others = [
             "depth_bias",
             "depth_bounds",
             "depth_clamp",
@@ -61,7 +61,7 @@ impl Maker<'_> {
             "output",
             "multisample",
         ];
-        for state in rest {
+        for state in others {
             self.set(state, pass, shader, &mut draw);
         }
         if let Some(provoking) = pass.provoking {
@@ -91,11 +91,11 @@ impl Maker<'_> {
         let shader = Shader::ALL.iter().find(|s| draw["shader"] == s.name());
         let state = self.choices.word("changed", &ALONE);
         if let (Some(shader), Some(keys)) = (shader.copied(), draw.as_object_mut()) {
-            let own = match state {
+            let value = match state {
                 "output" => &["blend", "advanced_blend", "logic", "targets", "write_mask"][..],
                 _ => &[state],
             };
-            for key in own {
+            for key in value {
                 keys.remove(*key);
             }
             self.set(state, pass, shader, &mut draw);
@@ -320,7 +320,7 @@ impl Maker<'_> {
             return self.choices.of(&[Is::SampledColor, Is::SampledDiscard]);
         }
         if self.extra("rare shaders") {
-            let mut all = vec![
+            let mut keys = vec![
                 Is::FragCoordColor,
                 Is::FragCoordDepth,
                 Is::DepthGrey,
@@ -328,8 +328,8 @@ impl Maker<'_> {
                 Is::ExpensiveColor,
             ];
             let centroid = self.space.has(Feature::CentroidInterpolation);
-            all.extend(centroid.then_some(Is::Centroid));
-            return self.choices.of(&all);
+            keys.extend(centroid.then_some(Is::Centroid));
+            return self.choices.of(&keys);
         }
         if pass.provoking.is_some() && self.choices.once_in(2) {
             return Is::FlatColor;
@@ -373,9 +373,9 @@ impl Maker<'_> {
     }
 
     fn sampler(&mut self) -> Value {
-        let all = ["clamp-to-edge", "repeat", "mirror-repeat"];
+        let modes = ["clamp-to-edge", "repeat", "mirror-repeat"];
         let filter = self.choices.word("filter", &["nearest", "linear"]);
-        let address = ["across", "down"].map(|state| self.choices.word(state, &all));
+        let address = ["across", "down"].map(|state| self.choices.word(state, &modes));
         json!({ "filter": filter, "address": address })
     }
 

@@ -92,7 +92,7 @@ impl Maker<'_> {
                 json!({ "kind": "grid", "cells": cells, "z": z, "value": self.value(written) })
             }
             "field" | "points" | "lines" | "outlines" => {
-                let of = if kind == "field" { "triangles" } else { kind };
+                let primitives = if kind == "field" { "triangles" } else { kind };
                 let (topology, mode, room) = match kind {
                     "points" => ("point-list", "fill", w * h),
                     "lines" => ("line-list", "fill", w / 8 * h),
@@ -104,7 +104,7 @@ impl Maker<'_> {
                 let count = self.choices.range(1, room.min(40));
                 indexed = self.choices.once_in(2);
                 let values: Vec<Value> = (0..3).map(|_| self.value(written)).collect();
-                json!({ "kind": "field", "of": of, "count": count, "z": z,
+                json!({ "kind": "field", "of": primitives, "count": count, "z": z,
                         "values": values, "indexed": indexed })
             }
             "strip" if h >= 2 => {

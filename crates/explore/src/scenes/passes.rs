@@ -47,21 +47,21 @@ impl Maker<'_> {
             read.push("other".to_owned());
         }
         self.choices.note("passes", number);
-        let mut all = Vec::new();
+        let mut passes = Vec::new();
         for index in 0..number {
             // The last pass reads what the first one drew, or draws what it did not.
             let other = framebuffers && index % 2 == 1;
-            let mut own = color.clone();
+            let mut colors = color.clone();
             let mut drawn = Vec::new();
             if other {
-                drawn.push(own[0].0.clone());
-                own[0].0 = "other".to_owned();
-                own.truncate(1);
+                drawn.push(colors[0].0.clone());
+                colors[0].0 = "other".to_owned();
+                colors.truncate(1);
             } else if framebuffers && index > 0 {
                 drawn.push("other".to_owned());
             }
             let pass = Pass {
-                color: own,
+                color: colors,
                 depth_stencil,
                 samples,
                 read_only: depth_stencil.is_some() && self.extra("read only"),
@@ -71,9 +71,9 @@ impl Maker<'_> {
                     .collect(),
                 provoking: self.provoking(),
             };
-            all.push(self.pass(&pass, index, &mut read));
+            passes.push(self.pass(&pass, index, &mut read));
         }
-        (all, read)
+        (passes, read)
     }
 
     fn is_integer(&self, color: &[(String, TextureFormat)]) -> bool {
@@ -99,9 +99,9 @@ impl Maker<'_> {
         if !self.choices.once_in(3) {
             return 1;
         }
-        let all = formats.iter().chain(&depth_stencil);
+        let attachments = formats.iter().chain(&depth_stencil);
         let mut counts = vec![4, 4, 2, 8, 16];
-        for format in all {
+        for format in attachments {
             let own = self.space.samples.get(format);
             counts.retain(|n| own.is_some_and(|s| s.contains(n)));
         }
@@ -182,7 +182,7 @@ impl Maker<'_> {
     fn clears(&mut self, pass: &Pass, draws: u32) -> Vec<Value> {
         let count = self.choices.range(1, 2);
         let mut before = 0;
-        let mut all = Vec::new();
+        let mut clears = Vec::new();
         let masked = self.extra_with("masked clears", Feature::MaskedClears);
         for _ in 0..count {
             before = self.choices.range(before, draws);
@@ -220,15 +220,15 @@ impl Maker<'_> {
             if self.choices.flag("clear rect", 2) {
                 clear["rect"] = json!(self.rect());
             }
-            all.push(clear);
+            clears.push(clear);
         }
-        all
+        clears
     }
 
     /// The resolves of a pass of several samples.
     fn resolves(&mut self, pass: &Pass, index: usize, value: &mut Value, read: &mut Vec<String>) {
         if !pass.color.is_empty() && self.extra("resolve") {
-            let mut all = Vec::new();
+            let mut resolves = Vec::new();
             for (i, (_, format)) in pass.color.iter().enumerate() {
                 // Into what an earlier pass was resolved to, or into another.
                 let number = if self.choices.once_in(2) { 0 } else { index };
@@ -237,9 +237,9 @@ impl Maker<'_> {
                     self.add_color(&name, *format, 1);
                     read.push(name.clone());
                 }
-                all.push(name);
+                resolves.push(name);
             }
-            value["resolve"] = json!(all);
+            value["resolve"] = json!(resolves);
         }
         let Some(format) = pass.depth_stencil else {
             return;
@@ -247,8 +247,11 @@ impl Maker<'_> {
         if !self.extra_with("depth resolve", Feature::DepthStencilResolve) {
             return;
         }
-        let modes = |maker: &mut Self, all: &[(&'static str, bool)]| {
-            let usable = all.iter().filter(|(_, has)| *has).map(|(name, _)| *name);
+        let modes = |maker: &mut Self, choices: &[(&'static str, bool)]| {
+            let usable = choices
+                .iter()
+                .filter(|(_, has)| *has)
+                .map(|(name, _)| *name);
             let usable: Vec<&'static str> = usable.collect();
             maker.choices.word("resolve mode", &usable)
         };
@@ -268,7 +271,7 @@ impl Maker<'_> {
         let mut resolve = json!({ "to": name });
         let both = format.has_depth() && format.has_stencil();
         let apart = both && has(Feature::IndependentResolve);
-        let one = both && has(Feature::IndependentResolveNone);
+        let alone = both && has(Feature::IndependentResolveNone);
         let mode = modes(
             self,
             if both && !apart {
@@ -277,17 +280,17 @@ impl Maker<'_> {
                 &of_depth
             },
         );
-        let only = if one { self.choices.below(3) } else { 0 };
+        let only = if alone { self.choices.below(3) } else { 0 };
         if format.has_depth() && only != 1 {
             resolve["depth"] = json!(mode);
         }
         if format.has_stencil() && only != 2 {
-            let own = if both && !apart {
+            let stencil = if both && !apart {
                 mode
             } else {
                 modes(self, &of_stencil)
             };
-            resolve["stencil"] = json!(own);
+            resolve["stencil"] = json!(stencil);
         }
         self.add_depth_stencil(&name, format, 1);
         read.push(name);

@@ -12,7 +12,7 @@ impl Maker<'_> {
     pub(super) fn compare(&mut self, state: &'static str) -> &'static str {
         // What draws something stands more than once, or pictures would stay empty.
         use CompareFunction as Is;
-        let all = [
+        let functions = [
             Is::Always,
             Is::Less,
             Is::LessEqual,
@@ -26,7 +26,7 @@ impl Maker<'_> {
             Is::Always,
             Is::Never,
         ];
-        self.choices.word(state, &all.map(Is::name))
+        self.choices.word(state, &functions.map(Is::name))
     }
 
     pub(super) fn depth_test(&mut self, pass: &Pass) -> Option<Value> {
@@ -105,18 +105,19 @@ impl Maker<'_> {
         let space = self.space;
         let blendable = |f: &TextureFormat| space.blendable.contains(f) && !f.is_integer();
         let can_blend = pass.color.iter().all(|(_, f)| blendable(f));
-        let one = pass.color.len() == 1;
+        let single = pass.color.len() == 1;
         if !second && self.extra_with("logic", Feature::LogicOperations) {
-            let all: Vec<&'static str> = LogicOperation::ALL.iter().map(|o| o.name()).collect();
-            draw["logic"] = json!(self.choices.word("logic", &all));
+            let operations: Vec<&'static str> =
+                LogicOperation::ALL.iter().map(|o| o.name()).collect();
+            draw["logic"] = json!(self.choices.word("logic", &operations));
             draw["write_mask"] = json!(self.mask());
             return;
         }
         let simple = |f: &TextureFormat| !f.is_integer() && *f != TextureFormat::Rgba8Snorm;
-        let advanced = one && !second && can_blend && simple(&pass.color[0].1);
+        let advanced = single && !second && can_blend && simple(&pass.color[0].1);
         if advanced && self.extra_with("advanced", Feature::AdvancedBlend) {
-            let all: Vec<&'static str> = AdvancedBlend::ALL.iter().map(|o| o.name()).collect();
-            draw["advanced_blend"] = json!(self.choices.word("advanced", &all));
+            let modes: Vec<&'static str> = AdvancedBlend::ALL.iter().map(|o| o.name()).collect();
+            draw["advanced_blend"] = json!(self.choices.word("advanced", &modes));
             draw["write_mask"] = json!(self.mask());
             return;
         }

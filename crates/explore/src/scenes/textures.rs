@@ -30,8 +30,10 @@ impl Maker<'_> {
     pub(super) fn references(&mut self) -> String {
         self.numbers("references", &mut |maker| {
             let other = maker.choices.below(256);
-            let own = maker.reference;
-            let low = maker.choices.of(&[own, own, own + 1, other]);
+            let reference = maker.reference;
+            let low = maker
+                .choices
+                .of(&[reference, reference, reference + 1, other]);
             f64::from(low) + f64::from(maker.choices.of(&[0, 0, 256, -256, 768]))
         })
     }

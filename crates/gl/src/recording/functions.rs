@@ -508,16 +508,16 @@ mod special {
                     values(lengths, count.max(0) as usize),
                 )
             };
-            let mut all = Vec::new();
+            let mut bytes = Vec::new();
             for (i, part) in texts.into_iter().enumerate() {
                 match lengths.get(i).copied().map(usize::try_from) {
                     // SAFETY: the part has this length.
-                    Some(Ok(length)) => all.extend(unsafe { values(part.cast::<u8>(), length) }),
+                    Some(Ok(length)) => bytes.extend(unsafe { values(part.cast::<u8>(), length) }),
                     // SAFETY: without a length it is terminated.
-                    _ => all.extend(unsafe { CStr::from_ptr(part) }.to_bytes()),
+                    _ => bytes.extend(unsafe { CStr::from_ptr(part) }.to_bytes()),
                 }
             }
-            let source = Argument::Text(String::from_utf8_lossy(&all).into_owned());
+            let source = Argument::Text(String::from_utf8_lossy(&bytes).into_owned());
             keep(
                 "glShaderSource",
                 vec![Shader::value(shader), Int::value(1), source],

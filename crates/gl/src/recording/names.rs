@@ -130,16 +130,16 @@ fn bits(table: &[(&str, u32)], value: u32) -> Vec<Constant> {
         name: (*name).to_owned(),
         value: *bit,
     };
-    let mut all: Vec<Constant> = table
+    let mut bits: Vec<Constant> = table
         .iter()
         .filter(|(_, bit)| value & bit != 0)
         .map(named)
         .collect();
-    let rest = all.iter().fold(value, |rest, bit| rest & !bit.value);
-    if rest != 0 || all.is_empty() {
-        all.push(nameless(rest));
+    let rest = bits.iter().fold(value, |rest, bit| rest & !bit.value);
+    if rest != 0 || bits.is_empty() {
+        bits.push(nameless(rest));
     }
-    all
+    bits
 }
 
 /// Returns the buffers of a blit.

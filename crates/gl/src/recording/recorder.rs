@@ -86,13 +86,13 @@ pub(crate) fn images(images: &[Image]) {
     with(|r| {
         let planes = std::mem::take(&mut r.planes);
         for image in images {
-            let own = planes.iter().filter(|(aspect, _)| *aspect == image.aspect);
+            let found = planes.iter().filter(|(aspect, _)| *aspect == image.aspect);
             r.images.push(RecordedImage {
                 attachment: image.attachment.clone(),
                 aspect: image.aspect,
                 channels: image.channels.clone(),
                 size: image.size,
-                planes: own.map(|(_, plane)| plane.clone()).collect(),
+                planes: found.map(|(_, plane)| plane.clone()).collect(),
             });
         }
     });

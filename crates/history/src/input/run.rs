@@ -40,7 +40,7 @@ impl Assembly {
 
     fn take(&mut self, record: Record) -> Result<(), String> {
         let place = self.places.get(&record.adapter).copied();
-        let Some(adapter) = place.and_then(|at| self.adapters.get_mut(at)) else {
+        let Some(adapter) = place.and_then(|index| self.adapters.get_mut(index)) else {
             let name = &record.adapter;
             return Err(format!("the header names no adapter {name:?}"));
         };

@@ -29,15 +29,15 @@ pub(crate) fn add(list: &mut List) {
 }
 
 fn neighbours(list: &mut List) {
-    let all = AdvancedBlend::ALL.iter().copied();
-    let next = all.clone().cycle().skip(1);
+    let modes = AdvancedBlend::ALL.iter().copied();
+    let next = modes.clone().cycle().skip(1);
     let mode: Places<AdvancedBlend> = |d| {
         d.targets
             .iter_mut()
             .filter_map(|t| t.advanced.as_mut())
             .collect()
     };
-    list.swaps("advanced-", "The mode ", mode, all.zip(next));
+    list.swaps("advanced-", "The mode ", mode, modes.zip(next));
 }
 
 /// The function of a mode, by what it makes of opaque colours.

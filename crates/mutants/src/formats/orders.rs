@@ -34,8 +34,11 @@ pub(super) fn add(list: &mut List) {
             .plant(plant);
         };
         let texels = move |codes: &mut [u32]| codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
-        let of = move |attachment: &Attachment| attachment.format == format;
-        add("read", images_of(of, move |image| texels(&mut image.codes)));
+        let has_format = move |attachment: &Attachment| attachment.format == format;
+        add(
+            "read",
+            images_of(has_format, move |image| texels(&mut image.codes)),
+        );
         let clear = move |contents: &mut Contents| {
             if let Contents::Color(color) = contents {
                 color.swap(a, b);

@@ -24,8 +24,9 @@ fn commands(bug: impl Fn(&Pass, &mut Clear) + Send + Sync + 'static) -> Plant {
 fn without(keeps: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let asked = &scene.passes[number];
-        let all = asked.clears.iter().enumerate();
-        let kept = all.filter(|(at, command)| keeps(asked, &asked.clears[..*at], command));
+        let clears = asked.clears.iter().enumerate();
+        let kept =
+            clears.filter(|(number, command)| keeps(asked, &asked.clears[..*number], command));
         pass.clears = kept.map(|(_, command)| *command).collect();
     })
 }
@@ -155,13 +156,13 @@ fn commanded(list: &mut List) {
             !before.iter().any(alike)
         }));
     list.source(CONFUSION);
-    for (name, at) in [("row", 3), ("column", 2)] {
+    for (name, side) in [("row", 3), ("column", 2)] {
         list.bug(format!(
             "command-without-last-{name}: The rectangle of a clear command lacks its last {name}."
         ))
         .plant(commands(move |_, command| {
             if let Some(rect) = &mut command.rect {
-                rect[at] -= 1;
+                rect[side] -= 1;
             }
         }));
     }
@@ -175,11 +176,11 @@ fn commanded(list: &mut List) {
             let below = |[x, y, w, h]: [u32; 4]| [x, 16_u32.saturating_sub(y + h), w, h];
             command.rect = command.rect.map(below);
         }));
-    for (at, word) in ["first", "second"].into_iter().enumerate() {
+    for (number, word) in ["first", "second"].into_iter().enumerate() {
         list.bug(format!(
             "{word}-clear-command-skipped: The {word} clear command of a pass is skipped."
         ))
-        .plant(without(move |_, before, _| before.len() != at));
+        .plant(without(move |_, before, _| before.len() != number));
     }
     list.bug("later-commands-skipped: Clear commands behind the first draw are left out.")
         .plant(without(|_, _, command| command.before == 0));

@@ -43,15 +43,15 @@ fn counted_elsewhere(draws: &mut [Draw], others: &[etalon_scene::Pass]) {
 pub(super) fn add(list: &mut List) {
     list.bug("second-query-gets-the-first: Every query gets the value of the first one.")
         .source("SwiftShader: one query for all")
-        .plant(counts(|all| {
-            all.fill(all.first().copied().unwrap_or_default())
+        .plant(counts(|counts| {
+            counts.fill(counts.first().copied().unwrap_or_default())
         }));
     list.source(CONFUSION);
     list.bug("queries-in-reverse: Queries come back in reverse.")
         .plant(counts(<[_]>::reverse));
     list.bug("last-query-lost: Of several queries the last one stays 0.")
-        .plant(counts(|all| {
-            if let [_, .., last] = all {
+        .plant(counts(|counts| {
+            if let [_, .., last] = counts {
                 *last = 0;
             }
         }));
@@ -62,13 +62,13 @@ pub(super) fn add(list: &mut List) {
             counted_elsewhere(&mut pass.draws, &asked.passes[number + 1..]);
         });
     list.bug("every-count-is-the-last: Every counter has the last one's value.")
-        .plant(alike(|all| all.fill(all[all.len() - 1])));
+        .plant(alike(|counts| counts.fill(counts[counts.len() - 1])));
     list.bug("counts-shifted: Every counter has the value of the one before.")
-        .plant(alike(|all| all.rotate_right(1)));
+        .plant(alike(|counts| counts.rotate_right(1)));
     list.bug("counts-not-reset: A counter goes on from the one before.")
-        .plant(alike(|all| {
-            for at in 1..all.len() {
-                all[at] += all[at - 1];
+        .plant(alike(|counts| {
+            for number in 1..counts.len() {
+                counts[number] += counts[number - 1];
             }
         }));
     list.bug("counter-ends-one-draw-early: A counter over several draws misses the last.")

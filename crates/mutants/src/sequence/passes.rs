@@ -55,12 +55,12 @@ fn earlier(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
 /// Changes the draws of read-only passes, or of the passes behind them.
 fn read_only(behind: bool, bug: fn(&mut Draw)) -> Plant {
     passes(move |asked, number, pass| {
-        let of = if behind {
+        let named = if behind {
             number.checked_sub(1)
         } else {
             Some(number)
         };
-        if of.is_some_and(|of| asked.passes[of].depth_stencil_read_only) {
+        if named.is_some_and(|number| asked.passes[number].depth_stencil_read_only) {
             pass.draws.iter_mut().for_each(bug);
         }
     })
@@ -175,9 +175,9 @@ fn draws(list: &mut List) {
 /// Formats, sizes and samples of attachments.
 fn shape(
     scene: &Scene,
-    all: impl IntoIterator<Item = usize>,
+    indices: impl IntoIterator<Item = usize>,
 ) -> Vec<(TextureFormat, [u32; 2], u32)> {
-    let attachments = all.into_iter().map(|i| &scene.attachments[i]);
+    let attachments = indices.into_iter().map(|i| &scene.attachments[i]);
     attachments.map(|a| (a.format, a.size, a.samples)).collect()
 }
 

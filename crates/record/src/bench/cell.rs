@@ -20,8 +20,8 @@ const LARGEST: u64 = 1024;
 /// Returns the name of the cell that a case belongs to: its id without the number of layers. `None` outside the
 /// matrix.
 pub fn cell(case: &str) -> Option<String> {
-    let rest = case.strip_prefix(AREA)?;
-    let parts = || rest.split('/');
+    let path = case.strip_prefix(AREA)?;
+    let parts = || path.split('/');
     parts().find(|part| part.starts_with(LAYERS))?;
     let kept: Vec<&str> = parts().filter(|part| !part.starts_with(LAYERS)).collect();
     Some(format!("{AREA}{}", kept.join("/")))
@@ -46,13 +46,13 @@ state_enum! {
 impl Measure {
     /// The unit of work in which two works differ, and by how much; `None` if `more` is not the larger one.
     pub fn between(less: Work, more: Work) -> Option<(Self, u64)> {
-        let of = |f: fn(Work) -> u64| f(more).checked_sub(f(less));
+        let difference = |f: fn(Work) -> u64| f(more).checked_sub(f(less));
         let passes = [
-            (Self::Read, of(|w| w.read)?),
-            (Self::Cleared, of(|w| w.cleared)?),
-            (Self::Resolved, of(|w| w.resolved)?),
+            (Self::Read, difference(|w| w.read)?),
+            (Self::Cleared, difference(|w| w.cleared)?),
+            (Self::Resolved, difference(|w| w.resolved)?),
         ];
-        let (texels, triangles) = (of(|w| w.texels)?, of(|w| w.triangles)?);
+        let (texels, triangles) = (difference(|w| w.texels)?, difference(|w| w.triangles)?);
         let draws = if texels <= LARGEST.saturating_mul(triangles) {
             (Self::Triangles, triangles)
         } else {
@@ -83,11 +83,11 @@ impl CellRate {
     /// Computes the rate from the records of a cell's cases in either order; `None` without a round of both, or
     /// without a difference of their work. Timestamps of a device count where all rounds have them and the
     /// adapter is not the processor itself, else wall time; reading back has a time of its own.
-    pub fn new(one: &BenchRecord, other: &BenchRecord, software: bool) -> Option<Self> {
-        let works = (one.picture.work?, other.picture.work?);
+    pub fn new(first: &BenchRecord, other: &BenchRecord, software: bool) -> Option<Self> {
+        let works = (first.picture.work?, other.picture.work?);
         let (less, more, (measure, work)) = match Measure::between(works.0, works.1) {
-            Some(found) => (one, other, found),
-            None => (other, one, Measure::between(works.1, works.0)?),
+            Some(found) => (first, other, found),
+            None => (other, first, Measure::between(works.1, works.0)?),
         };
         let both = || less.rounds.iter().zip(&more.rounds);
         let stamped = both().all(|(a, b)| !a.gpu.is_empty() && !b.gpu.is_empty());
@@ -150,7 +150,7 @@ mod tests {
         };
         let between = |a, b| Measure::between(a, b);
         let none = work(4, 4000, 10, 0, 10);
-        for (more, due) in [
+        for (more, expected) in [
             (
                 work(12, 4_000_000, 10, 0, 10),
                 Some((Measure::Texels, 3_996_000)),
@@ -163,7 +163,7 @@ mod tests {
             (none, None),
             (work(4, 3999, 10, 0, 10), None),
         ] {
-            assert_eq!(between(none, more), due, "{more:?}");
+            assert_eq!(between(none, more), expected, "{more:?}");
         }
     }
 }

@@ -81,8 +81,8 @@ impl Bench {
 
     /// The record of a case on an adapter.
     pub fn record(&self, case: &str, adapter: &str) -> Option<&BenchRecord> {
-        let mut all = self.records.iter();
-        all.find(|r| r.picture.case == case && r.picture.adapter == adapter)
+        let mut records = self.records.iter();
+        records.find(|r| r.picture.case == case && r.picture.adapter == adapter)
     }
 
     /// The number of rounds that a complete bench has and this one lacks. A case whose picture may not be
@@ -152,7 +152,7 @@ impl Assembly {
     fn open(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
         let key = (case.to_owned(), adapter.to_owned());
         let place = self.places.get(&key).copied();
-        let record = place.and_then(|at| self.records.get_mut(at));
+        let record = place.and_then(|place| self.records.get_mut(place));
         let record = record.ok_or_else(|| {
             format!("no picture of {case:?} on {adapter:?} was judged before this")
         })?;
@@ -171,9 +171,12 @@ impl Assembly {
     fn round(&mut self, round: Round) -> Result<(), String> {
         check(&round)?;
         let record = self.open(&round.case, &round.adapter)?;
-        let due = record.rounds.len();
-        if round.round as usize != due {
-            return Err(format!("round {} where round {due} is due", round.round));
+        let expected = record.rounds.len();
+        if round.round as usize != expected {
+            return Err(format!(
+                "round {} where round {expected} is due",
+                round.round
+            ));
         }
         record.rounds.push(round);
         Ok(())
@@ -209,12 +212,12 @@ fn check(round: &Round) -> Result<(), String> {
     let fine = |t: &f64| t.is_finite() && *t > 0.0;
     let times = [&round.wall, &round.cpu, &round.gpu, &round.read_back];
     let single = [round.prepare, round.first];
-    let mut all = times
+    let mut seconds = times
         .into_iter()
         .flatten()
         .chain(&single)
         .chain(&round.ruler);
-    if let Some(wrong) = all.find(|t| !fine(t)) {
+    if let Some(wrong) = seconds.find(|t| !fine(t)) {
         return Err(format!("a time of {wrong} s"));
     }
     if let Some(wrong) = round.clock.iter().flatten().find(|c| !fine(c)) {

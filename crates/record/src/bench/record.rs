@@ -25,8 +25,8 @@ impl BenchRecord {
 
     /// The samples of one time, round by round; rounds without any are left out.
     pub fn samples(&self, time: Time) -> Vec<&[f64]> {
-        let all = self.rounds.iter().map(|r| r.samples(time));
-        all.filter(|s| !s.is_empty()).collect()
+        let samples = self.rounds.iter().map(|r| r.samples(time));
+        samples.filter(|s| !s.is_empty()).collect()
     }
 
     /// The ruler's time of each round that has samples of this time, as [`BenchRecord::samples`].

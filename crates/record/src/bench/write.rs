@@ -7,7 +7,7 @@ use crate::conflict::bench_conflict;
 use crate::error::RecordError;
 use crate::folder::{BENCH_FILE, FolderKind};
 use crate::json::json_line;
-use crate::json_lines::cut;
+use crate::json_lines::reopen;
 use crate::report_files::ReportFiles;
 use std::fs::{self, File};
 use std::io::Write;
@@ -71,12 +71,7 @@ impl BenchWriter {
             });
         }
         let path = folder.join(BENCH_FILE);
-        let mut file = File::options()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(RecordError::io("write", &path))?;
-        cut(&mut file, whole).map_err(RecordError::io("write", &path))?;
+        let file = reopen(&path, whole)?;
         bench.truncated = false;
         Ok((Self { path, file }, bench))
     }

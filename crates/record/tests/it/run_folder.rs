@@ -2,8 +2,8 @@
 
 use etalon_frame::{
     Accuracy, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome,
-    DepthTest, Distance, Effect, Event, Limits, Origin, Rejection, SceneName, Step, Story,
-    TexelCounts, ToldLine, ValueRange, WrongTexel,
+    DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection, SceneName, Step,
+    Story, TexelCounts, ToldLine, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
@@ -167,6 +167,9 @@ prop_compose! {
         Record {
             process: lost.map(|(signal, stderr)| ProcessEnd {
                 kind: LossKind::Died, signal, exit: signal.map(|s| !s), stderr, seconds: 0.25,
+            }),
+            error: message.strip_prefix('e').map(|rest| ErrorKind::Resource {
+                object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
             }),
             validation: said.clone(),
             after: said.clone(),

@@ -146,17 +146,17 @@ fn timed(record: &BenchRecord) -> Option<Timed<'_>> {
 
 /// Sorts by median, and gives a rank of its own only to what is slower than the first of the rank
 /// before by a comparison of their samples.
-fn rank(all: &mut [Timed<'_>]) {
-    all.sort_by(|a, b| a.wall.median.total_cmp(&b.wall.median));
+fn rank(times: &mut [Timed<'_>]) {
+    times.sort_by(|a, b| a.wall.median.total_cmp(&b.wall.median));
     let mut leader = 0;
-    for at in 0..all.len() {
-        let same = at > 0 && {
-            let outcome = compare(&all[leader].samples, &all[at].samples).outcome;
+    for index in 0..times.len() {
+        let same = index > 0 && {
+            let outcome = compare(&times[leader].samples, &times[index].samples).outcome;
             outcome != Conclusion::Slower
         };
         if !same {
-            leader = at;
+            leader = index;
         }
-        all[at].rank = leader + 1;
+        times[index].rank = leader + 1;
     }
 }

@@ -100,9 +100,9 @@ mod tests {
 
     #[test]
     fn fourteen_methods_are_told_apart_by_shape_by_line_and_by_hue() {
-        let different = |of: &dyn Fn(usize) -> String| {
-            let all: BTreeSet<String> = (0..STYLES).map(of).collect();
-            assert_eq!(all.len(), STYLES, "{all:?}");
+        let different = |style: &dyn Fn(usize) -> String| {
+            let styles: BTreeSet<String> = (0..STYLES).map(style).collect();
+            assert_eq!(styles.len(), STYLES, "{styles:?}");
         };
         different(&|i| SHAPES[i].to_owned());
         different(&|i| dash(i).to_owned());
@@ -110,8 +110,8 @@ mod tests {
         for theme in sheet.split("--k0:").skip(1) {
             let theme = format!("--k0:{theme}");
             different(&|i| {
-                let (_, rest) = theme.split_once(&format!("--k{i}:")).unwrap();
-                rest.split(';').next().unwrap().trim().to_owned()
+                let (_, behind) = theme.split_once(&format!("--k{i}:")).unwrap();
+                behind.split(';').next().unwrap().trim().to_owned()
             });
         }
         // Each has its class, and its rule of the legend.

@@ -85,7 +85,7 @@ impl Scale {
                 (0..powers)
                     .map(|i| first + i as f64 * step)
                     .flat_map(|e| parts.iter().map(move |p| (e + p.log10(), *p, e)))
-                    .filter(|(at, _, _)| (low..=high).contains(at))
+                    .filter(|(value, _, _)| (low..=high).contains(value))
                     .map(|(_, p, e)| power(p, e))
                     .collect()
             }
@@ -145,8 +145,8 @@ mod tests {
             }
             for scale in scales {
                 for v in &values {
-                    let at = scale.at(*v);
-                    assert!(at > 0.0 && at < 1.0, "{scale:?} {v} {at}");
+                    let place = scale.at(*v);
+                    assert!(place > 0.0 && place < 1.0, "{scale:?} {v} {place}");
                 }
                 let ticks = scale.ticks(5);
                 assert!((2..=12).contains(&ticks.len()), "{scale:?} {ticks:?}");

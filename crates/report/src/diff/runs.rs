@@ -85,12 +85,12 @@ pub fn diff(
     }
     let unreadable = found.changes.iter().filter_map(|c| c.frame_error.as_ref());
     if let Some(first) = unreadable.clone().next() {
-        let told = format!(
+        let message = format!(
             "{} of frames of changed cases could not be compared: {first}",
             count(unreadable.count() as u64, "pair")
         );
-        found.warnings.push(told.clone());
-        found.untold.push(told);
+        found.warnings.push(message.clone());
+        found.untold.push(message);
     }
     found.changes.sort_by(|a, b| order(a).cmp(&order(b)));
     Ok(found)

@@ -157,7 +157,7 @@ fn file_name(adapter: &str, taken: &mut BTreeSet<String>) -> String {
         .map(|c| if fine(c) { c } else { '_' })
         .collect();
     let safe = match safe.strip_prefix('.') {
-        Some(rest) => format!("_{rest}"),
+        Some(suffix) => format!("_{suffix}"),
         None if safe.is_empty() => "_".to_owned(),
         None => safe,
     };

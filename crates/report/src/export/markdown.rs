@@ -54,25 +54,25 @@ impl Text {
     }
 
     /// Adds a section with a line per item; nothing if there are no items.
-    fn list<T>(&mut self, title: &str, all: &[T], line: impl Fn(&T) -> String) {
-        if !all.is_empty() {
+    fn list<T>(&mut self, title: &str, items: &[T], line: impl Fn(&T) -> String) {
+        if !items.is_empty() {
             self.line(&format!("## {title}\n"));
-            self.lines(all, LISTED, line);
+            self.lines(items, LISTED, line);
             self.line("");
         }
     }
 
     /// Adds as many lines as there is room for, at most so many, and says how many more there are.
-    fn lines<T>(&mut self, all: &[T], most: usize, line: impl Fn(&T) -> String) {
-        let shown = all
+    fn lines<T>(&mut self, items: &[T], most: usize, line: impl Fn(&T) -> String) {
+        let shown = items
             .iter()
             .take(most)
             .take_while(|item| self.line(&line(item)));
-        let rest = all.len() - shown.count();
-        if rest > 0 {
+        let left = items.len() - shown.count();
+        if left > 0 {
             // The room behind the sections is there for this.
             self.text
-                .push_str(&format!("\n{rest} more left out of this summary.\n"));
+                .push_str(&format!("\n{left} more left out of this summary.\n"));
         }
     }
 }
@@ -110,8 +110,8 @@ fn head(text: &mut Text, run: &Run, news: Option<&News>) {
     if let Some(why) = incomplete(run) {
         text.line(&format!("**✗ Incomplete: {why}.**\n"));
     }
-    let all = run.records.iter().filter(|r| r.unexpected()).count() as u64;
-    let bad = news.map_or(all, News::counted);
+    let unexpected = run.records.iter().filter(|r| r.unexpected()).count() as u64;
+    let bad = news.map_or(unexpected, News::counted);
     if bad > 0 {
         text.line(&format!("**✗ {}.**\n", count(bad, "unexpected record")));
     } else if !run.records.is_empty() {
@@ -175,19 +175,19 @@ fn told(text: &mut Text, news: &News) {
 
 /// A row per adapter, a column per verdict that occurs.
 fn adapters(text: &mut Text, run: &Run) {
-    let mut of: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
+    let mut records_of: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
     for record in &run.records {
-        of.entry(&record.adapter).or_default().push(record);
+        records_of.entry(&record.adapter).or_default().push(record);
     }
     for adapter in &run.header.adapters {
-        of.entry(&adapter.name).or_default();
+        records_of.entry(&adapter.name).or_default();
     }
-    let rows: Vec<(&str, Tally)> = of
+    let rows: Vec<(&str, Tally)> = records_of
         .into_iter()
         .map(|(adapter, records)| (adapter, Tally::of(records)))
         .collect();
     let missing = |tally: &Tally| run.header.cases.saturating_sub(tally.total);
-    let any = |of: &dyn Fn(&Tally) -> u64| rows.iter().any(|(_, tally)| of(tally) > 0);
+    let any = |count: &dyn Fn(&Tally) -> u64| rows.iter().any(|(_, tally)| count(tally) > 0);
     let mut table = Table::<&(&str, Tally)>::new("")
         .text("adapter", |(adapter, _)| code(adapter, 100))
         .text("driver", |(adapter, _)| {

@@ -145,9 +145,9 @@ mod tests {
     #[test]
     fn what_speaks_against_a_run_is_failed_or_broken_and_nothing_else_is() {
         for verdict in Verdict::ALL {
-            for (due, expected) in [(false, false), (true, false), (false, true), (true, true)] {
+            for (is_due, expected) in [(false, false), (true, false), (false, true), (true, true)] {
                 let mut record = Record::new("a/b", "cpu", verdict);
-                record.due_fail = due;
+                record.due_fail = is_due;
                 record.expected = expected.then(|| Expected {
                     reason: "known".to_owned(),
                 });
@@ -164,14 +164,14 @@ mod tests {
     #[test]
     fn seconds_are_finite() {
         let mut record = Record::new("a", "b", Verdict::Pass);
-        for (draw, due) in [
+        for (draw, expected) in [
             (f64::NAN, 0.0),
             (-1.0, 0.0),
             (f64::INFINITY, 366.0 * 86_400.0),
             (0.5, 0.5),
         ] {
             record.seconds = Seconds { draw, judge: 0.0 };
-            assert_eq!(seconds(&record), due);
+            assert_eq!(seconds(&record), expected);
         }
     }
 }

@@ -47,10 +47,10 @@ pub(super) struct Gaps {
 
 impl Gaps {
     fn longer(&mut self, than: u32, from: u32, runs: u32) -> u32 {
-        let all = &mut self.all;
+        let courses = &mut self.all;
         let number = self.numbers.entry((than, from, runs)).or_insert_with(|| {
-            all.push((than, from, runs));
-            all.len() as u32
+            courses.push((than, from, runs));
+            courses.len() as u32
         });
         *number
     }
@@ -60,7 +60,7 @@ impl Gaps {
         let mut list = Vec::new();
         while let Some((before, from, runs)) = number
             .checked_sub(1)
-            .and_then(|at| self.all.get(at as usize))
+            .and_then(|index| self.all.get(index as usize))
         {
             list.push((*from, *runs));
             number = *before;
@@ -88,16 +88,16 @@ impl Courses {
         looks: &mut Looks,
         mut each: impl FnMut(usize, usize, u32, &Looks),
     ) -> Result<Self, HistoryError> {
-        let mut of: Vec<Option<Course>> = Vec::new();
-        of.resize_with(cases, || None);
+        let mut course_of: Vec<Option<Course>> = Vec::new();
+        course_of.resize_with(cases, || None);
         let mut gaps = Gaps::default();
-        for (at, run) in line.runs.iter().enumerate() {
-            let here = at as u32;
+        for (index, run) in line.runs.iter().enumerate() {
+            let here = index as u32;
             for (case, outcome) in history.records(run.part)? {
                 let look = looks.of(history, outcome)?;
                 let case = case.number() as usize - 1;
-                each(at, case, look, looks);
-                match &mut of[case] {
+                each(index, case, look, looks);
+                match &mut course_of[case] {
                     Some(course) => {
                         let missed = here - course.last - 1;
                         if missed > 0 {
@@ -121,7 +121,7 @@ impl Courses {
             }
         }
         let mut courses = Self {
-            of,
+            of: course_of,
             gaps,
             holed: HashMap::new(),
         };
@@ -162,10 +162,10 @@ impl Course {
             all[from as usize..(from + runs) as usize].fill(None);
         }
         let each = all.iter().zip(&line.runs).zip(0..);
-        each.filter_map(|((look, run), at)| match look {
+        each.filter_map(|((look, run), index)| match look {
             Some(look) if looks.is_undecided(*look) => None,
-            Some(look) => Some((at, looks.class(*look))),
-            None => run.whole.then_some((at, Class::Missing)),
+            Some(look) => Some((index, looks.class(*look))),
+            None => run.whole.then_some((index, Class::Missing)),
         })
         .collect()
     }

@@ -124,11 +124,11 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     let all = order.iter().map(|case| {
         let id: Vec<char> = cases[*case].chars().collect();
         let shared = id.iter().zip(&before).take_while(|(a, b)| a == b).count();
-        let rest: String = id[shared..].iter().collect();
+        let ending: String = id[shared..].iter().collect();
         // The script counts in UTF-16.
         let shared: usize = id[..shared].iter().map(|c| c.len_utf16()).sum();
         before = id;
-        json!([shared, rest])
+        json!([shared, ending])
     });
     all.collect()
 }
@@ -179,8 +179,8 @@ impl CaseFiles {
             let course = of.of[case].as_ref()?;
             Some(course_data(line, course, of))
         };
-        let all = courses.iter().enumerate().filter_map(on_line);
-        let text = all.collect::<Value>().to_string();
+        let lines = courses.iter().enumerate().filter_map(on_line);
+        let text = lines.collect::<Value>().to_string();
         now.bytes += 4;
         let number = match now.numbers.get(&text) {
             Some(number) => *number,
@@ -209,19 +209,19 @@ impl CaseFiles {
 
 impl CaseFile {
     fn text(self) -> String {
-        let (courses, of, more) = (self.courses.join(","), json!(self.of), json!(self.more));
-        format!("[[{courses}],{of},{more}]")
+        let (courses, places, more) = (self.courses.join(","), json!(self.of), json!(self.more));
+        format!("[[{courses}],{places},{more}]")
     }
 }
 
 /// Timeline, first and last run, spans, and gaps and events as far as there are any.
-fn course_data(line: usize, course: &Course, of: &Courses) -> Value {
+fn course_data(line: usize, course: &Course, courses: &Courses) -> Value {
     let spans: Vec<u32> = course
         .spans
         .iter()
         .flat_map(|(from, look)| [*from, *look])
         .collect();
-    let gaps = of.gaps.list(course.gaps);
+    let gaps = courses.gaps.list(course.gaps);
     let gaps: Vec<u32> = gaps
         .into_iter()
         .flat_map(|(from, runs)| [from, runs])
@@ -258,7 +258,7 @@ fn entry_data(entry: &TriageEntry) -> Value {
 
 /// The series of a case.
 pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
-    let all: Vec<Value> = series
+    let series_data: Vec<Value> = series
         .iter()
         .map(|one| {
             let on = history
@@ -269,7 +269,7 @@ pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
             json!([one.line, on, one.ruler.clone().unwrap_or_default(), times])
         })
         .collect();
-    json!([id, all]).to_string()
+    json!([id, series_data]).to_string()
 }
 
 fn timed(timed: &Timed) -> Value {
@@ -327,7 +327,9 @@ fn timed(timed: &Timed) -> Value {
 /// Ascending numbers as first number and length of each stretch.
 fn ranges(numbers: &[usize]) -> Vec<usize> {
     let stretches = numbers.chunk_by(|a, b| a + 1 == *b);
-    stretches.flat_map(|all| [all[0], all.len()]).collect()
+    stretches
+        .flat_map(|stretch| [stretch[0], stretch.len()])
+        .collect()
 }
 
 /// A number in four digits.
@@ -351,8 +353,8 @@ pub(super) fn events(
     ranks: &[usize],
 ) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
-    for (line, of) in courses.iter().enumerate() {
-        for (case, course) in of.of.iter().enumerate() {
+    for (line, line_courses) in courses.iter().enumerate() {
+        for (case, course) in line_courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
                 let place = places.timelines[line].runs[event.at as usize].place;
                 let kinds = found.entry(place).or_default();
@@ -398,7 +400,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, due) in [
+        for (value, expected) in [
             (1234.56, "1235"),
             (12.3456, "12.35"),
             (0.012_345_6, "0.01235"),
@@ -409,7 +411,7 @@ mod tests {
             (100.0, "100"),
             (1e-20, "0"),
         ] {
-            assert_eq!(number(value).to_string(), due);
+            assert_eq!(number(value).to_string(), expected);
         }
         assert_eq!(ranges(&[0, 1, 2, 5, 7, 8]), [0, 3, 5, 1, 7, 2]);
     }

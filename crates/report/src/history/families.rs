@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn a_family_is_what_stands_before_the_axes() {
-        for (id, due) in [
+        for (id, expected) in [
             ("depth/compare/compare=less/write=true", "depth/compare"),
             ("perf/matrix/fill/blend=off", "perf/matrix/fill"),
             ("found/softpipe", "found"),
@@ -71,7 +71,7 @@ mod tests {
             ("/", ""),
             ("ä/ö=1", "ä"),
         ] {
-            assert_eq!(family(id), due, "{id}");
+            assert_eq!(family(id), expected, "{id}");
         }
         let cases: Vec<Rc<str>> = ["b/x/a=1", "a/y/a=1", "b/x/a=2"].map(Rc::from).to_vec();
         let families = Families::new(&cases);

@@ -22,11 +22,13 @@ pub(super) struct Counted<'a> {
 /// The runs that stand for the versions, the last whole one of each; of a driver that never changed, all whole runs.
 pub(super) fn columns(line: &Line<'_>) -> Vec<usize> {
     let whole: Vec<usize> = (0..line.runs.len())
-        .filter(|at| line.runs[*at].whole)
+        .filter(|run| line.runs[*run].whole)
         .collect();
-    let version = |at: &usize| line.runs[*at].part.adapter.shown_version();
+    let version = |run: &usize| line.runs[*run].part.adapter.shown_version();
     let stretches = whole.chunk_by(|a, b| version(a) == version(b));
-    let last: Vec<usize> = stretches.filter_map(|all| all.last().copied()).collect();
+    let last: Vec<usize> = stretches
+        .filter_map(|stretch| stretch.last().copied())
+        .collect();
     match last.len() {
         1 => whole,
         _ => last,
@@ -41,8 +43,8 @@ pub(super) fn table(
     counted: &Counted<'_>,
 ) -> Markup {
     let line = counted.line;
-    let all = columns(line);
-    let shown = &all[all.len().saturating_sub(COLUMNS)..];
+    let shown_runs = columns(line);
+    let shown = &shown_runs[shown_runs.len().saturating_sub(COLUMNS)..];
     let common = counted
         .scores
         .sum(0..families.names.len(), shown[0])
@@ -51,9 +53,9 @@ pub(super) fn table(
     let areas = (0..families.areas.len())
         .map(|area| (Some(&*families.areas[area]), of_area(families, area)));
     let areas: Vec<(Option<&str>, Vec<usize>)> = areas
-        .filter(|(_, of)| {
-            let own = |at: &usize| counted.scores.sum(of.iter().copied(), *at).own.of;
-            shown.iter().any(|at| own(at) > 0)
+        .filter(|(_, family)| {
+            let drawn = |run: &usize| counted.scores.sum(family.iter().copied(), *run).own.of;
+            shown.iter().any(|run| drawn(run) > 0)
         })
         .collect();
     let all_areas = (None, (0..families.names.len()).collect());
@@ -61,22 +63,22 @@ pub(super) fn table(
         .spoken(format!("Good cases by area and version on {}", line.name))
         .row_class(|(area, _)| area.map_or("sum", |_| ""))
         .head("Area", |(area, _)| html! { (area.unwrap_or("all")) });
-    for (i, at) in shown.iter().enumerate() {
-        let run = &line.runs[*at];
+    for (i, number) in shown.iter().enumerate() {
+        let run = &line.runs[*number];
         let head = html! {
             a href={ "#run=" (places.runs[run.place].id) } {
                 (run.part.adapter.shown_version()) " " small { (places.day(run.place)) }
             }
         };
-        table = table.text(head, move |(_, of)| {
-            let sum = |at: usize| counted.scores.sum(of.iter().copied(), at);
+        table = table.text(head, move |(_, cases)| {
+            let sum = |run: usize| counted.scores.sum(cases.iter().copied(), run);
             let before = i.checked_sub(1).map(|before| sum(shown[before]).common);
-            cell(&sum(*at), before)
+            cell(&sum(*number), before)
         });
     }
     html! {
         details open[number < 3] {
-            summary { h3 { (breakable(&line.name)) } " " small { (of_all(all.len(), shown.len())) } }
+            summary { h3 { (breakable(&line.name)) } " " small { (of_all(shown_runs.len(), shown.len())) } }
             p.cap {
                 "Large: good of the " (thousands(common as u64))
                 " cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. "
@@ -87,17 +89,18 @@ pub(super) fn table(
     }
 }
 
-fn of_all(all: usize, shown: usize) -> String {
-    if all == shown {
-        format!("{all} columns")
+fn of_all(runs: usize, shown: usize) -> String {
+    if runs == shown {
+        format!("{runs} columns")
     } else {
-        format!("the last {shown} of {all} columns")
+        format!("the last {shown} of {runs} columns")
     }
 }
 
 fn of_area(families: &Families, area: usize) -> Vec<usize> {
-    let all = families.area_of.iter().enumerate();
-    all.filter(|(_, of)| **of == area)
+    let families_of_cases = families.area_of.iter().enumerate();
+    families_of_cases
+        .filter(|(_, area_of)| **area_of == area)
         .map(|(family, _)| family)
         .collect()
 }
@@ -136,19 +139,19 @@ fn shade(score: Score) -> Option<String> {
 pub(super) fn data(families: &Families, counted: &Counted<'_>) -> Value {
     let whole = (0..counted.line.runs.len())
         .rev()
-        .filter(|at| counted.line.runs[*at].whole);
-    let of: Vec<Vec<usize>> = (0..families.areas.len())
+        .filter(|run| counted.line.runs[*run].whole);
+    let areas: Vec<Vec<usize>> = (0..families.areas.len())
         .map(|area| of_area(families, area))
         .collect();
-    let rows = whole.map(|at| {
-        let cells = of.iter().map(|of| {
-            let both = counted.scores.sum(of.iter().copied(), at);
+    let rows = whole.map(|run| {
+        let cells = areas.iter().map(|family| {
+            let both = counted.scores.sum(family.iter().copied(), run);
             match both.own.of {
                 0 => json!(0),
                 _ => json!([both.common.good, both.common.of, both.own.good, both.own.of]),
             }
         });
-        json!([at, cells.collect::<Vec<Value>>()])
+        json!([run, cells.collect::<Vec<Value>>()])
     });
     json!({ "areas": families.areas, "rows": rows.collect::<Vec<Value>>() })
 }

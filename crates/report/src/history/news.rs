@@ -125,10 +125,14 @@ impl News {
         let mut counts = vec![[0; 5]; told.len()];
         let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
         let mut sets: BTreeMap<(usize, u32), BTreeMap<usize, u64>> = BTreeMap::new();
-        for (line, of) in told.iter().enumerate() {
-            for (case, course) in of.courses.of.iter().enumerate() {
+        for (line, line_news) in told.iter().enumerate() {
+            for (case, course) in line_news.courses.of.iter().enumerate() {
                 let Some(course) = course else { continue };
-                for event in course.events.iter().filter(|e| e.at as usize == of.last) {
+                for event in course
+                    .events
+                    .iter()
+                    .filter(|e| e.at as usize == line_news.last)
+                {
                     let kind = number(event.event);
                     counts[line][kind] += 1;
                     if kind > 2 {
@@ -152,9 +156,9 @@ impl News {
         items.extend(sets.iter().map(|((kind, family), lines)| {
             of_set(*kind, &families.names[*family as usize], lines, told)
         }));
-        for one in series {
-            for timed in &one.times {
-                items.extend(of_times(places, one, timed, &cases[one.case], told));
+        for times in series {
+            for timed in &times.times {
+                items.extend(of_times(places, times, timed, &cases[times.case], told));
             }
         }
         items.sort_by(|a, b| (a.kind, &a.rank).cmp(&(b.kind, &b.rank)));
@@ -163,22 +167,23 @@ impl News {
 
     /// The lines for a screen: of each kind its share, and of the worst what room is left.
     pub(super) fn screen(&self) -> Vec<&Item> {
-        let of = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
+        let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
-        let mut due: BTreeMap<Kind, usize> = BTreeMap::new();
+        let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
         for kind in Kind::ALL {
-            let lines = of(kind).count().min(kind.due()).min(room);
-            due.insert(kind, lines);
+            let lines = items(kind).count().min(kind.due()).min(room);
+            counts.insert(kind, lines);
             room -= lines;
         }
         for kind in Kind::ALL {
-            let lines = due.entry(kind).or_default();
-            let more = (of(kind).count() - *lines).min(room);
+            let lines = counts.entry(kind).or_default();
+            let more = (items(kind).count() - *lines).min(room);
             *lines += more;
             room -= more;
         }
-        due.into_iter()
-            .flat_map(|(kind, lines)| of(kind).take(lines))
+        counts
+            .into_iter()
+            .flat_map(|(kind, lines)| items(kind).take(lines))
             .collect()
     }
 }
@@ -187,14 +192,14 @@ fn of_case(
     kind: usize,
     case: &str,
     hits: &[Hit],
-    told: &[Told<'_>],
+    lines: &[Told<'_>],
     states: &TriageStates,
 ) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
     let entry = |hit: &Hit| {
         states.get(&Subject {
             case: case.to_owned(),
-            timeline: told[hit.line].line.name.to_string(),
+            timeline: lines[hit.line].line.name.to_string(),
             step: None,
         })
     };
@@ -211,7 +216,7 @@ fn of_case(
     // Adapters with the same change share a mention.
     let texts = grouped(
         hits.iter()
-            .map(|hit| (&*hit.text, &*told[hit.line].line.name)),
+            .map(|hit| (&*hit.text, &*lines[hit.line].line.name)),
     );
     let texts: Vec<String> = texts
         .into_iter()
@@ -236,9 +241,17 @@ fn of_case(
     }
 }
 
-fn of_set(kind: usize, family: &str, lines: &BTreeMap<usize, u64>, told: &[Told<'_>]) -> Item {
+fn of_set(
+    kind: usize,
+    family: &str,
+    lines: &BTreeMap<usize, u64>,
+    lines_told: &[Told<'_>],
+) -> Item {
     let most = lines.values().max().copied().unwrap_or(0);
-    let names: Vec<&str> = lines.keys().map(|line| &*told[*line].line.name).collect();
+    let names: Vec<&str> = lines
+        .keys()
+        .map(|line| &*lines_told[*line].line.name)
+        .collect();
     let (word, verb) = match kind {
         3 => ("+ appeared", "new"),
         _ => ("− gone", "without a verdict"),
@@ -275,9 +288,9 @@ fn of_times(
     series: &Series,
     timed: &Timed,
     case: &str,
-    told: &[Told<'_>],
+    lines: &[Told<'_>],
 ) -> Vec<Item> {
-    let line = &told[series.line].line.runs;
+    let line = &lines[series.line].line.runs;
     // The end of a series that nobody measures any more is no news.
     let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
     let recent = |point: &ChangePoint| {
@@ -292,9 +305,9 @@ fn of_times(
             continue;
         }
         let known = !is_open || point.cause == Cause::Machine || point.returns;
-        let run = |at: usize| {
-            let at = at.min(timed.runs.len() - 1);
-            places.day(timed.runs[at])
+        let run = |index: usize| {
+            let index = index.min(timed.runs.len() - 1);
+            places.day(timed.runs[index])
         };
         let ratio = &point.ratio;
         let size = ratio.estimate.ln().abs();
@@ -316,7 +329,7 @@ fn of_times(
                 probability(point.p),
                 run(point.between[0]),
                 run(point.between[1]),
-                told[series.line].line.name,
+                lines[series.line].line.name,
                 change(point.visible),
                 point.cause.text(),
                 if point.returns {

@@ -87,7 +87,7 @@ pub(super) fn page(start: &Start<'_>) -> String {
 
 fn news(start: &Start<'_>) -> Markup {
     let screen = start.news.screen();
-    let all = start.news.items.len();
+    let items = start.news.items.len();
     html! {
         section id="news" {
             h2 { "Since the last run" }
@@ -95,8 +95,8 @@ fn news(start: &Start<'_>) -> Markup {
                 p.state.good { "Nothing changed." }
             } @else {
                 ul.news { @for item in &screen { (line(item)) } }
-                @if all > screen.len() {
-                    p { a href="#all-news" { "All " (thousands(all as u64)) " changes" } }
+                @if items > screen.len() {
+                    p { a href="#all-news" { "All " (thousands(items as u64)) " changes" } }
                 }
             }
         }
@@ -121,8 +121,8 @@ fn line(item: &Item) -> Markup {
 /// The last run of every adapter, and what changed in numbers.
 fn last_runs(start: &Start<'_>) -> Markup {
     let places = start.places;
-    let run = |line: &Told<'_>, at: usize| {
-        let run = &line.line.runs[at];
+    let run = |line: &Told<'_>, index: usize| {
+        let run = &line.line.runs[index];
         html! {
             a href={ "#run=" (places.runs[run.place].id) } { (places.day(run.place)) }
             " " (run.part.adapter.shown_version())
@@ -138,7 +138,7 @@ fn last_runs(start: &Start<'_>) -> Markup {
         .text("Last run", |(line, _)| {
             html! { (run(line, line.last)) @if !line.line.runs[line.last].whole { " " small { "(a part)" } } }
         })
-        .text("Run before", |(line, _)| line.last.checked_sub(1).map(|at| run(line, at)));
+        .text("Run before", |(line, _)| line.last.checked_sub(1).map(|index| run(line, index)));
     let words = ["Broken", "Flaky", "Fixed", "Appeared", "Gone"];
     for (kind, (word, colour)) in words.into_iter().zip(["f", "o", "p", "", ""]).enumerate() {
         table = table.number(word, move |(_, counts)| {
@@ -147,14 +147,14 @@ fn last_runs(start: &Start<'_>) -> Markup {
     }
     table
         .text("Last change", |(line, _)| {
-            last_change(line).map(|at| run(line, at))
+            last_change(line).map(|index| run(line, index))
         })
         .page(start.told.iter().zip(&start.news.counts))
 }
 
 /// The last run that shows an event.
-fn last_change(told: &Told<'_>) -> Option<usize> {
-    let courses = told.courses.of.iter().flatten();
+fn last_change(line: &Told<'_>) -> Option<usize> {
+    let courses = line.courses.of.iter().flatten();
     let events = courses.flat_map(|course| &course.events);
     events.map(|event| event.at as usize).max()
 }
@@ -163,14 +163,17 @@ fn last_change(told: &Told<'_>) -> Option<usize> {
 fn families(start: &Start<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..start.families.names.len())
         .map(|family| {
-            let of = |counted: &Counted<'_>| {
-                let whole = (0..counted.line.runs.len()).filter(|at| counted.line.runs[*at].whole);
-                whole.map(|at| counted.scores.common(family, at)).collect()
+            let scores_of = |counted: &Counted<'_>| {
+                let whole =
+                    (0..counted.line.runs.len()).filter(|index| counted.line.runs[*index].whole);
+                whole
+                    .map(|index| counted.scores.common(family, index))
+                    .collect()
             };
-            start.counted.iter().map(of).collect()
+            start.counted.iter().map(scores_of).collect()
         })
         .collect();
-    let is_moving = |family: &usize| scores[*family].iter().any(|of| moves(of));
+    let is_moving = |family: &usize| scores[*family].iter().any(|row| moves(row));
     let (moving, still): (Vec<usize>, Vec<usize>) = (0..scores.len()).partition(is_moving);
     html! {
         section id="families" {

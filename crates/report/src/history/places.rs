@@ -40,7 +40,7 @@ impl<'a> Places<'a> {
             .iter()
             .filter(|run| run.resumed.is_none() && run.has_labels(only))
             .collect();
-        let of: HashMap<RunId, usize> = runs.iter().map(|run| run.id).zip(0..).collect();
+        let numbers: HashMap<RunId, usize> = runs.iter().map(|run| run.id).zip(0..).collect();
         let names = history.timelines();
         let number: HashMap<Rc<str>, usize> = names.iter().cloned().zip(0..).collect();
         let mut timelines: Vec<Line<'a>> = names
@@ -54,7 +54,7 @@ impl<'a> Places<'a> {
             let line = number
                 .get(&part.timeline)
                 .and_then(|n| timelines.get_mut(*n));
-            if let (Some(place), Some(line)) = (of.get(&part.run), line) {
+            if let (Some(place), Some(line)) = (numbers.get(&part.run), line) {
                 line.runs.push(LineRun {
                     place: *place,
                     part,
@@ -69,7 +69,7 @@ impl<'a> Places<'a> {
         Self {
             runs,
             timelines,
-            of,
+            of: numbers,
         }
     }
 
@@ -93,10 +93,10 @@ impl Line<'_> {
             .iter()
             .map(|run| u64::from(run.part.records))
             .collect();
-        for (at, run) in self.runs.iter_mut().enumerate() {
-            let near = at.saturating_sub(AROUND)..(at + AROUND + 1).min(records.len());
+        for (number, run) in self.runs.iter_mut().enumerate() {
+            let near = number.saturating_sub(AROUND)..(number + AROUND + 1).min(records.len());
             let most = records[near].iter().max().copied().unwrap_or(0);
-            run.whole = runs[run.place].missing == 0 && records[at] * 10 >= most * 9;
+            run.whole = runs[run.place].missing == 0 && records[number] * 10 >= most * 9;
         }
         if self.runs.iter().all(|run| !run.whole) {
             for run in &mut self.runs {

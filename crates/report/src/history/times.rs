@@ -75,24 +75,24 @@ pub(super) fn read(
         }
     }
     // Changes take nearly all of the time. All points were checked, so there is no error.
-    let found = on_threads(&measured, |one| {
-        let changes = change_points(&one.points).ok()?;
-        let fresh = fresh(&one.points, &changes);
+    let found = on_threads(&measured, |key| {
+        let changes = change_points(&key.points).ok()?;
+        let fresh = fresh(&key.points, &changes);
         Some((changes, fresh))
     });
-    for (one, found) in measured.into_iter().zip(found) {
+    for (key, found) in measured.into_iter().zip(found) {
         let Some((changes, fresh)) = found else {
             continue;
         };
-        all[one.series].times.push(Timed {
+        all[key.series].times.push(Timed {
             states: changes
                 .points
                 .iter()
-                .map(|change| one.state(change))
+                .map(|change| key.state(change))
                 .collect(),
-            time: one.time,
-            runs: one.runs,
-            points: one.points,
+            time: key.time,
+            runs: key.runs,
+            points: key.points,
             changes,
             fresh,
         });
@@ -109,7 +109,7 @@ struct Measured<'a> {
     /// The places of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    /// What people said of its steps, by the place of the run.
+    /// People's words on its steps, by the place of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
 
@@ -140,8 +140,9 @@ fn said<'a>(
         return Ok(Vec::new());
     }
     let case = history.case_name(key.case)?;
-    let of = |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
-    let entries = states.iter().filter(|(subject, _)| of(subject));
+    let is_subject =
+        |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
+    let entries = states.iter().filter(|(subject, _)| is_subject(subject));
     let entries = entries.filter_map(|(subject, entry)| {
         let step = subject.step.filter(|step| step.machine == key.machine)?;
         Some((step.time, places.of(step.run)?, entry))
@@ -152,8 +153,9 @@ fn said<'a>(
 impl Timed {
     /// The changes with what people said of each, and whether the last run showed them.
     pub(super) fn told(&self) -> impl Iterator<Item = (&ChangePoint, Option<&TriageEntry>, bool)> {
-        let told = self.changes.points.iter().zip(&self.states);
-        told.zip(&self.fresh)
+        let points = self.changes.points.iter().zip(&self.states);
+        points
+            .zip(&self.fresh)
             .map(|((change, state), fresh)| (change, state.as_ref(), *fresh))
     }
 }
@@ -171,7 +173,9 @@ fn fresh(points: &[Point], changes: &Changes) -> Vec<bool> {
             (from..=to).contains(&other.index)
                 || (other.between[0]..=other.between[1]).contains(&change.index)
         };
-        let known = before.as_ref().map(|all| all.points.iter().any(same));
+        let known = before
+            .as_ref()
+            .map(|changes| changes.points.iter().any(same));
         recent(&change) && known == Some(false)
     });
     each.collect()

@@ -16,6 +16,7 @@ use etalon_history::{History, Labels, TriageEntry};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 /// The file by which a folder is known to be the page of a history.
 pub const HISTORY_PAGE_FILE: &str = "history.json";
@@ -64,25 +65,10 @@ pub fn write_history(
     let cases = history.cases()?;
     let families = Families::new(cases);
     let mut looks = Looks::default();
-    let (mut courses, mut scores) = (Vec::new(), Vec::new());
-    for line in &places.timelines {
-        let mut score = Scores::new(families.names.len(), line.runs.len());
-        let all = Courses::read(
-            history,
-            line,
-            cases.len(),
-            &mut looks,
-            |run, case, look, looks| {
-                score.take(families.of[case], run, looks.class(look));
-            },
-        )?;
-        score.compare(&all, line, &families, &looks);
-        courses.push(all);
-        scores.push(score);
-    }
+    let (courses, scores) = scored(history, &places, &families, &mut looks)?;
     let states = history.triage_states()?;
     let series = times::read(history, &places, &states)?;
-    let told = places
+    let lines = places
         .timelines
         .iter()
         .zip(&courses)
@@ -91,56 +77,25 @@ pub fn write_history(
             courses,
             last: line.last(&places.runs),
         });
-    let told: Vec<Told<'_>> = told.collect();
-    let news = News::find(&places, &told, cases, &families, &looks, &series, &states);
-
-    // The script compares ids in UTF-16.
-    let mut order: Vec<usize> = (0..cases.len()).collect();
-    order.sort_by(|a, b| cases[*a].encode_utf16().cmp(cases[*b].encode_utf16()));
-    let mut ranks = vec![0; cases.len()];
-    for (rank, case) in order.iter().enumerate() {
-        ranks[*case] = rank;
-    }
+    let lines: Vec<Told<'_>> = lines.collect();
+    let news = News::find(&places, &lines, cases, &families, &looks, &series, &states);
 
     let mut write = |name: &str, value: &str| {
         folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
     };
+    let order = Order::of(cases);
     write("runs", &data::runs(history, &places, &looks).to_string())?;
-    write("cases", &data::cases(cases, &order).to_string())?;
+    write("cases", &data::cases(cases, &order.cases).to_string())?;
     write("news", &data::news(&news).to_string())?;
-
-    let mut of_case: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
-    for one in &series {
-        of_case.entry(one.case).or_default().push(one);
-    }
-    let log = history.triage_log()?;
-    let mut said: BTreeMap<&str, Vec<&TriageEntry>> = BTreeMap::new();
-    for entry in log.iter().filter(|entry| entry.subject.step.is_none()) {
-        said.entry(&entry.subject.case).or_default().push(entry);
-    }
-    let (mut files, mut timed) = (CaseFiles::new(), Packed::new());
-    for (rank, case) in order.iter().enumerate() {
-        let id = &cases[*case];
-        let times = of_case.get(case).map(|series| {
-            timed.push(rank, &data::times(id, history, series));
-            timed.last()
-        });
-        let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
-        files.push(rank, *case, &courses, times, said);
-    }
-    let (first, files) = files.finish();
-    for (number, text) in files.iter().enumerate() {
-        write(&format!("case-{number}"), text)?;
-    }
-    for (number, text) in timed.files.iter().enumerate() {
-        write(&format!("times-{number}"), &format!("[{text}]"))?;
-    }
-    let mut events = Packed::new();
-    for (place, text) in data::events(&places, &courses, &ranks) {
-        events.push(place, &text);
-    }
-    for (number, text) in events.files.iter().enumerate() {
-        write(&format!("run-{number}"), &format!("[{text}]"))?;
+    let packed = packed(history, &places, &courses, &series, &order)?;
+    for (kind, files) in [
+        ("case", &packed.cases),
+        ("times", &packed.times),
+        ("run", &packed.events),
+    ] {
+        for (number, text) in files.iter().enumerate() {
+            write(&format!("{kind}-{number}"), text)?;
+        }
     }
     let counted: Vec<Counted<'_>> = places
         .timelines
@@ -154,13 +109,14 @@ pub fn write_history(
     }
 
     let names: Vec<&str> = places.timelines.iter().map(|line| &*line.name).collect();
-    let index = json!({ "timelines": names, "cases": first, "runs": events.first });
+    let index =
+        json!({ "timelines": names, "cases": packed.first_cases, "runs": packed.first_runs });
     let html = page(&Start {
         history,
         places: &places,
         families: &families,
         counted: &counted,
-        told: &told,
+        told: &lines,
         news: &news,
         cases: cases.len(),
         index: &index.to_string(),
@@ -175,5 +131,97 @@ pub fn write_history(
         start: html.len() as u64,
         files,
         bytes,
+    })
+}
+
+/// The courses and the scores of each timeline.
+type Scored = (Vec<Courses>, Vec<Scores>);
+
+fn scored(
+    history: &History,
+    places: &Places<'_>,
+    families: &Families,
+    looks: &mut Looks,
+) -> Result<Scored, ReportError> {
+    let (mut all_courses, mut scores) = (Vec::new(), Vec::new());
+    let cases = families.of.len();
+    for line in &places.timelines {
+        let mut score = Scores::new(families.names.len(), line.runs.len());
+        let courses = Courses::read(history, line, cases, looks, |run, case, look, looks| {
+            score.take(families.of[case], run, looks.class(look));
+        })?;
+        score.compare(&courses, line, families, looks);
+        all_courses.push(courses);
+        scores.push(score);
+    }
+    Ok((all_courses, scores))
+}
+
+/// Cases as the script sorts them, which compares ids in UTF-16, and the rank of each.
+struct Order {
+    cases: Vec<usize>,
+    ranks: Vec<usize>,
+}
+
+impl Order {
+    fn of(ids: &[Rc<str>]) -> Self {
+        let mut cases: Vec<usize> = (0..ids.len()).collect();
+        cases.sort_by(|a, b| ids[*a].encode_utf16().cmp(ids[*b].encode_utf16()));
+        let mut ranks = vec![0; ids.len()];
+        for (rank, case) in cases.iter().enumerate() {
+            ranks[*case] = rank;
+        }
+        Self { cases, ranks }
+    }
+}
+
+/// The files of cases, of their frame times and of the events of runs, with the first case or run of each file.
+struct PackedFiles {
+    cases: Vec<String>,
+    times: Vec<String>,
+    events: Vec<String>,
+    first_cases: Vec<usize>,
+    first_runs: Vec<usize>,
+}
+
+fn packed(
+    history: &History,
+    places: &Places<'_>,
+    courses: &[Courses],
+    series: &[Series],
+    order: &Order,
+) -> Result<PackedFiles, ReportError> {
+    let cases = history.cases()?;
+    let mut series_of: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
+    for times in series {
+        series_of.entry(times.case).or_default().push(times);
+    }
+    let log = history.triage_log()?;
+    let mut said: BTreeMap<&str, Vec<&TriageEntry>> = BTreeMap::new();
+    for entry in log.iter().filter(|entry| entry.subject.step.is_none()) {
+        said.entry(&entry.subject.case).or_default().push(entry);
+    }
+    let (mut files, mut timed) = (CaseFiles::new(), Packed::new());
+    for (rank, case) in order.cases.iter().enumerate() {
+        let id = &cases[*case];
+        let times = series_of.get(case).map(|series| {
+            timed.push(rank, &data::times(id, history, series));
+            timed.last()
+        });
+        let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
+        files.push(rank, *case, courses, times, said);
+    }
+    let mut events = Packed::new();
+    for (place, text) in data::events(places, courses, &order.ranks) {
+        events.push(place, &text);
+    }
+    let (first_cases, files) = files.finish();
+    let listed = |files: &[String]| files.iter().map(|text| format!("[{text}]")).collect();
+    Ok(PackedFiles {
+        cases: files,
+        times: listed(&timed.files),
+        events: listed(&events.files),
+        first_cases,
+        first_runs: events.first,
     })
 }

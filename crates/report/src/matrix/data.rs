@@ -75,10 +75,10 @@ impl CellOutcome {
             let (verdict, message) = end(record);
             return Self::Untimed(verdict, message.to_owned());
         }
-        let [one, other] = records else {
+        let [first, other] = records else {
             return Self::Incomplete;
         };
-        match CellRate::new(one, other, software) {
+        match CellRate::new(first, other, software) {
             Some(rate) if rate.slope.below_resolution => Self::Below(rate),
             Some(rate) => Self::Rate(rate),
             None => Self::Incomplete,
@@ -176,11 +176,11 @@ fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
     let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();
     for size in &sizes {
         for adapter in adapters {
-            let of = |which| {
+            let clocks = |which| {
                 let cell = cells.iter().find(|c| c.is(which, size))?;
                 cell.results.get(*adapter)?.outcome.rate()
             };
-            let (base, clear) = (of(BASE), of(CLEAR));
+            let (base, clear) = (clocks(BASE), clocks(CLEAR));
             let same_size = cells.iter_mut().filter(|c| c.size == *size);
             for entry in same_size.filter_map(|c| c.results.get_mut(*adapter)) {
                 let texels = entry

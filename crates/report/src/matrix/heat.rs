@@ -32,8 +32,8 @@ impl<'a> Heat<'a> {
     /// The heat maps of the cells of one size.
     pub(super) fn all(cells: &[&'a Cell]) -> Vec<Self> {
         let maps = MAPS.iter().map(|(title, groups, row_axes)| {
-            let of = |cell: &&&Cell| groups.contains(&cell.group.as_str());
-            let mut cells: Vec<&Cell> = cells.iter().filter(of).copied().collect();
+            let in_groups = |cell: &&&Cell| groups.contains(&cell.group.as_str());
+            let mut cells: Vec<&Cell> = cells.iter().filter(in_groups).copied().collect();
             cells.sort_by_key(|c| groups.iter().position(|group| *group == c.group));
             let mut columns = distinct(cells.iter().map(|c| column(c, row_axes)));
             columns
@@ -52,17 +52,26 @@ impl<'a> Heat<'a> {
     /// The cells that stand in no heat map, by group.
     pub(super) fn rest(cells: &[&'a Cell]) -> Vec<(&'a str, Vec<&'a Cell>)> {
         let is_rest = |c: &&&Cell| !MAPS.iter().any(|m| m.1.contains(&c.group.as_str()));
-        let rest: Vec<&Cell> = cells.iter().filter(is_rest).copied().collect();
-        let groups = distinct(rest.iter().map(|c| c.group.as_str()));
-        let of = |group| rest.iter().filter(|c| c.group == group).copied().collect();
-        groups.into_iter().map(|group| (group, of(group))).collect()
+        let others: Vec<&Cell> = cells.iter().filter(is_rest).copied().collect();
+        let groups = distinct(others.iter().map(|c| c.group.as_str()));
+        let in_group = |group| {
+            others
+                .iter()
+                .filter(|c| c.group == group)
+                .copied()
+                .collect()
+        };
+        groups
+            .into_iter()
+            .map(|group| (group, in_group(group)))
+            .collect()
     }
 
     pub(super) fn cell(&self, row: &[&str], column: &(String, &str)) -> Option<&'a Cell> {
-        let mut all = self.cells.iter();
-        let at =
+        let mut cells = self.cells.iter();
+        let place =
             |c: &&&Cell| key(c, self.row_axes) == row && self::column(c, self.row_axes) == *column;
-        all.find(at).copied()
+        cells.find(place).copied()
     }
 
     /// The tests of the columns, each with its number of columns.

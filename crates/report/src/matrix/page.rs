@@ -95,9 +95,9 @@ fn head(matrix: &Matrix<'_>) -> Markup {
 /// The range of the processors' clock around the rounds.
 fn clock(matrix: &Matrix<'_>) -> Option<String> {
     let rounds = matrix.bench.records.iter().flat_map(|r| &r.rounds);
-    let mut all: Vec<f64> = rounds.filter_map(|r| r.clock).flatten().collect();
-    all.sort_by(f64::total_cmp);
-    let megahertz = |q| Some(digits(quantile(&all, q)?.round(), 4));
+    let mut clocks: Vec<f64> = rounds.filter_map(|r| r.clock).flatten().collect();
+    clocks.sort_by(f64::total_cmp);
+    let megahertz = |q| Some(digits(quantile(&clocks, q)?.round(), 4));
     Some(format!(
         "{} to {} MHz around the rounds, median {} MHz",
         megahertz(0.0)?,

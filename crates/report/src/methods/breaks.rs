@@ -84,8 +84,8 @@ impl Break {
                     .enumerate()
                     .map(|(i, c)| {
                         let verb = if c.leaves { "leaves" } else { "comes within" };
-                        let of = if i == 0 { " 1\u{a0}% RMSE" } else { " it" };
-                        format!("{verb}{of} at {parameter} {}", c.text())
+                        let limit = if i == 0 { " 1\u{a0}% RMSE" } else { " it" };
+                        format!("{verb}{limit} at {parameter} {}", c.text())
                     })
                     .collect();
                 format!("{method} {}", parts.join(", "))
@@ -100,7 +100,10 @@ mod tests {
 
     fn crossings(curve: &[(f64, f64)], log: bool) -> Vec<(f64, bool)> {
         match find(curve, log) {
-            Some(Break::Crossings(all)) => all.iter().map(|c| (c.value, c.leaves)).collect(),
+            Some(Break::Crossings(crossings_found)) => crossings_found
+                .iter()
+                .map(|c| (c.value, c.leaves))
+                .collect(),
             other => panic!("{other:?}"),
         }
     }
@@ -108,30 +111,35 @@ mod tests {
     #[test]
     fn breaks_are_interpolated_between_logarithms() {
         // Halfway between 0.001 and 0.1 on a logarithmic scale.
-        let [(at, leaves)] = crossings(&[(0.0, 0.001), (1.0, 0.1)], false)[..] else {
+        let [(value, leaves)] = crossings(&[(0.0, 0.001), (1.0, 0.1)], false)[..] else {
             panic!()
         };
-        assert!((at - 0.5).abs() < 1e-12 && leaves);
-        let Some(Break::Crossings(all)) = find(&[(0.0, 0.1), (2.0, 0.1), (3.0, 0.001)], false)
+        assert!((value - 0.5).abs() < 1e-12 && leaves);
+        let Some(Break::Crossings(crossings_found)) =
+            find(&[(0.0, 0.1), (2.0, 0.1), (3.0, 0.001)], false)
         else {
             panic!()
         };
-        assert_eq!(all[0].between, [2.0, 3.0], "what was measured beside it");
+        assert_eq!(
+            crossings_found[0].between,
+            [2.0, 3.0],
+            "what was measured beside it"
+        );
         // A quarter of the way, falling.
-        let [(at, leaves)] = crossings(&[(2.0, 0.1), (6.0, 1e-5)], false)[..] else {
+        let [(value, leaves)] = crossings(&[(2.0, 0.1), (6.0, 1e-5)], false)[..] else {
             panic!()
         };
-        assert!((at - 3.0).abs() < 1e-12 && !leaves);
+        assert!((value - 3.0).abs() < 1e-12 && !leaves);
         // By factors: the middle of 1 and 100 is 10.
-        let [(at, _)] = crossings(&[(1.0, 0.1), (100.0, 0.001)], true)[..] else {
+        let [(value, _)] = crossings(&[(1.0, 0.1), (100.0, 0.001)], true)[..] else {
             panic!()
         };
-        assert!((at - 10.0).abs() < 1e-9);
+        assert!((value - 10.0).abs() < 1e-9);
         // An error of zero is a millionth.
-        let [(at, _)] = crossings(&[(0.0, 0.0), (1.0, 1.0)], false)[..] else {
+        let [(value, _)] = crossings(&[(0.0, 0.0), (1.0, 1.0)], false)[..] else {
             panic!()
         };
-        assert!((at - 4.0 / 6.0).abs() < 1e-12);
+        assert!((value - 4.0 / 6.0).abs() < 1e-12);
         let there_and_back = [(0.0, 0.001), (1.0, 0.1), (2.0, 0.001)];
         assert_eq!(
             crossings(&there_and_back, false)

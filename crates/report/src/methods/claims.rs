@@ -54,10 +54,10 @@ fn table(claims: &[Checked<'_>]) -> Markup {
 fn measured(checked: &Checked<'_>) -> Markup {
     html! {
         @if checked.figures.is_empty() { "–" }
-        @for told in together(&checked.figures) {
+        @for figures in together(&checked.figures) {
             div {
-                @if let Some(sign) = told.holds.sign() { (sign) " " }
-                b { (told.text) } small { " " (told.places) }
+                @if let Some(sign) = figures.holds.sign() { (sign) " " }
+                b { (figures.text) } small { " " (figures.places) }
             }
         }
         @if !checked.blind.is_empty() {
@@ -85,12 +85,12 @@ fn together(figures: &[Figure]) -> Vec<Told> {
             None => groups.push((figure.holds, &figure.scene, vec![figure])),
         }
     }
-    let told = groups.into_iter().map(|(holds, scene, all)| {
-        let adapters = distinct(all.iter().map(|f| f.adapter.as_str()));
-        let settings = distinct(all.iter().map(|f| f.setting.as_str()));
-        let at = match settings.as_slice() {
+    let texts = groups.into_iter().map(|(holds, scene, settings_of)| {
+        let adapters = distinct(settings_of.iter().map(|f| f.adapter.as_str()));
+        let settings = distinct(settings_of.iter().map(|f| f.setting.as_str()));
+        let place = match settings.as_slice() {
             [] | [""] => String::new(),
-            [one] => format!(" at {one}"),
+            [setting] => format!(" at {setting}"),
             some => format!(
                 " in {} cases, {} to {}",
                 some.len(),
@@ -100,11 +100,11 @@ fn together(figures: &[Figure]) -> Vec<Told> {
         };
         Told {
             holds,
-            text: Figure::range(&all),
-            places: format!("{scene}{at} on {}", adapters.join(", ")),
+            text: Figure::range(&settings_of),
+            places: format!("{scene}{place} on {}", adapters.join(", ")),
         }
     });
-    told.collect()
+    texts.collect()
 }
 
 #[cfg(test)]

@@ -189,11 +189,11 @@ impl<'a> Series<'a> {
 impl<'a> SceneSeries<'a> {
     /// Every setting that some method was drawn at: by variant, then along the parameter.
     pub(crate) fn settings(&self) -> Vec<Setting<'a>> {
-        let of = |series: &Series<'a>| -> Vec<Setting<'a>> {
+        let settings_of = |series: &Series<'a>| -> Vec<Setting<'a>> {
             series.points.iter().map(|p| series.setting(p)).collect()
         };
-        let mut all = distinct(self.series.iter().flat_map(of));
-        all.sort_by(|a, b| {
+        let mut settings = distinct(self.series.iter().flat_map(settings_of));
+        settings.sort_by(|a, b| {
             let key = |s: &Setting<'a>| s.parameter.map_or(("", 0.0), |p| p);
             let ((a_name, a_value), (b_name, b_value)) = (key(a), key(b));
             a.variant
@@ -201,22 +201,25 @@ impl<'a> SceneSeries<'a> {
                 .then(a_name.cmp(b_name))
                 .then(a_value.total_cmp(&b_value))
         });
-        all
+        settings
     }
 
     /// The setting that stands for the scene where only one can: of those at which most methods were
     /// measured, the middle one of the first variant.
     pub(crate) fn main(&self) -> Option<Setting<'a>> {
-        let all = self.settings();
+        let settings = self.settings();
         let measured = |s: &Setting<'a>| self.measured(s).len();
-        let most = all.iter().map(measured).max()?;
-        let mut best: Vec<Setting<'a>> = all.into_iter().filter(|s| measured(s) == most).collect();
+        let most = settings.iter().map(measured).max()?;
+        let mut best: Vec<Setting<'a>> = settings
+            .into_iter()
+            .filter(|s| measured(s) == most)
+            .collect();
         let variant = best.first()?.variant.clone();
         best.retain(|s| s.variant == variant);
         Some(best.swap_remove(best.len() / 2))
     }
 
-    /// What was drawn at a setting.
+    /// Returns the points drawn at a setting.
     pub(crate) fn at<'s>(
         &'s self,
         setting: &'s Setting<'a>,
@@ -301,7 +304,7 @@ impl<'a> Methods<'a> {
             Question {
                 name,
                 scenes: scenes
-                    .map(|(s, all)| scene(name, s, &all, &adapters))
+                    .map(|(s, series)| scene(name, s, &series, &adapters))
                     .collect(),
                 methods,
             }
@@ -412,13 +415,13 @@ mod tests {
 
     #[test]
     fn records_are_sorted_into_families_and_series() {
-        let of = |id: &str, value| Made::new(id).at("alpha", value);
+        let made = |id: &str, value| Made::new(id).at("alpha", value);
         let run = run(&[
-            of("t/windows/format=f/method=b/size=4", 0.9),
-            of("t/windows/format=f/method=b/size=4", 0.1).on("hw:a"),
-            of("t/windows/format=f/method=b/size=4", 0.1),
-            of("t/windows/format=f/method=b/size=8", 0.5),
-            of("t/windows/format=f/method=a/size=4", 0.5),
+            made("t/windows/format=f/method=b/size=4", 0.9),
+            made("t/windows/format=f/method=b/size=4", 0.1).on("hw:a"),
+            made("t/windows/format=f/method=b/size=4", 0.1),
+            made("t/windows/format=f/method=b/size=8", 0.5),
+            made("t/windows/format=f/method=a/size=4", 0.5),
             Made::new("t/windows-k/method=a").at("k", 2.0),
             Made::new("s/mirror/method=a"),
         ]);
@@ -438,23 +441,28 @@ mod tests {
             .collect();
         assert_eq!(values, [(Some(0.1), 0), (Some(0.1), 1), (Some(0.9), 0)]);
         let settings: Vec<String> = windows.settings().iter().map(Setting::text).collect();
-        let due = [
+        let expected = [
             "alpha 0.1, size=4",
             "alpha 0.5, size=4",
             "alpha 0.9, size=4",
             "alpha 0.5, size=8",
         ];
-        assert_eq!(settings, due);
+        assert_eq!(settings, expected);
         assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
         assert_eq!(methods.questions[1].style("b"), 1);
     }
 
     #[test]
     fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
-        let of =
+        let setting_of =
             |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
         // A covering array: each method at a value of its own, two of them at 4.
-        let run = run(&[of("a", 1.0), of("b", 2.0), of("c", 4.0), of("d", 4.0)]);
+        let run = run(&[
+            setting_of("a", 1.0),
+            setting_of("b", 2.0),
+            setting_of("c", 4.0),
+            setting_of("d", 4.0),
+        ]);
         let methods = Methods::of(&run).unwrap();
         let scene = methods.scenes().next().unwrap();
         let main = scene.main().unwrap();

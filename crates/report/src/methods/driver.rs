@@ -86,19 +86,22 @@ struct Speed {
 }
 
 fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
-    let own: Vec<&Record> = grid
+    let records: Vec<&Record> = grid
         .run
         .records
         .iter()
         .filter(|r| r.adapter == adapter)
         .collect();
-    let seconds: f64 = own.iter().map(|r| r.seconds.draw + r.seconds.judge).sum();
-    let judged = own.iter().filter(|r| r.verdict.is_judged());
-    let times = own
+    let seconds: f64 = records
+        .iter()
+        .map(|r| r.seconds.draw + r.seconds.judge)
+        .sum();
+    let judged = records.iter().filter(|r| r.verdict.is_judged());
+    let times = records
         .iter()
         .filter_map(|r| Some(r.measured.as_ref()?.time?.wall));
     Speed {
-        cases_per_second: (seconds > 0.0).then(|| own.len() as f64 / seconds),
+        cases_per_second: (seconds > 0.0).then(|| records.len() as f64 / seconds),
         draw: median(judged.map(|r| r.seconds.draw)),
         frame: median(times),
     }
@@ -159,8 +162,8 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     // The names of a row, its class, and a cell per adapter.
     type Row = ([String; 3], &'static str, Vec<Cell>);
     let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
-    let speed = |name: &str, class, of: &dyn Fn(&Speed) -> Option<String>| -> Row {
-        let cells = speeds.iter().map(|s| Cell::from(of(s))).collect();
+    let speed = |name: &str, class, figure: &dyn Fn(&Speed) -> Option<String>| -> Row {
+        let cells = speeds.iter().map(|s| Cell::from(figure(s))).collect();
         (
             [name.to_owned(), String::new(), String::new()],
             class,
@@ -256,8 +259,8 @@ fn shares<'a>(
             ) else {
                 continue;
             };
-            let own = result.entry(area).or_insert_with(|| vec![None; adapters]);
-            let sum = own[adapter].get_or_insert(Shares {
+            let measured = result.entry(area).or_insert_with(|| vec![None; adapters]);
+            let sum = measured[adapter].get_or_insert(Shares {
                 channels: 0.0,
                 mean: 0.0,
                 max: 0.0,
@@ -335,7 +338,7 @@ mod tests {
 
     #[test]
     fn codes_of_floats_and_of_eight_bits_meet_as_shares_only() {
-        let of = |encoding, mean, max| {
+        let row = |encoding, mean, max| {
             let legal = Accuracy {
                 aspect: Aspect::Color,
                 encoding,
@@ -351,13 +354,13 @@ mod tests {
         };
         let [eight, float] = [ChannelEncoding::Unorm(8), ChannelEncoding::Float32];
         let rows: Rows<'_> = [
-            of(Some(eight), 0.51, 1.0),
-            of(Some(float), 83_886.08, 4_294_967_296.0),
-            of(None, 1.0, 7.0),
+            row(Some(eight), 0.51, 1.0),
+            row(Some(float), 83_886.08, 4_294_967_296.0),
+            row(None, 1.0, 7.0),
         ]
         .into();
-        let all = shares(&rows, Aspect::Color, 1);
-        let mean = all["blend"][0].unwrap().mean;
+        let texts = shares(&rows, Aspect::Color, 1);
+        let mean = texts["blend"][0].unwrap().mean;
         assert!((mean - (0.002 + 0.01) / 2.0).abs() < 1e-9, "{mean}");
         let text = |encoding, i: usize| {
             let figures = rows.values().nth(i).unwrap();

@@ -44,15 +44,15 @@ mod tests {
         for _ in 0..200 {
             let points: Vec<(f64, f64)> = (0..9).map(|_| (next(), next())).collect();
             let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
-            let mut due: Vec<(f64, f64)> = points
+            let mut expected: Vec<(f64, f64)> = points
                 .iter()
                 .copied()
                 .filter(|p| !points.iter().any(|o| beats(*o, *p)))
                 .collect();
-            due.sort_by(|a, b| a.0.total_cmp(&b.0));
-            due.dedup();
+            expected.sort_by(|a, b| a.0.total_cmp(&b.0));
+            expected.dedup();
             let found: Vec<(f64, f64)> = front(&points).into_iter().map(|i| points[i]).collect();
-            assert_eq!(found, due);
+            assert_eq!(found, expected);
         }
     }
 }

@@ -1,9 +1,7 @@
 //! Made-up runs for tests: one line per record.
 
 use etalon_frame::{Api, Distance, Limits};
-use etalon_record::{
-    AdapterRecord, FORMAT, Header, Machine, Measured, Parameter, Record, Run, Times, Verdict,
-};
+use etalon_record::{AdapterRecord, Header, Measured, Parameter, Record, Run, Times, Verdict};
 
 /// A record: everything that claims look at, with the rest left out.
 #[derive(Clone, Debug)]
@@ -126,16 +124,8 @@ pub(crate) fn run(made: &[Made]) -> Run {
     };
     Run {
         header: Header {
-            format: FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
             command: vec!["etalon".to_owned()],
-            cases: made.len() as u64,
-            settings: Default::default(),
-            adapters: names.into_iter().map(adapter).collect(),
-            absent: Vec::new(),
+            ..Header::new(names.into_iter().map(adapter).collect(), made.len() as u64)
         },
         records: made.iter().map(Made::record).collect(),
         truncated: false,

@@ -20,14 +20,12 @@ use std::path::Path;
 
 const STYLE: &str = include_str!("page/methods.css");
 
-/// The sliders, the legend's pins, other limits of breaks, and the enlarged pictures. All else needs no script.
+/// The sliders, the legend's pins and the enlarged pictures. All else needs no script.
 const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("../page/base.js"),
     include_str!("page/flip.js"),
-    include_str!("page/story.js"),
     include_str!("page/pictures.js"),
-    include_str!("page/breaks.js"),
     include_str!("page/settings.js"),
 );
 
@@ -139,17 +137,11 @@ fn breaks(methods: &Methods<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
     let single = single_values(methods);
     html! {
-        section id="breaks" data-curves=(stability::json(methods)) {
+        section id="breaks" {
             h2 { "Break points" }
             p {
-                "The parameter at which a method's RMSE crosses "
-                span #limit-text { "1 %" } " of full brightness, interpolated between the two values beside it that were drawn."
-            }
-            @if curves > 0 {
-                p #limit-field hidden {
-                    label for="limit" { "Limit of RMSE in percent " }
-                    input #limit type="number" value="1" min="0.001" max="100" step="any" inputmode="decimal";
-                }
+                "The parameter at which a method's RMSE crosses 1 % of full brightness, interpolated between the two values "
+                "beside it that were drawn."
             }
             @if curves == 0 {
                 p.u { "Not measured: no method was drawn at two values of its parameter." }
@@ -158,7 +150,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 div #break-rows { (broken_table(methods).page(broken)) }
             }
             @if !steady.is_empty() {
-                p.note #steady { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
+                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
             }
             @if curves > 0 && single > 0 {
                 p.note { "Not measured: " (count(single, "method")) " drawn at one value of a parameter only." }
@@ -192,8 +184,8 @@ fn broken_table<'m, 'a>(methods: &'m Methods<'a>) -> Table<'m, Broken<'m, 'a>> {
 
 /// The number of series with a parameter of which there is one value.
 fn single_values(methods: &Methods<'_>) -> u64 {
-    let all = methods.scenes().flat_map(|s| &s.series);
-    all.filter(|s| s.values().len() == 1).count() as u64
+    let series = methods.scenes().flat_map(|s| &s.series);
+    series.filter(|s| s.values().len() == 1).count() as u64
 }
 
 /// Links to the pictures on both sides of crossings.
@@ -204,8 +196,8 @@ fn beside(scene: &SceneSeries<'_>, anchor: &str, between: &[[Setting<'_>; 2]]) -
             @if i > 0 { "; " }
             @for (j, setting) in pair.iter().enumerate() {
                 @if j > 0 { " → " }
-                @let at = settings.iter().position(|s| s == setting);
-                a href={ "#" (anchor) } data-go=[at] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
+                @let number = settings.iter().position(|s| s == setting);
+                a href={ "#" (anchor) } data-go=[number] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
             }
         }
     }
@@ -379,8 +371,8 @@ fn unmeasured(
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     type Row<'s, 'a> = (&'s Series<'a>, &'s Point<'a>);
-    let time = |point: &Point<'_>, of: fn(&Times) -> Option<f64>| {
-        point.measured.time.as_ref().and_then(of).map(duration)
+    let time = |point: &Point<'_>, part: fn(&Times) -> Option<f64>| {
+        point.measured.time.as_ref().and_then(part).map(duration)
     };
     let mut table =
         Table::<Row<'_, '_>>::new("numbers").head("Method", |(series, _)| series.name());

@@ -1,7 +1,6 @@
 //! The pictures of a scene: the truth, and what each method drew at each setting.
 
 use super::data::{Methods, Point, Question, SceneSeries, Setting};
-use super::layers::layers;
 use crate::chart::color;
 use crate::numbers::{digits, share};
 use base64::Engine;
@@ -76,8 +75,7 @@ impl<'f> Pictures<'f> {
         html! {
             @for (index, setting, truth, shots) in &groups {
                 @let class = if *index == main { "pictures at" } else { "pictures at off" };
-                div class=(class) data-at=(index) data-setting=(setting.text())
-                    data-layers=[layers(scene, setting)] {
+                div class=(class) data-at=(index) data-setting=(setting.text()) {
                     @if let Some(truth) = truth {
                         figure.truth { img src=(truth) alt={ "Picture: truth" (setting.at()) } width="128"; figcaption { "truth" } }
                     }
@@ -106,7 +104,7 @@ fn figure(
     let name = format!("{}{}", shot.method, setting.at());
     html! {
         figure class={ "shot " (color(question.style(shot.method))) } data-method=(shot.method) data-adapter=(adapter)
-            data-case=(shot.point.record.case) data-flip=(distance.flip) data-passes=(shot.point.measured.passes) {
+            data-case=(shot.point.record.case) {
             img src=(shot.data) alt={ "Picture: " (name) } width="128";
             figcaption {
                 (shot.method)

@@ -108,7 +108,7 @@ fn dots<'s, 'a>(
 fn panel(
     title: &str,
     plot: &Plot,
-    all: &[&Dot<'_, '_>],
+    dots: &[&Dot<'_, '_>],
     adapter: usize,
     settings: &[Setting<'_>],
     main: usize,
@@ -118,14 +118,17 @@ fn panel(
         .iter()
         .enumerate()
         .map(|(index, setting)| {
-            let same: Vec<&Dot<'_, '_>> =
-                all.iter().copied().filter(|d| d.setting == index).collect();
-            let own: Vec<&Dot<'_, '_>> = same
+            let same: Vec<&Dot<'_, '_>> = dots
+                .iter()
+                .copied()
+                .filter(|d| d.setting == index)
+                .collect();
+            let line: Vec<&Dot<'_, '_>> = same
                 .iter()
                 .copied()
                 .filter(|d| d.point.adapter == adapter)
                 .collect();
-            let (text, body) = at_setting(plot, &same, &own, setting);
+            let (text, body) = at_setting(plot, &same, &line, setting);
             if index == main {
                 about = text;
             }
@@ -146,14 +149,14 @@ fn panel(
 fn at_setting(
     plot: &Plot,
     same: &[&Dot<'_, '_>],
-    own: &[&Dot<'_, '_>],
+    line: &[&Dot<'_, '_>],
     setting: &Setting<'_>,
 ) -> (String, Markup) {
     let costs = |dots: &[&Dot<'_, '_>]| -> Vec<(f64, f64)> {
         dots.iter().map(|d| (d.time, d.error)).collect()
     };
-    let (every, mine) = (costs(same), costs(own));
-    let leaders: Vec<&Dot<'_, '_>> = front(&mine).iter().map(|i| own[*i]).collect();
+    let (every, mine) = (costs(same), costs(line));
+    let leaders: Vec<&Dot<'_, '_>> = front(&mine).iter().map(|i| line[*i]).collect();
     let names: Vec<&str> = leaders
         .iter()
         .map(|d| d.point.measured.method.as_str())
@@ -161,17 +164,17 @@ fn at_setting(
     let at = setting.at();
     let about = match names.as_slice() {
         [] => format!("No method was timed{at}."),
-        [one] if own.len() == 1 => {
+        [one] if line.len() == 1 => {
             format!("Only {one} was timed{at}: there is nothing to compare.")
         }
-        [one] => format!("No method is faster or more accurate than {one}{at}."),
+        [name] => format!("No method is faster or more accurate than {name}{at}."),
         several => format!(
             "The front{at}, from fast to accurate: {}.",
             several.join(", ")
         ),
     };
     let place = |d: &Dot<'_, '_>| (plot.x(d.time), plot.y(d.error));
-    let mut labels = Labels::new(own.iter().map(|d| place(d)));
+    let mut labels = Labels::new(line.iter().map(|d| place(d)));
     for level in [0.01, ROUNDING] {
         labels.avoid(&[(LEFT, plot.y(level)), (RIGHT, plot.y(level))]);
     }
@@ -185,14 +188,14 @@ fn at_setting(
     for (corners, _) in &lines {
         labels.avoid(corners);
     }
-    for dot in own {
+    for dot in line {
         if let Some([low, high]) = dot.point.interval() {
             let y = plot.y(dot.error);
             labels.avoid(&[(plot.x(low), y), (plot.x(high), y)]);
         }
     }
     // Leaders first: where there is no room for all names, the front keeps its own.
-    let others = own.iter().copied();
+    let others = line.iter().copied();
     let others = others.filter(|d| !leaders.iter().any(|l| std::ptr::eq(*l, *d)));
     let named: Vec<(&Dot<'_, '_>, Option<(f64, f64)>)> = leaders
         .iter()
@@ -233,8 +236,8 @@ pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
 /// The corners of the front as steps: between two of its points nothing better than the faster one is known.
 fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut corners: Vec<(f64, f64)> = Vec::new();
-    for at in front(points) {
-        let (x, y) = (plot.x(points[at].0), plot.y(points[at].1));
+    for index in front(points) {
+        let (x, y) = (plot.x(points[index].0), plot.y(points[index].1));
         match corners.last() {
             None => corners.push((x, TOP)),
             Some((_, above)) => corners.push((x, *above)),

@@ -2,7 +2,7 @@
 
 use super::breaks::{self, Break, LIMIT};
 use super::data::{Methods, Question, SceneSeries, Series, Setting};
-use super::name::{anchor, value_text};
+use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
     BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, polyline,
@@ -116,13 +116,13 @@ pub(super) fn charts<'a>(
 ) -> Vec<Markup> {
     let mut panels = Vec::new();
     for parameter in parameters(scene) {
-        let all = curves(scene, parameter);
-        let mut variants: Vec<&str> = all.iter().map(|s| s.variant.as_str()).collect();
+        let found = curves(scene, parameter);
+        let mut variants: Vec<&str> = found.iter().map(|s| s.variant.as_str()).collect();
         variants.sort_unstable();
         variants.dedup();
         for variant in variants {
-            let of = all.iter().copied().filter(|s| s.variant == variant);
-            let series: Vec<&Series<'a>> = of.collect();
+            let in_variant = found.iter().copied().filter(|s| s.variant == variant);
+            let series: Vec<&Series<'a>> = in_variant.collect();
             for adapters in alike(methods, &series) {
                 let curves = (parameter, variant, &series[..]);
                 let place = (settings, main);
@@ -131,47 +131,6 @@ pub(super) fn charts<'a>(
         }
     }
     panels
-}
-
-/// The curves of the page, for other limits than the one that the page is written with.
-pub(super) fn json(methods: &Methods<'_>) -> serde_json::Value {
-    let mut all = Vec::new();
-    for (q, question) in methods.questions.iter().enumerate() {
-        for (s, scene) in question.scenes.iter().enumerate() {
-            let settings = scene.settings();
-            for parameter in parameters(scene) {
-                let curves = curves(scene, parameter);
-                let log = matches!(scale(&curves), Scale::Log { .. });
-                for (series, (index, adapter)) in curves
-                    .iter()
-                    .flat_map(|c| methods.adapters.iter().enumerate().map(move |a| (c, a)))
-                {
-                    let curve = series.curve(index);
-                    if curve.len() < 2 {
-                        continue;
-                    }
-                    let at = |value: &f64| {
-                        let here = Setting {
-                            variant: series.variant.clone(),
-                            parameter: Some((parameter, *value)),
-                        };
-                        settings.iter().position(|s| *s == here)
-                    };
-                    all.push(serde_json::json!({
-                        "scene": format!("{}/{}", question.name, scene.name),
-                        "anchor": anchor(q, s),
-                        "name": series.name(),
-                        "style": question.style(series.method),
-                        "parameter": parameter,
-                        "log": log,
-                        "adapter": adapter.name,
-                        "curve": curve.iter().map(|(v, e)| (*v, *e, at(v), value_text(*v))).collect::<Vec<_>>(),
-                    }));
-                }
-            }
-        }
-    }
-    serde_json::Value::Array(all)
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
@@ -216,7 +175,7 @@ pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
 
 /// Adapters whose curves cannot be told apart in a chart, together.
 fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
-    let of = |adapter: usize| -> Vec<Vec<(f64, f64)>> {
+    let lines = |adapter: usize| -> Vec<Vec<(f64, f64)>> {
         series.iter().map(|s| s.curve(adapter)).collect()
     };
     let near = |a: f64, b: f64| (a - b).abs() <= 0.1 * a.max(b) || a.max(b) < 3.0 * ROUNDING;
@@ -227,11 +186,11 @@ fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
     };
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for adapter in 0..methods.adapters.len() {
-        let own = of(adapter);
-        if own.iter().all(Vec::is_empty) {
+        let curves_of = lines(adapter);
+        if curves_of.iter().all(Vec::is_empty) {
             continue;
         }
-        match groups.iter_mut().find(|g| same(&of(g[0]), &own)) {
+        match groups.iter_mut().find(|g| same(&lines(g[0]), &curves_of)) {
             Some(group) => group.push(adapter),
             None => groups.push(vec![adapter]),
         }
@@ -291,11 +250,11 @@ fn panel<'a>(
     let rings: Vec<Vec<_>> = series
         .iter()
         .map(|s| {
-            let of = crossings(s).into_iter().map(|c| {
-                let at = (plot.x(c.value), plot.y(LIMIT));
-                (c, at, labels.place(&c.text(), at))
+            let rings = crossings(s).into_iter().map(|c| {
+                let center = (plot.x(c.value), plot.y(LIMIT));
+                (c, center, labels.place(&c.text(), center))
             });
-            of.collect()
+            rings.collect()
         })
         .collect();
     let ends: Vec<Option<(f64, f64)>> = series
@@ -322,9 +281,9 @@ fn panel<'a>(
         g.rings {
             @for (s, rings) in series.iter().zip(&rings) {
                 @let style = color(question.style(s.method));
-                @for (c, at, label) in rings {
+                @for (c, center, label) in rings {
                     g class={ "of " (style) } {
-                        circle class={ "break " (style) } cx=(n(at.0)) cy=(n(at.1)) r="6" {
+                        circle class={ "break " (style) } cx=(n(center.0)) cy=(n(center.1)) r="6" {
                             title { (s.name()) @if c.leaves { " leaves" } @else { " comes within" } " 1 % RMSE at " (parameter) " " (c.text()) }
                         }
                         @if let Some((x, y)) = label {

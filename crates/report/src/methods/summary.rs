@@ -81,20 +81,25 @@ fn candidates<'s, 'a>(
 }
 
 /// The most accurate method; of equal ones the faster.
-fn accurate<'s, 'a, 'c>(all: &'c [Candidate<'s, 'a>]) -> Option<&'c Candidate<'s, 'a>> {
+fn accurate<'s, 'a, 'c>(candidates: &'c [Candidate<'s, 'a>]) -> Option<&'c Candidate<'s, 'a>> {
     let time = |point: &Point<'_>| point.wall().unwrap_or(f64::INFINITY);
-    all.iter().min_by(|(_, a, a_error), (_, b, b_error)| {
-        let errors = a_error.total_cmp(b_error);
-        errors.then(time(a).total_cmp(&time(b)))
-    })
+    candidates
+        .iter()
+        .min_by(|(_, a, a_error), (_, b, b_error)| {
+            let errors = a_error.total_cmp(b_error);
+            errors.then(time(a).total_cmp(&time(b)))
+        })
 }
 
-fn fast<'a>(methods: &Methods<'a>, all: &[Candidate<'_, 'a>]) -> Fast<'a> {
-    let first = all.first().map(|(series, ..)| series.method);
-    if all.iter().all(|(series, ..)| Some(series.method) == first) {
+fn fast<'a>(methods: &Methods<'a>, candidates: &[Candidate<'_, 'a>]) -> Fast<'a> {
+    let first = candidates.first().map(|(series, ..)| series.method);
+    if candidates
+        .iter()
+        .all(|(series, ..)| Some(series.method) == first)
+    {
         return Fast::Alone;
     }
-    let good = all.iter().filter(|(.., error)| *error <= LIMIT);
+    let good = candidates.iter().filter(|(.., error)| *error <= LIMIT);
     let timed = good.filter_map(|(series, point, _)| Some((series, point, point.wall()?)));
     match timed.min_by(|a, b| a.2.total_cmp(&b.2)) {
         Some((series, point, time)) => {
@@ -182,16 +187,16 @@ mod tests {
 
     #[test]
     fn only_equals_are_ranked_and_one_alone_is_not() {
-        let of = |method: &str, opening, error: f64| {
+        let candidate = |method: &str, opening, error: f64| {
             Made::new(&format!("aa/wedge/method={method}"))
                 .at("opening", opening)
                 .off(error)
         };
         // `none` looks best in a scene of its own.
         let mixed = run(&[
-            of("none", 24.0, 0.001),
-            of("msaa-4", 4.0, 0.02),
-            of("ssaa", 4.0, 0.015),
+            candidate("none", 24.0, 0.001),
+            candidate("msaa-4", 4.0, 0.02),
+            candidate("ssaa", 4.0, 0.015),
         ]);
         let methods = Methods::of(&mixed).unwrap();
         let text = lines(&methods, 100);
@@ -205,7 +210,10 @@ mod tests {
             "{html}"
         );
 
-        let alone = run(&[of("none", 24.0, 0.001), of("msaa-4", 4.0, 0.02)]);
+        let alone = run(&[
+            candidate("none", 24.0, 0.001),
+            candidate("msaa-4", 4.0, 0.02),
+        ]);
         let methods = Methods::of(&alone).unwrap();
         let text = lines(&methods, 100);
         assert!(

@@ -66,11 +66,12 @@ impl News {
             let old: HashMap<Rc<str>, Rc<Outcome>> = match before {
                 None => HashMap::new(),
                 Some((_, part)) => {
-                    let all = history.records(part)?.into_iter();
-                    all.map(|(case, outcome)| {
-                        Ok((history.case_name(case)?, history.outcome(outcome)?))
-                    })
-                    .collect::<Result<_, HistoryError>>()?
+                    let records = history.records(part)?.into_iter();
+                    records
+                        .map(|(case, outcome)| {
+                            Ok((history.case_name(case)?, history.outcome(outcome)?))
+                        })
+                        .collect::<Result<_, HistoryError>>()?
                 }
             };
             for record in records {
@@ -100,9 +101,10 @@ impl News {
                 }
                 match was {
                     Some(was) if was_bad => {
-                        let note = match was.verdict == record.verdict {
-                            true => "as before".to_owned(),
-                            false => format!("{} before", was.verdict.name()),
+                        let note = if was.verdict == record.verdict {
+                            "as before".to_owned()
+                        } else {
+                            format!("{} before", was.verdict.name())
                         };
                         news.old.push(entry(note));
                     }

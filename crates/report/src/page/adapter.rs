@@ -56,7 +56,7 @@ pub(crate) fn details(a: &AdapterRecord) -> Markup {
 
 fn formats(limits: &Limits) -> Markup {
     let support = |format: &TextureFormat| limits.formats.get(format);
-    let list = |all: Vec<String>, with: &str| all.join(with);
+    let list = |names: Vec<String>, with: &str| names.join(with);
     Table::<TextureFormat>::new("text")
         .caption("Texel formats")
         .head("Format", |format| format.name())

@@ -22,8 +22,8 @@ pub fn dead_lines(dead: &[Dead]) -> String {
     let mut text = count(dead.len() as u64, "dead expectation");
     for kind in DeadKind::ALL {
         let these: Vec<&Dead> = dead.iter().filter(|d| d.kind == kind).collect();
-        for one in these.iter().take(LISTED) {
-            let line = format!("{}: {}: {}", meaning(kind), one.place, one.about);
+        for entry in these.iter().take(LISTED) {
+            let line = format!("{}: {}: {}", meaning(kind), entry.place, entry.about);
             text.push_str(&format!("\n  {}", plain(&line, 240)));
         }
         if these.len() > LISTED {
@@ -43,14 +43,14 @@ mod tests {
 
     #[test]
     fn they_are_grouped_and_few() {
-        let one = |kind, n: u32| Dead {
+        let entry = |kind, n: u32| Dead {
             kind,
             place: format!("e.json: entry {n}"),
             about: "a/*".to_owned(),
         };
-        let mut all: Vec<Dead> = (1..=7).map(|n| one(DeadKind::NoCase, n)).collect();
-        all.push(one(DeadKind::Covered, 8));
-        let text = dead_lines(&all);
+        let mut entries: Vec<Dead> = (1..=7).map(|n| entry(DeadKind::NoCase, n)).collect();
+        entries.push(entry(DeadKind::Covered, 8));
+        let text = dead_lines(&entries);
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[0], "8 dead expectations");
         assert_eq!(lines[1], "  no case matches: e.json: entry 1: a/*");

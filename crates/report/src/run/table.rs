@@ -131,12 +131,12 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     if reasons.is_empty() {
         return String::new();
     }
-    let all: u64 = reasons.iter().map(Undrawn::records).sum();
+    let undrawn_records: u64 = reasons.iter().map(Undrawn::records).sum();
     let mut text = format!(
-        "\nNot drawn: {all} of {}\n",
+        "\nNot drawn: {undrawn_records} of {}\n",
         count(run.records.len() as u64, "record")
     );
-    let width = all.to_string().len();
+    let width = undrawn_records.to_string().len();
     for reason in reasons.iter().take(REASONS) {
         let adapters = reason.adapters.iter();
         let each: Vec<String> = adapters.map(|(name, n)| format!("{name} {n}")).collect();
@@ -149,11 +149,11 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
         text.push('\n');
     }
     if reasons.len() > REASONS {
-        let rest = &reasons[REASONS..];
-        let n: u64 = rest.iter().map(Undrawn::records).sum();
+        let others = &reasons[REASONS..];
+        let n: u64 = others.iter().map(Undrawn::records).sum();
         text.push_str(&format!(
             "  {n:>width$}  for {}\n",
-            count(rest.len() as u64, "other reason")
+            count(others.len() as u64, "other reason")
         ));
     }
     text

@@ -53,27 +53,27 @@ pub(crate) fn undrawn(run: &Run) -> Vec<Undrawn> {
         let Some(verdict) = VERDICTS.iter().position(|v| *v == record.verdict) else {
             continue;
         };
-        let of = found.entry((verdict, headline(record))).or_default();
-        *of.entry(place(&record.adapter)).or_default() += 1;
+        let counts = found.entry((verdict, headline(record))).or_default();
+        *counts.entry(place(&record.adapter)).or_default() += 1;
     }
-    let adapter = |at: usize| {
-        let adapter = run.header.adapters.get(at);
+    let adapter = |column: usize| {
+        let adapter = run.header.adapters.get(column);
         adapter.map_or_else(|| "?".to_owned(), |a| a.name.clone())
     };
-    let mut all: Vec<Undrawn> = found
+    let mut reasons: Vec<Undrawn> = found
         .into_iter()
         .map(|((verdict, reason), adapters)| Undrawn {
             verdict: VERDICTS[verdict],
             reason,
             adapters: adapters
                 .into_iter()
-                .map(|(at, n)| (adapter(at), n))
+                .map(|(column, n)| (adapter(column), n))
                 .collect(),
         })
         .collect();
-    all.sort_by_key(|u| {
+    reasons.sort_by_key(|u| {
         let verdict = VERDICTS.iter().position(|v| *v == u.verdict);
         (verdict, Reverse(u.records()))
     });
-    all
+    reasons
 }

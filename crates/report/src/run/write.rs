@@ -50,8 +50,8 @@ impl RunReports {
             Some(&self.ctrf),
             Some(&self.summary),
         ];
-        let all = single.into_iter().flatten().chain(&self.results);
-        all.map(PathBuf::as_path)
+        let files = single.into_iter().flatten().chain(&self.results);
+        files.map(PathBuf::as_path)
     }
 }
 

@@ -106,7 +106,8 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
     Ok(match FolderKind::of(folder) {
         Some(FolderKind::Run) => {
             let run = Run::read(folder)?;
-            let of = |verdict| run.records.iter().filter(|r| r.verdict == verdict).count() as u64;
+            let count =
+                |verdict| run.records.iter().filter(|r| r.verdict == verdict).count() as u64;
             Facts::Run(RunFacts {
                 started: run.header.started.clone(),
                 cases: run.header.cases,
@@ -114,8 +115,8 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
                 records: run.records.len() as u64,
                 missing: run.missing(),
                 unexpected: run.records.iter().filter(|r| r.unexpected()).count() as u64,
-                passed: of(Verdict::Pass),
-                undrawn: of(Verdict::NotSupported),
+                passed: count(Verdict::Pass),
+                undrawn: count(Verdict::NotSupported),
             })
         }
         Some(FolderKind::Bench) => {
@@ -128,7 +129,7 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
 }
 
 fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
-    let mut all = BTreeSet::new();
+    let mut files = BTreeSet::new();
     for below in [""].into_iter().chain(FOLDERS) {
         let path = folder.join(below);
         if !below.is_empty() && !path.is_dir() {
@@ -148,32 +149,34 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
             };
             let hidden = name.to_str().is_none_or(|name| name.starts_with('.'));
             if takes && !hidden && entry.path().is_file() {
-                all.insert(Path::new(below).join(name));
+                files.insert(Path::new(below).join(name));
             }
         }
     }
-    Ok(all)
+    Ok(files)
 }
 
 /// Returns a folder's name in the site: in plain letters, and its own.
 fn name(folder: &Path, taken: &mut HashSet<String>) -> String {
     let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-    let own = whole
+    let last = whole
         .file_name()
         .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let plain = |c: char| {
         let keeps = c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
         if keeps { c } else { '_' }
     };
-    let own: String = own.trim_start_matches('.').chars().map(plain).collect();
-    let own = if own.is_empty() {
+    let word: String = last.trim_start_matches('.').chars().map(plain).collect();
+    let word = if word.is_empty() {
         "run".to_owned()
     } else {
-        own
+        word
     };
-    let numbered = (2..).map(|n| format!("{own}-{n}"));
-    let mut names = std::iter::once(own.clone()).chain(numbered);
-    names.find(|name| taken.insert(name.clone())).unwrap_or(own)
+    let numbered = (2..).map(|n| format!("{word}-{n}"));
+    let mut names = std::iter::once(word.clone()).chain(numbered);
+    names
+        .find(|name| taken.insert(name.clone()))
+        .unwrap_or(word)
 }
 
 #[cfg(test)]
@@ -183,11 +186,11 @@ mod tests {
     #[test]
     fn names_are_plain_and_differ() {
         let mut taken = HashSet::new();
-        let mut of = |path: &str| name(Path::new(path), &mut taken);
-        assert_eq!(of("/a/nightly"), "nightly");
-        assert_eq!(of("/b/nightly"), "nightly-2");
-        assert_eq!(of("/b/<script> x"), "_script__x");
-        assert_eq!(of("/b/.hidden"), "hidden");
-        assert_eq!(of("/"), "run");
+        let mut named = |path: &str| name(Path::new(path), &mut taken);
+        assert_eq!(named("/a/nightly"), "nightly");
+        assert_eq!(named("/b/nightly"), "nightly-2");
+        assert_eq!(named("/b/<script> x"), "_script__x");
+        assert_eq!(named("/b/.hidden"), "hidden");
+        assert_eq!(named("/"), "run");
     }
 }

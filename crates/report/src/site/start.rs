@@ -1,35 +1,29 @@
 //! The start page of a site.
 
-use super::docs::Docs;
 use super::runs::{Facts, Recorded, RunFacts};
 use crate::numbers::{count, thousands};
 use crate::page::Page;
 use crate::table::Table;
 use maud::{Markup, html};
-use std::collections::BTreeMap;
-use std::path::Path;
 
-/// The style of the start page and of documents.
-pub(super) const STYLE: &str = include_str!("site.css");
+const STYLE: &str = include_str!("site.css");
 
 /// The page.
-pub(super) fn page(runs: &[Recorded], docs: Option<&Docs>) -> String {
+pub(super) fn page(runs: &[Recorded]) -> String {
     let shown = runs.iter().find(|run| !run.galleries().is_empty());
     let main = html! {
         header {
             h1 { "etalon" }
             p.lead { "Conformance, speed and accuracy of graphics drivers' per-fragment operations." }
             nav aria-label="Parts of the page" {
-                @if !runs.is_empty() { a href="#reports" { "Reports" } " " }
-                @if shown.is_some() { a href="#cases" { "Cases" } " " }
-                @if docs.is_some() { a href="#documents" { "Documents" } }
+                a href="#reports" { "Reports" } " "
+                @if shown.is_some() { a href="#cases" { "Cases" } }
             }
         }
-        @if !runs.is_empty() { (reports(runs)) }
+        (reports(runs))
         @if let Some(run) = shown { (galleries(run)) }
-        @if let Some(docs) = docs { (documents(docs)) }
     };
-    Page::new("etalon", "recorded folders and documents", &main)
+    Page::new("etalon", "recorded folders", &main)
         .style(STYLE)
         .html()
 }
@@ -123,26 +117,6 @@ fn galleries(run: &Recorded) -> Markup {
             }
             ul.areas {
                 @for area in run.galleries() { li { a href={ (index) "#gallery=" (area) } { (area) } } }
-            }
-        }
-    }
-}
-
-fn documents(docs: &Docs) -> Markup {
-    let mut folders: BTreeMap<&Path, Vec<(String, &str)>> = BTreeMap::new();
-    for (path, page) in &docs.pages {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let to = format!("docs/{}", path.with_extension("html").display());
-        let pages = folders.entry(folder).or_default();
-        let first = path.ends_with("README.md");
-        pages.insert(if first { 0 } else { pages.len() }, (to, &page.title));
-    }
-    html! {
-        section id="documents" {
-            h2 { "Documents" }
-            @for (folder, pages) in folders {
-                @if !folder.as_os_str().is_empty() { h3 { code { (folder.display()) "/" } } }
-                ul { @for (to, title) in pages { li { a href=(to) { (title) } } } }
             }
         }
     }

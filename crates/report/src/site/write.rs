@@ -1,19 +1,16 @@
 //! Writing a site: beside its place, and renamed into it when it is whole.
 
-use super::docs::{self, Docs};
-use super::markdown::Rendered;
 use super::runs::{self, Recorded};
 use super::start;
 use crate::error::ReportError;
-use crate::page::Page;
 use crate::staged::{Content, Staged};
-use maud::{PreEscaped, html};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The file by which a folder is known to be a site.
 pub const SITE_FILE: &str = "site.json";
 /// All that a site has at its top.
+/// `docs` was part of earlier ones.
 const TOP: [&str; 4] = ["index.html", "runs", "docs", SITE_FILE];
 
 /// A site that was written.
@@ -25,20 +22,17 @@ pub struct WrittenSite {
     pub files: u64,
     /// Their bytes.
     pub bytes: u64,
-    /// Links of documents that lead to nothing in the site and are text there: document and link.
-    pub unlinked: Vec<(PathBuf, String)>,
 }
 
-/// Writes a site of recorded folders, and of the documents of a checkout where one is given. An earlier site in the
-/// folder is replaced if `replace`, and stays as it is if an error is returned.
+/// Writes a site of recorded folders. An earlier site in the folder is replaced if `replace`, and stays as it is if an
+/// error is returned.
 ///
 /// # Errors
-/// Returns an error if a folder holds no page or lies in the site or around it, a document cannot be read, the site's
-/// folder holds something else, or cannot be written to.
+/// Returns an error if a folder holds no page or lies in the site or around it, the site's folder holds something else,
+/// or cannot be written to.
 pub fn write_site(
     to: &Path,
     folders: &[PathBuf],
-    checkout: Option<&Path>,
     replace: bool,
 ) -> Result<WrittenSite, ReportError> {
     let path = to.to_owned();
@@ -53,16 +47,14 @@ pub fn write_site(
         apart(to, folder)?;
     }
     let runs = runs::collect(folders)?;
-    let docs = checkout.map(docs::collect).transpose()?;
     let mut site = Staged::begin(to)?;
-    fill(&mut site, &runs, docs.as_ref().zip(checkout))?;
+    fill(&mut site, &runs)?;
     let (files, bytes) = (site.files, site.bytes);
     site.finish()?;
     Ok(WrittenSite {
         html: to.join("index.html"),
         files,
         bytes,
-        unlinked: docs.map(|docs| docs.unlinked).unwrap_or_default(),
     })
 }
 
@@ -76,30 +68,14 @@ fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
     Ok(())
 }
 
-fn fill(
-    site: &mut Staged,
-    runs: &[Recorded],
-    docs: Option<(&Docs, &Path)>,
-) -> Result<(), ReportError> {
+fn fill(site: &mut Staged, runs: &[Recorded]) -> Result<(), ReportError> {
     for run in runs {
         for file in &run.files {
             let to = Path::new("runs").join(&run.name).join(file);
             site.write(to, &read(&run.folder.join(file))?)?;
         }
     }
-    if let Some((docs, checkout)) = docs {
-        for (path, page) in &docs.pages {
-            let to = Path::new("docs").join(path.with_extension("html"));
-            site.write(to, document(path, page).as_bytes())?;
-        }
-        for file in &docs.copies {
-            site.write(Path::new("docs").join(file), &read(&checkout.join(file))?)?;
-        }
-    }
-    site.write(
-        "index.html",
-        start::page(runs, docs.map(|(docs, _)| docs)).as_bytes(),
-    )?;
+    site.write("index.html", start::page(runs).as_bytes())?;
     let kind = serde_json::json!({ "etalon": "site", "format": 1 });
     site.write(SITE_FILE, kind.to_string().as_bytes())
 }
@@ -109,14 +85,4 @@ fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
         path: path.to_owned(),
         source,
     })
-}
-
-/// The page of a document.
-fn document(path: &Path, page: &Rendered) -> String {
-    let up = "../".repeat(path.components().count());
-    let source = path.display().to_string();
-    Page::new(&format!("{} – etalon", page.title), &source, &html! {
-            nav aria-label="Site" { a href={ (up) "index.html" } { "etalon" } " " code { (source) } }
-            article.text { (PreEscaped(&page.html)) }
-        }).style(start::STYLE).html()
 }

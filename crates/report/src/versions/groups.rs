@@ -46,7 +46,7 @@ pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
         let key = (course(case), case.finding.as_deref(), spans(versions, case));
         by_key.entry(key).or_default().push(case);
     }
-    let mut all: Vec<Group<'_>> = by_key
+    let mut groups: Vec<Group<'_>> = by_key
         .into_iter()
         .map(|((course, finding, bad), cases)| Group {
             course,
@@ -56,8 +56,8 @@ pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
             cases,
         })
         .collect();
-    all.sort_by_key(|group| (group.course.clone(), std::cmp::Reverse(group.cases.len())));
-    all
+    groups.sort_by_key(|group| (group.course.clone(), std::cmp::Reverse(group.cases.len())));
+    groups
 }
 
 fn course(case: &CaseVersions) -> Course {

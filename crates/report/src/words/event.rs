@@ -33,11 +33,11 @@ impl From<&ToldLine> for EventLine {
 
 /// Returns an event in words.
 pub(crate) fn event_line(event: &Event) -> EventLine {
-    let at = place(&event.origin);
+    let place_name = place(&event.origin);
     EventLine {
         at: match &event.scene {
-            Some(scene) => format!("{}: {at}", scene_name(scene)),
-            None => at,
+            Some(scene) => format!("{}: {place_name}", scene_name(scene)),
+            None => place_name,
         },
         operation: event.operation().name().to_owned(),
         detail: detail_of(event),
@@ -104,11 +104,11 @@ pub(super) fn detail_of(event: &Event) -> String {
         Step::Upload(contents) => aspects(contents),
         Step::Clear(contents) => match (&event.origin, contents.as_slice()) {
             (Origin::Attachment(_), _) => aspects(contents),
-            (_, [one]) => format!(
+            (_, [value]) => format!(
                 "{} holds {} {}",
-                one.attachment,
-                one.aspect,
-                codes_list(&one.codes)
+                value.attachment,
+                value.aspect,
+                codes_list(&value.codes)
             ),
             _ => holds(contents),
         },
@@ -124,16 +124,16 @@ pub(super) fn detail_of(event: &Event) -> String {
             samples,
             results,
         } => {
-            let all = |codes: &[Vec<_>], between| {
+            let joined = |codes: &[Vec<_>], between| {
                 let texts: Vec<String> = codes.iter().map(|c| codes_list(c)).collect();
                 texts.join(between)
             };
-            let results = all(results, " or ");
+            let results = joined(results, " or ");
             let how = match by {
                 ResolveChoice::First => format!("the first of the samples: {results}"),
                 ResolveChoice::Any => format!("one of the samples: {results}"),
                 ResolveChoice::Average => {
-                    format!("of samples ({}) gives {results}", all(samples, "; "))
+                    format!("of samples ({}) gives {results}", joined(samples, "; "))
                 }
             };
             format!("{from} into {to}, {how}")
@@ -467,7 +467,7 @@ fn primitives(event: &Event, count: usize, viewport: Option<[f32; 4]>) -> String
     };
     let who = match (primitives.as_slice(), count) {
         ([_], 1) => "the primitive".to_owned(),
-        ([one], _) => format!("primitive {one}"),
+        ([number], _) => format!("primitive {number}"),
         ([_, _], 2) => "both primitives".to_owned(),
         (several, count) if several.len() == count => format!("all {count} primitives"),
         (several, _) => format!("primitives {}", ranges(several)),
@@ -505,7 +505,7 @@ fn ranges(numbers: &[u32]) -> String {
         .iter()
         .take(SHOWN)
         .map(|range| match range {
-            [one] => one.to_string(),
+            [number] => number.to_string(),
             [first, second] => format!("{first}, {second}"),
             several => format!("{} to {}", several[0], several[several.len() - 1]),
         })

@@ -28,8 +28,8 @@ pub fn judged_by(story: &Story) -> Option<String> {
 
 /// Returns the operations of a story in words.
 pub fn operations(story: &Story) -> Vec<EventLine> {
-    let told = &story.told[usize::from(told_verdict(story).is_some())..];
-    let mut lines: Vec<EventLine> = told.iter().map(EventLine::from).collect();
+    let lines_told = &story.told[usize::from(told_verdict(story).is_some())..];
+    let mut lines: Vec<EventLine> = lines_told.iter().map(EventLine::from).collect();
     let mut alone = story.alone.iter().peekable();
     for event in &story.events {
         // The ruling on a scene alone leads its events.

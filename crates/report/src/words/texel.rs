@@ -74,11 +74,11 @@ pub(crate) fn allowed(m: &ChannelMismatch, text: fn(ChannelEncoding, u32) -> Str
 
 /// The place of a texel: `texel (3, 4)`, with its sample if there are several.
 pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
-    let at = format!("texel ({}, {})", texel.x, texel.y);
+    let place_name = format!("texel ({}, {})", texel.x, texel.y);
     if multisampled {
-        format!("{at} sample {}", texel.sample)
+        format!("{place_name} sample {}", texel.sample)
     } else {
-        at
+        place_name
     }
 }
 

@@ -109,10 +109,10 @@ mod tests {
 
     #[test]
     fn symbols_differ() {
-        let mut all: Vec<_> = Verdict::ALL.iter().map(|v| symbol(*v)).collect();
-        all.sort_unstable();
-        all.dedup();
-        assert_eq!(all.len(), Verdict::ALL.len());
+        let mut symbols: Vec<_> = Verdict::ALL.iter().map(|v| symbol(*v)).collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        assert_eq!(symbols.len(), Verdict::ALL.len());
     }
 
     #[test]

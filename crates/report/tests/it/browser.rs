@@ -37,7 +37,7 @@ fn pages_work_in_a_browser() {
         hostile::hostile_names_stay_text(&chromium)
     });
     check("site", &|| {
-        site::a_site_leads_to_reports_cases_and_documents(&chromium, &path);
+        site::a_site_leads_to_reports_and_cases(&chromium, &path);
     });
     check("performance matrix", &|| {
         matrix::two_adapters_are_compared_and_samples_open(&chromium);

@@ -13,11 +13,10 @@ fn files(folder: &Path) -> BTreeSet<PathBuf> {
     while let Some(next) = coming.pop() {
         for entry in fs::read_dir(next).unwrap() {
             let path = entry.unwrap().path();
-            match path.is_dir() {
-                true => coming.push(path),
-                false => {
-                    all.insert(path.strip_prefix(folder).unwrap().to_owned());
-                }
+            if path.is_dir() {
+                coming.push(path);
+            } else {
+                all.insert(path.strip_prefix(folder).unwrap().to_owned());
             }
         }
     }
@@ -62,17 +61,12 @@ fn linked(site: &Path) -> usize {
             if link.contains("://") || link.starts_with("data:") {
                 continue;
             }
-            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let file = link.split('#').next().unwrap();
             let target = match file {
                 "" => (*path).clone(),
                 file => joined(folder, file),
             };
             assert!(files.contains(&target), "{}: {link}", path.display());
-            // The fragments of a run's page are views of its script.
-            if target.starts_with("docs") && !anchor.is_empty() {
-                let ids = attributes(&pages[&target], "id");
-                assert!(ids.contains(&anchor), "{}: {link}", path.display());
-            }
             followed += 1;
         }
     }
@@ -80,24 +74,20 @@ fn linked(site: &Path) -> usize {
 }
 
 #[test]
-fn a_site_of_a_run_and_the_documents_has_whole_links() {
+fn a_site_of_a_run_has_whole_links() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("nightly");
     fs::create_dir(&run).unwrap();
     made::write(&run);
     let to = folder.path().join("site");
-    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let written = write_site(&to, std::slice::from_ref(&run), Some(&checkout), false).unwrap();
+    let written = write_site(&to, std::slice::from_ref(&run), false).unwrap();
     assert_eq!(written.html, to.join("index.html"));
     assert_eq!(written.files, files(&to).len() as u64);
-    assert_eq!(written.unlinked, [], "links of documents that lead nowhere");
-    assert!(linked(&to) > 100);
+    assert!(linked(&to) > 10);
     for file in [
         "runs/nightly/index.html",
         "runs/nightly/cases/depth.js",
         "runs/nightly/junit.xml",
-        "docs/README.html",
-        "docs/crates/README.html",
         SITE_FILE,
     ] {
         assert!(to.join(file).is_file(), "{file}");
@@ -122,7 +112,7 @@ fn a_site_replaces_nothing_but_a_site() {
     made::write(&run);
     let to = folder.path().join("site");
     let write = |to: &Path, from: &Path, force| {
-        write_site(to, &[from.to_owned()], None, force).map_err(|error| error.to_string())
+        write_site(to, &[from.to_owned()], force).map_err(|error| error.to_string())
     };
     fs::create_dir(&to).unwrap();
     write(&to, &run, false).expect("an empty folder may be filled");

@@ -13,8 +13,8 @@ fn mean(text: &str) -> Option<f64> {
         let value: f64 = value.trim().parse().ok()?;
         (key.trim() == "cpu MHz" && value > 0.0 && value.is_finite()).then_some(value)
     };
-    let all: Vec<f64> = text.lines().filter_map(value).collect();
-    (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    let values: Vec<f64> = text.lines().filter_map(value).collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 #[cfg(test)]

@@ -24,12 +24,12 @@ const TABLE: usize = 2048;
 pub(crate) fn measure() -> f64 {
     let mut values: Vec<f32> = (0..TABLE).map(|i| i as f32).collect();
     let steps: Vec<f32> = (0..TABLE).map(|i| (i % 7) as f32).collect();
-    let one = |_| {
+    let frame = |_| {
         let start = Instant::now();
         work(black_box(&mut values), black_box(&steps));
         start.elapsed().as_secs_f64()
     };
-    let least = (0..REPEATS).map(one).fold(f64::MAX, f64::min);
+    let least = (0..REPEATS).map(frame).fold(f64::MAX, f64::min);
     least.max(1e-9)
 }
 

@@ -72,10 +72,8 @@ impl<'s> AdapterRun<'s, '_> {
                 let case = self.case(number);
                 let failure = Failure::Lost(Loss::NotStarted(error.to_owned()));
                 let report = FailureReport::new(failure, None);
-                let mut record = Record::new(&case.id, &self.queue.adapter.name, report.verdict);
+                let mut record = report.record(&case.id, &self.queue.adapter.name);
                 record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
-                record.message = report.message;
-                record.process = report.process;
                 self.record(self.settled(record));
             }
         }
@@ -147,10 +145,7 @@ impl<'s> AdapterRun<'s, '_> {
                 }
             }
             Err(failure) => {
-                let report = report(failure);
-                let mut record = Record::new(&case.id, &adapter.name, report.verdict);
-                record.message = report.message;
-                record.process = report.process;
+                let mut record = report(failure).record(&case.id, &adapter.name);
                 if let Some(end) = &mut record.process {
                     end.seconds = drawing.since.as_secs_f64();
                 }
@@ -238,9 +233,9 @@ impl<'s> AdapterRun<'s, '_> {
         let writer = &shared.frames;
         let drawn = etalon_truth::rgb8(image);
         measured.picture = Some(writer.write_picture(&record.case, image.size, &drawn)?);
-        let due = truth.rgb8();
+        let exact = truth.rgb8();
         measured.truth =
-            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &due)?);
+            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &exact)?);
         Ok(())
     }
 

@@ -19,9 +19,11 @@ pub(super) fn pictured(cases: &[Case]) -> HashSet<usize> {
         }
     }
     // The id decides between equal values, in whatever order the cases are drawn.
-    let middle = |mut all: Vec<(f64, &str, usize)>| {
-        all.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(b.1)));
-        all.get(all.len() / 2).map(|(_, _, number)| *number)
+    let middle = |mut pictures: Vec<(f64, &str, usize)>| {
+        pictures.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(b.1)));
+        pictures
+            .get(pictures.len() / 2)
+            .map(|(_, _, number)| *number)
     };
     families.into_values().filter_map(middle).collect()
 }

@@ -22,8 +22,8 @@ pub fn round_trips(libraries: &[&Library], cases: &[Case]) -> Result<Vec<Case>, 
     let mut wanted: BTreeSet<TextureFormat> = cases.iter().flat_map(leans_on).collect();
     let mut found = Vec::new();
     for library in libraries {
-        let all = library.cases(Profile::Full);
-        for case in all.filter(|case| case.id().starts_with(FAMILY)) {
+        let cases = library.cases(Profile::Full);
+        for case in cases.filter(|case| case.id().starts_with(FAMILY)) {
             let case = case.build()?;
             if format_of(&case).is_some_and(|format| wanted.remove(&format)) {
                 found.push(case);
@@ -130,15 +130,15 @@ impl RoundTrips {
         if failed.is_empty() {
             return None;
         }
-        let told = failed.iter().map(|f| format!("{} {}", f.case, f.account));
+        let accounts = failed.iter().map(|f| format!("{} {}", f.case, f.account));
         let reasons: Option<Vec<String>> = failed
             .iter()
             .map(|f| f.expected.as_ref().map(|why| format!("{}: {why}", f.case)))
             .collect();
         Some(Blocked {
             by: failed.iter().map(|f| f.case.clone()).collect(),
-            message: format!("not drawn: {}", told.collect::<Vec<_>>().join("; ")),
-            expected: reasons.map(|all| all.join("; ")),
+            message: format!("not drawn: {}", accounts.collect::<Vec<_>>().join("; ")),
+            expected: reasons.map(|texts| texts.join("; ")),
         })
     }
 
@@ -149,11 +149,11 @@ impl RoundTrips {
         }
         let formats = leans_on(case);
         let skipped = self.unchecked.iter().filter(|(f, _)| formats.contains(f));
-        let told = skipped.map(|(format, why)| {
+        let accounts = skipped.map(|(format, why)| {
             format!("the round trip of {format} was skipped and not checked ({why})")
         });
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| told.join("; "))
+        let accounts: Vec<String> = accounts.collect();
+        (!accounts.is_empty()).then(|| accounts.join("; "))
     }
 }
 
@@ -181,14 +181,14 @@ fn account(record: &Record) -> String {
                 actual,
                 ..
             } = channel;
-            let due = if low == high {
+            let expected = if low == high {
                 low.to_string()
             } else {
                 format!("{low} to {high}")
             };
             let (x, y) = (wrong.x, wrong.y);
             format!(
-                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, and {due} was due"
+                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, and {expected} was due"
             )
         }),
         None => {
@@ -216,8 +216,8 @@ mod tests {
     }
 
     fn trip(format: &str) -> Case {
-        let mut all = built(&format!("{FAMILY}{format}"));
-        all.pop().expect("a round trip")
+        let mut cases = built(&format!("{FAMILY}{format}"));
+        cases.pop().expect("a round trip")
     }
 
     #[test]
@@ -226,20 +226,20 @@ mod tests {
             .iter()
             .filter_map(format_of)
             .collect();
-        let due: BTreeSet<TextureFormat> = TextureFormat::ALL
+        let formats: BTreeSet<TextureFormat> = TextureFormat::ALL
             .into_iter()
             .filter(|f| f.is_color())
             .collect();
-        assert_eq!(found, due);
+        assert_eq!(found, formats);
     }
 
     #[test]
     fn a_case_leans_on_what_it_uploads_and_reads_and_on_nothing_else() {
         use TextureFormat::{Rgba8Unorm, Rgba32Float};
         let leaned = |glob: &str| {
-            let all = built(glob);
-            assert!(!all.is_empty(), "{glob}");
-            all.iter().flat_map(leans_on).collect::<BTreeSet<_>>()
+            let cases = built(glob);
+            assert!(!cases.is_empty(), "{glob}");
+            cases.iter().flat_map(leans_on).collect::<BTreeSet<_>>()
         };
         let depth = leaned("depth/clear");
         assert_eq!(depth, BTreeSet::from([Rgba8Unorm]), "no depth format");
@@ -258,8 +258,8 @@ mod tests {
     fn bad_round_trips_block_their_format_and_good_ones_nothing() {
         let trip = trip("rgba32float");
         let [inside, outside] = ["blend/factors", "cull/triangle-list"].map(|glob| {
-            let mut all = built(glob);
-            all.pop().expect("a case")
+            let mut cases = built(glob);
+            cases.pop().expect("a case")
         });
         for verdict in Verdict::ALL {
             let mut found = RoundTrips::default();
@@ -312,19 +312,19 @@ mod tests {
 
     #[test]
     fn a_case_is_expected_to_be_blocked_if_all_its_failures_are_expected() {
-        let (one, other) = (trip("rgba32float"), trip("rgba8unorm"));
+        let (float, other) = (trip("rgba32float"), trip("rgba8unorm"));
         let case = built("blend/factors").pop().expect("a case");
-        let mut known = Record::new(&one.id, "x", Verdict::Fail);
+        let mut known = Record::new(&float.id, "x", Verdict::Fail);
         known.expected = Some(Expected {
             reason: "bug 12".to_owned(),
         });
         let mut found = RoundTrips::default();
-        found.take(&one, &known);
+        found.take(&float, &known);
         let blocked = found.blocks(&case).expect("it is blocked");
-        let reason = format!("{}: bug 12", one.id);
+        let reason = format!("{}: bug 12", float.id);
         assert_eq!(blocked.expected, Some(reason));
-        assert_eq!(blocked.by, std::slice::from_ref(&one.id));
-        assert!(blocked.message.contains(&format!("{} is fail", one.id)));
+        assert_eq!(blocked.by, std::slice::from_ref(&float.id));
+        assert!(blocked.message.contains(&format!("{} is fail", float.id)));
         found.take(&other, &Record::new(&other.id, "x", Verdict::Crash));
         let blocked = found.blocks(&case).expect("it is blocked");
         assert_eq!((blocked.expected, blocked.by.len()), (None, 2));

@@ -84,8 +84,8 @@ pub(super) fn confirm(
     let mut verdicts = vec![verdict.name()];
     verdicts.extend(repeats.iter().map(|v| v.name()));
     let note = format!("{}, each in a fresh process", verdicts.join(", then "));
-    let all = std::iter::once(first).chain(others);
-    let mut worst = all.max_by_key(|s| s.record.verdict.severity())?;
+    let verdicts = std::iter::once(first).chain(others);
+    let mut worst = verdicts.max_by_key(|s| s.record.verdict.severity())?;
     worst.record.verdict = Verdict::Flaky;
     worst.record.repeats = repeats;
     worst.record.message = match worst.record.message.as_str() {
@@ -103,11 +103,11 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u3
         .process
         .as_ref()
         .is_none_or(|p| p.kind != LossKind::NotStarted);
-    let due = record.due_fail && record.verdict.is_violation();
+    let caught = record.due_fail && record.verdict.is_violation();
     record.unexpected()
         && record.verdict.is_bad()
         && started
-        && !due
+        && !caught
         && run
             .queue
             .may_recheck(&Symptom::of(&observed.record).broad(), most)

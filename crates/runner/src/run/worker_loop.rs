@@ -175,8 +175,8 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
 
     /// The cases that the worker drew before this one.
     fn before(&self, number: usize) -> Vec<usize> {
-        let at = self.history.iter().rposition(|n| *n == number);
-        self.history[..at.unwrap_or(0)].to_vec()
+        let index = self.history.iter().rposition(|n| *n == number);
+        self.history[..index.unwrap_or(0)].to_vec()
     }
 
     fn receive(&mut self, number: usize, asked: Instant) -> Drawing {

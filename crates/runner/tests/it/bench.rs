@@ -55,7 +55,7 @@ impl Prepared for FaultyScene<'_> {
         // One frame is drawn to be judged, several are when they are timed.
         match (self.fault, self.frames) {
             ("dies", 2) | ("dies at once", 1) => std::process::abort(),
-            ("lost", 2) => Err(BackendError::DeviceLost("planted".to_owned())),
+            ("lost", 2) => Err(BackendError::lost("planted")),
             _ => self.inner.submit(),
         }
     }

@@ -7,7 +7,7 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Un
 use etalon_case::Library;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
-use etalon_record::{Expectations, FORMAT, Header, Machine, Record, ReportFiles, Run, Verdict};
+use etalon_record::{Expectations, Header, Record, ReportFiles, Run, Verdict};
 use etalon_runner::{Event, Launch, Launcher, Options, Plan, RunSummary, StartError, Worker};
 use etalon_scene::Scene;
 use std::io::Write;
@@ -56,15 +56,9 @@ fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
         }
         // The picture is changed behind it.
         "wrong" => Ok(()),
-        "lost" => Err(BackendError::DeviceLost(word())),
-        "resource" => Err(BackendError::Resource {
-            what: "a buffer".to_owned(),
-            message: word(),
-        }),
-        "shader" => Err(BackendError::Shader {
-            shader: "flat_color".to_owned(),
-            message: word(),
-        }),
+        "lost" => Err(BackendError::lost(word())),
+        "resource" => Err(BackendError::refused("a buffer", word())),
+        "shader" => Err(BackendError::shader("flat_color", word())),
         "not-supported" => {
             let feature = Feature::SeparateStencilMasks;
             Err(BackendError::NotSupported(Requirement::Feature(feature)))
@@ -293,18 +287,7 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
     let plan = Plan {
         cases: &cases,
         round_trips: &round_trips,
-        header: Header {
-            format: FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
-            command: Vec::new(),
-            cases: cases.len() as u64,
-            settings: Default::default(),
-            adapters: vec![(&worker).into()],
-            absent: Vec::new(),
-        },
+        header: Header::new(vec![(&worker).into()], cases.len() as u64),
         adapters: vec![(launch, worker)],
         dead: Vec::new(),
         options: Options {

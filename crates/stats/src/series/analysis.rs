@@ -63,8 +63,8 @@ impl Changes {
         let ends = ends.chain([self.runs]);
         let long = |(_, (point, end)): &(usize, (&ChangePoint, usize))| end - point.index >= WINDOW;
         let last = self.points.iter().zip(ends).enumerate().filter(long).last();
-        let before = last.and_then(|(at, _)| at.checked_sub(1));
-        before.map_or(0, |at| self.points[at].index)
+        let before = last.and_then(|(place, _)| place.checked_sub(1));
+        before.map_or(0, |place| self.points[place].index)
     }
 
     /// The changes of a series that has grown. `all` holds the old runs and the new ones.
@@ -80,7 +80,7 @@ impl Changes {
         let mut tail = analyze(&all[start..]);
         for point in &mut tail.points {
             point.index += start;
-            point.between = point.between.map(|at| at + start);
+            point.between = point.between.map(|index| index + start);
         }
         for drift in &mut tail.drifts {
             drift.from += start;
@@ -203,10 +203,10 @@ fn analyze(points: &[Point]) -> Changes {
 
 /// The place before, the place, and the place after, of each.
 fn neighbourhoods(found: &[(usize, bool)], runs: usize) -> Vec<[usize; 3]> {
-    let place = |at: usize| found.get(at).map_or(runs, |(place, _)| *place);
-    let before = |at: usize| at.checked_sub(1).map_or(0, place);
+    let place = |index: usize| found.get(index).map_or(runs, |(place, _)| *place);
+    let before = |index: usize| index.checked_sub(1).map_or(0, place);
     (0..found.len())
-        .map(|at| [before(at), place(at), place(at + 1)])
+        .map(|index| [before(index), place(index), place(index + 1)])
         .collect()
 }
 
@@ -274,13 +274,13 @@ fn mark_returns(points: &mut [ChangePoint]) {
         .into_iter()
         .chain(points.iter().map(|p| p.after.ln()))
         .collect();
-    for (at, point) in points.iter_mut().enumerate() {
+    for (index, point) in points.iter_mut().enumerate() {
         let reach = (point.ratio.high / point.ratio.low).ln() / 2.0;
         let near = reach.max(STEP.ln());
         let times = |level: f64| levels.iter().filter(|l| (*l - level).abs() <= near).count();
         // Both levels within reach of each other say nothing.
-        let apart = (levels[at + 1] - levels[at]).abs() > 2.0 * near;
-        let visits = [levels[at], levels[at + 1]].map(times);
+        let apart = (levels[index + 1] - levels[index]).abs() > 2.0 * near;
+        let visits = [levels[index], levels[index + 1]].map(times);
         let open = matches!(point.cause, Cause::NoRuler | Cause::Unclear);
         point.returns =
             open && apart && visits.iter().all(|n| *n > 1) && visits[0] + visits[1] >= VISITS;

@@ -68,10 +68,15 @@ impl Cause {
     pub(super) fn of(raw: &Test, ruled: &Test, ruler: &Test) -> Self {
         let clear = |test: &Test| test.shift.abs() > test.reach();
         let beyond = raw.shift.abs() >= BEYOND_RULER * ruler.shift.abs();
-        match beyond {
-            true if clear(ruled) && ruled.shift * raw.shift > 0.0 => Self::Driver,
-            false if clear(ruler) && ruler.shift * raw.shift > 0.0 => Self::Machine,
-            _ => Self::Unclear,
+        let (of_whom, cause) = if beyond {
+            (ruled, Self::Driver)
+        } else {
+            (ruler, Self::Machine)
+        };
+        if clear(of_whom) && of_whom.shift * raw.shift > 0.0 {
+            cause
+        } else {
+            Self::Unclear
         }
     }
 }

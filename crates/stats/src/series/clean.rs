@@ -55,8 +55,11 @@ mod tests {
         values.extend([0.3; 12]);
         let cleaned = clean(&values);
         for (i, value) in cleaned.iter().enumerate() {
-            let due = if i < 20 { 0.0 } else { 0.3 };
-            assert!((value - due).abs() <= REACH * FLOOR + 1e-12, "{i}: {value}");
+            let level = if i < 20 { 0.0 } else { 0.3 };
+            assert!(
+                (value - level).abs() <= REACH * FLOOR + 1e-12,
+                "{i}: {value}"
+            );
         }
         assert!(clean(&[]).is_empty());
         assert_eq!(clean(&[4.0]), [4.0]);

@@ -32,7 +32,7 @@ fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64
     let mut seen = Seen(vec![(0.0, 0.0); sorted.len() + 1]);
     let mut total = 0.0;
     let (mut count, mut sum) = (0.0, 0.0);
-    let mut all = vec![0.0];
+    let mut sums = vec![0.0];
     for value in values {
         let rank = sorted.partition_point(|v| v < value) + 1;
         let (below, sum_below) = seen.up_to(rank);
@@ -40,9 +40,9 @@ fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64
         seen.add(rank, *value);
         count += 1.0;
         sum += value;
-        all.push(total);
+        sums.push(total);
     }
-    all
+    sums
 }
 
 /// Counts and sums of the values seen, by rank from 1.
@@ -50,21 +50,21 @@ struct Seen(Vec<(f64, f64)>);
 
 impl Seen {
     fn add(&mut self, rank: usize, value: f64) {
-        let mut at = rank;
-        while let Some((count, sum)) = self.0.get_mut(at) {
+        let mut node = rank;
+        while let Some((count, sum)) = self.0.get_mut(node) {
             *count += 1.0;
             *sum += value;
-            at += at & at.wrapping_neg();
+            node += node & node.wrapping_neg();
         }
     }
 
     fn up_to(&self, rank: usize) -> (f64, f64) {
         let mut all = (0.0, 0.0);
-        let mut at = rank;
-        while at > 0 {
-            let (count, sum) = self.0[at];
+        let mut node = rank;
+        while node > 0 {
+            let (count, sum) = self.0[node];
             all = (all.0 + count, all.1 + sum);
-            at &= at - 1;
+            node &= node - 1;
         }
         all
     }
@@ -79,8 +79,8 @@ mod tests {
     fn divergence(values: &[f64], place: usize) -> f64 {
         let (before, after) = values.split_at(place);
         let mean = |a: &[f64], b: &[f64]| {
-            let all = a.iter().flat_map(|x| b.iter().map(move |y| (x - y).abs()));
-            all.sum::<f64>()
+            let distances = a.iter().flat_map(|x| b.iter().map(move |y| (x - y).abs()));
+            distances.sum::<f64>()
         };
         let (m, n) = (before.len() as f64, after.len() as f64);
         let within = |a: &[f64]| mean(a, a) / (a.len() * (a.len() - 1)) as f64;

@@ -83,31 +83,34 @@ struct Candidate {
 fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
     let runs = sums.values().len();
     let mut places: Vec<usize> = found.iter().copied().collect();
-    let judged = |places: &[usize], at: usize| judge(sums, places, at, runs);
-    let mut all: Vec<Candidate> = (0..places.len()).map(|at| judged(&places, at)).collect();
+    let judged = |places: &[usize], index: usize| judge(sums, places, index, runs);
+    let mut candidates: Vec<Candidate> = (0..places.len())
+        .map(|index| judged(&places, index))
+        .collect();
     loop {
-        let failing = all.iter().enumerate().filter(|(_, c)| !c.holds);
+        let failing = candidates.iter().enumerate().filter(|(_, c)| !c.holds);
         let weakest = failing.min_by(|(_, a), (_, b)| a.evidence.total_cmp(&b.evidence));
-        let Some((at, _)) = weakest else {
+        let Some((weakest_index, _)) = weakest else {
             break;
         };
-        all.remove(at);
-        places.remove(at);
+        candidates.remove(weakest_index);
+        places.remove(weakest_index);
         // Those too near to each other look past one another, so that more than two may see the gap.
-        let near = at.saturating_sub(MIN_RUNS)..places.len().min(at + MIN_RUNS);
-        for (at, candidate) in near.clone().zip(&mut all[near]) {
-            *candidate = judged(&places, at);
+        let near =
+            weakest_index.saturating_sub(MIN_RUNS)..places.len().min(weakest_index + MIN_RUNS);
+        for (index, candidate) in near.clone().zip(&mut candidates[near]) {
+            *candidate = judged(&places, index);
         }
     }
-    *found = all.into_iter().map(|c| c.place).collect();
+    *found = candidates.into_iter().map(|c| c.place).collect();
 }
 
 /// Judges a change between the nearest that are far enough from it. Of those that are too near to each other
 /// the one with the most evidence remains.
-fn judge(sums: &Sums, places: &[usize], at: usize, runs: usize) -> Candidate {
-    let place = places[at];
-    let before = places[..at].iter().rev();
-    let after = places[at + 1..].iter();
+fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> Candidate {
+    let place = places[index];
+    let before = places[..index].iter().rev();
+    let after = places[index + 1..].iter();
     let from = before
         .copied()
         .chain([0])
@@ -124,8 +127,8 @@ fn judge(sums: &Sums, places: &[usize], at: usize, runs: usize) -> Candidate {
         };
     };
     let test = test(sums, from, place, to);
-    let alone = places[..at].last().is_none_or(|other| *other == from)
-        && places.get(at + 1).is_none_or(|other| *other == to);
+    let alone = places[..index].last().is_none_or(|other| *other == from)
+        && places.get(index + 1).is_none_or(|other| *other == to);
     Candidate {
         place,
         holds: alone && test.shift.abs() >= STEP.ln() && test.p_of_any_place() <= LEVEL,
@@ -137,9 +140,9 @@ fn judge(sums: &Sums, places: &[usize], at: usize, runs: usize) -> Candidate {
 fn settle(sums: &Sums, found: &BTreeSet<usize>) -> BTreeSet<usize> {
     let runs = sums.values().len();
     let places: Vec<usize> = found.iter().copied().collect();
-    let moved = places.iter().enumerate().map(|(at, place)| {
-        let from = at.checked_sub(1).map_or(0, |before| places[before]);
-        let to = places.get(at + 1).copied().unwrap_or(runs);
+    let moved = places.iter().enumerate().map(|(index, place)| {
+        let from = index.checked_sub(1).map_or(0, |before| places[before]);
+        let to = places.get(index + 1).copied().unwrap_or(runs);
         if sums.is_rather_a_line(from, *place, to) {
             *place
         } else {

@@ -123,12 +123,12 @@ impl Sums {
     pub(super) fn new(values: Vec<f64>, errors: &[f64]) -> Self {
         let sums = |each: &dyn Fn(usize) -> f64| {
             let mut sum = 0.0;
-            let mut all = vec![0.0];
-            all.extend((0..values.len()).map(|i| {
+            let mut sums = vec![0.0];
+            sums.extend((0..values.len()).map(|i| {
                 sum += each(i);
                 sum
             }));
-            all
+            sums
         };
         let next = |i: usize| values.get(i + 1).map_or(0.0, |next| values[i] * next);
         Self {
@@ -186,9 +186,9 @@ impl Sums {
     }
 
     fn moments(&self, from: usize, to: usize) -> Moments {
-        let of = |sums: &[f64]| sums[to] - sums[from];
+        let between = |sums: &[f64]| sums[to] - sums[from];
         let runs = (to - from) as f64;
-        let sum = of(&self.value);
+        let sum = between(&self.value);
         let mean = sum / runs;
         let middle = (from + to - 1) as f64 / 2.0;
         let (first, last) = (self.values[from], self.values[to - 1]);
@@ -197,11 +197,11 @@ impl Sums {
             runs,
             mean,
             middle,
-            squares: (of(&self.square) - sum * mean).max(0.0),
-            by_index: of(&self.by_index) - middle * sum,
+            squares: (between(&self.square) - sum * mean).max(0.0),
+            by_index: between(&self.by_index) - middle * sum,
             index_squares: runs * (runs * runs - 1.0) / 12.0,
             by_next: neighbours - mean * (2.0 * sum - first - last) + (runs - 1.0) * mean * mean,
-            error: of(&self.error),
+            error: between(&self.error),
         }
     }
 
@@ -292,25 +292,25 @@ impl Sums {
     /// True if a line through all runs leaves less than two levels with a step between.
     pub(super) fn is_rather_a_line(&self, from: usize, place: usize, to: usize) -> bool {
         let levels = self.squares(from, place) + self.squares(place, to);
-        let all = self.moments(from, to);
-        all.squares - all.by_index * all.by_index / all.index_squares < levels
+        let moments = self.moments(from, to);
+        moments.squares - moments.by_index * moments.by_index / moments.index_squares < levels
     }
 
     /// The test of the slope of a stretch: by how much it climbs from its first run to its last.
     pub(super) fn climb(&self, from: usize, to: usize) -> Test {
-        let all = self.moments(from, to);
-        let slope = all.by_index / all.index_squares;
-        let explained = slope * all.by_index;
-        let freedom = all.runs - 2.0;
-        let left = (all.squares - explained).max(0.0);
-        let next = all.by_next - explained;
-        let variance = variance(left, next, all.error, all.runs, freedom);
-        let length = all.runs - 1.0;
+        let moments = self.moments(from, to);
+        let slope = moments.by_index / moments.index_squares;
+        let explained = slope * moments.by_index;
+        let freedom = moments.runs - 2.0;
+        let left = (moments.squares - explained).max(0.0);
+        let next = moments.by_next - explained;
+        let variance = variance(left, next, moments.error, moments.runs, freedom);
+        let length = moments.runs - 1.0;
         Test {
             shift: slope * length,
-            error: (variance / all.index_squares).sqrt() * length,
+            error: (variance / moments.index_squares).sqrt() * length,
             freedom,
-            runs: all.runs,
+            runs: moments.runs,
         }
     }
 
@@ -454,7 +454,12 @@ mod tests {
             })
             .collect();
         let fresh: Vec<f64> = (0..200).map(|_| normal(&mut random)).collect();
-        let of = |values: &[f64]| sums(values).step(0, 100, 200).error;
-        assert!(of(&kept) > 2.0 * of(&fresh), "{} {}", of(&kept), of(&fresh));
+        let error_of = |values: &[f64]| sums(values).step(0, 100, 200).error;
+        assert!(
+            error_of(&kept) > 2.0 * error_of(&fresh),
+            "{} {}",
+            error_of(&kept),
+            error_of(&fresh)
+        );
     }
 }

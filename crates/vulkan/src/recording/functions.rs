@@ -28,9 +28,9 @@ macro_rules! functions {
                     let result = unsafe { own($($argument),+) };
                     let failed = false $(|| <$result>::as_raw(result) < 0)?;
                     if !failed {
-                        let all = Arguments { $($argument),+ };
+                        let arguments = Arguments { $($argument),+ };
                         // SAFETY: the arguments are as the specification says, and the driver wrote what it makes.
-                        let members = || unsafe { members(FIELDS, (&raw const all).cast()) };
+                        let members = || unsafe { members(FIELDS, (&raw const arguments).cast()) };
                         keep(stringify!($name), || members().into_iter().map(|member| member.value).collect());
                     }
                     result

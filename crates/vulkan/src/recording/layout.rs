@@ -186,18 +186,20 @@ impl Count {
             Self::Fixed(count) => return count,
             Self::By(path) => path,
         };
-        let (name, rest) = path.split_once("->").unwrap_or((path, ""));
+        let (name, behind) = path.split_once("->").unwrap_or((path, ""));
         let Some(field) = fields.iter().find(|field| field.name == name) else {
             fail(path);
             return 0;
         };
         // SAFETY: the caller's.
         unsafe {
-            let at = address.add(field.offset);
+            let place = address.add(field.offset);
             match field.kind {
-                Kind::Array(Kind::Struct(layout), _) => Self::By(rest).of(layout.fields, get(at)),
-                Kind::U32 => get::<u32>(at) as usize,
-                _ => get(at),
+                Kind::Array(Kind::Struct(layout), _) => {
+                    Self::By(behind).of(layout.fields, get(place))
+                }
+                Kind::U32 => get::<u32>(place) as usize,
+                _ => get(place),
             }
         }
     }
@@ -221,18 +223,20 @@ impl Kind {
     unsafe fn run(&self, start: *const u8, count: usize) -> Vec<Argument> {
         let places = (0..count).map(|i| start.wrapping_add(i * self.size()));
         // SAFETY: the caller's. No value of a run counts by another.
-        places.map(|at| unsafe { self.read(at, &[], at) }).collect()
+        places
+            .map(|place| unsafe { self.read(place, &[], place) })
+            .collect()
     }
 
     /// Returns the value at an address, which is one of the fields at another.
     ///
     /// # Safety
     /// As for [`members`].
-    unsafe fn read(&self, at: *const u8, fields: &[Field], structure: *const u8) -> Argument {
+    unsafe fn read(&self, place: *const u8, fields: &[Field], structure: *const u8) -> Argument {
         // SAFETY: the caller's; kinds and counts are those of the registry.
         unsafe {
             // Where an address leads, and the number of values there.
-            let start = || get::<*const u8>(at);
+            let start = || get::<*const u8>(place);
             let count = |count: &Count| {
                 if start().is_null() {
                     0
@@ -241,14 +245,14 @@ impl Kind {
                 }
             };
             match self {
-                Self::U32 => Argument::Unsigned(get(at)),
-                Self::I32 => Argument::Integer(get(at)),
-                Self::F32 => Argument::Float(get(at)),
-                Self::U64 => Argument::Size(get(at)),
-                Self::Named(name) => constant(get(at), *name),
-                Self::Handle(kind) => Argument::Object((*kind).to_owned(), get(at)),
-                Self::Struct(layout) => layout.read(at),
-                Self::Values(kind, count) => Argument::Values(kind.run(at, *count)),
+                Self::U32 => Argument::Unsigned(get(place)),
+                Self::I32 => Argument::Integer(get(place)),
+                Self::F32 => Argument::Float(get(place)),
+                Self::U64 => Argument::Size(get(place)),
+                Self::Named(name) => constant(get(place), *name),
+                Self::Handle(kind) => Argument::Object((*kind).to_owned(), get(place)),
+                Self::Struct(layout) => layout.read(place),
+                Self::Values(kind, count) => Argument::Values(kind.run(place, *count)),
                 Self::Array(kind, length) => match count(length) {
                     0 => Argument::Null,
                     length => Argument::Array(kind.run(start(), length)),

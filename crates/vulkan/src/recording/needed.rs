@@ -48,8 +48,8 @@ impl Needed {
         if self.all || call.function != "vkCreateDevice" {
             return;
         }
-        if let Some(Argument::Array(all)) = call.arguments.get_mut(1)
-            && let Some(Argument::Struct { members, .. }) = all.first_mut()
+        if let Some(Argument::Array(infos)) = call.arguments.get_mut(1)
+            && let Some(Argument::Struct { members, .. }) = infos.first_mut()
         {
             let mut extensions = 0;
             for member in &mut *members {
@@ -64,8 +64,8 @@ impl Needed {
                             *value = Argument::Null;
                         }
                     }
-                    ("pEnabledFeatures", Argument::Array(all)) => {
-                        if let Some(Argument::Struct { members, .. }) = all.first_mut() {
+                    ("pEnabledFeatures", Argument::Array(structures)) => {
+                        if let Some(Argument::Struct { members, .. }) = structures.first_mut() {
                             for member in members {
                                 if !self.features.contains(&member.name.as_str()) {
                                     member.value = Argument::Unsigned(0);
@@ -86,8 +86,10 @@ impl Needed {
 
     /// Takes the structures of extensions that are left out from a chain.
     fn unchain(&self, chain: &mut Argument) {
-        let Argument::Array(all) = chain else { return };
-        let Some(Argument::Struct { kind, members, .. }) = all.first_mut() else {
+        let Argument::Array(structures) = chain else {
+            return;
+        };
+        let Some(Argument::Struct { kind, members, .. }) = structures.first_mut() else {
             return;
         };
         let owner = match kind.as_str() {
@@ -99,15 +101,15 @@ impl Needed {
             }
             _ => "",
         };
-        let mut rest = Argument::Null;
+        let mut successor = Argument::Null;
         for member in members {
             if member.name == "pNext" {
                 self.unchain(&mut member.value);
-                rest = member.value.clone();
+                successor = member.value.clone();
             }
         }
         if !owner.is_empty() && !self.extensions.contains(&owner) {
-            *chain = rest;
+            *chain = successor;
         }
     }
 }

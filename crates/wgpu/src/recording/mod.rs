@@ -78,7 +78,7 @@ impl Recorder {
     fn output(&self, function: &str, rows: &[Rows], bytes: u64) -> u32 {
         let mut read = self.read.borrow_mut();
         let number = read.calls.len() as u32;
-        let of = |rows: &Rows| {
+        let arguments = |rows: &Rows| {
             [
                 Argument::Offset(rows.offset),
                 Argument::Unsigned(rows.pitch),
@@ -89,7 +89,7 @@ impl Recorder {
         read.calls.push(Call {
             phase: Phase::Read,
             function: function.to_owned(),
-            arguments: rows.iter().flat_map(of).collect(),
+            arguments: rows.iter().flat_map(arguments).collect(),
             result: Some(Argument::Output(number, bytes)),
         });
         number

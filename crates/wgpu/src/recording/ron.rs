@@ -8,14 +8,14 @@ const DEEPEST: usize = 100;
 /// Returns the values of a trace, which may lack the bracket at its end.
 pub(super) fn values(text: &str) -> Result<Vec<Tree>, String> {
     let mut reader = Reader { text, at: 0 };
-    let mut all = Vec::new();
+    let mut values = Vec::new();
     if !reader.takes('[') {
         return Err("a trace begins with `[`".to_owned());
     }
     loop {
         match reader.peek() {
-            None | Some(']') => return Ok(all),
-            _ => all.push(reader.value(0)?),
+            None | Some(']') => return Ok(values),
+            _ => values.push(reader.value(0)?),
         }
         reader.takes(',');
     }
@@ -93,32 +93,32 @@ impl<'a> Reader<'a> {
 
     fn list(&mut self, depth: usize) -> Result<Tree, String> {
         self.takes('[');
-        let mut all = Vec::new();
+        let mut values = Vec::new();
         while !self.takes(']') {
-            all.push(self.value(depth + 1)?);
+            values.push(self.value(depth + 1)?);
             if !self.takes(',') && self.peek() != Some(']') {
                 return self.fails("no end of a list");
             }
         }
-        Ok(Tree::List(all))
+        Ok(Tree::List(values))
     }
 
     /// Reads a map as a list of pairs.
     fn map(&mut self, depth: usize) -> Result<Tree, String> {
         self.takes('{');
-        let mut all = Vec::new();
+        let mut pairs = Vec::new();
         while !self.takes('}') {
             let key = self.value(depth + 1)?;
             if !self.takes(':') {
                 return self.fails("no value of a key");
             }
             let value = self.value(depth + 1)?;
-            all.push(Tree::Tuple(String::new(), vec![key, value]));
+            pairs.push(Tree::Tuple(String::new(), vec![key, value]));
             if !self.takes(',') && self.peek() != Some('}') {
                 return self.fails("no end of a map");
             }
         }
-        Ok(Tree::List(all))
+        Ok(Tree::List(pairs))
     }
 
     /// Reads what stands in parentheses: fields or parts.

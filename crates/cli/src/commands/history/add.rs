@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let dates = dates(arguments.dates.as_deref())?;
     let mut writer = Writer::open(&arguments.database.path()).map_err(failure)?;
     let mut codes = Vec::new();
-    let mut told = Vec::new();
+    let mut added = Vec::new();
     for path in &arguments.runs {
         let runs = match ready(path, &dates, &labels, arguments.incomplete) {
             Ok(runs) => runs,
@@ -75,20 +75,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 }
                 Err(error) => return Err(failure(error)),
             };
-            let one = Told {
+            let line = Told {
                 path,
                 run,
                 id,
                 is_new,
             };
             match arguments.format {
-                Format::Text => summarize(&one.line()),
-                Format::Json => told.push(one.json()),
+                Format::Text => summarize(&line.line()),
+                Format::Json => added.push(line.json()),
             }
         }
     }
     if arguments.format == Format::Json {
-        summarize_json(&told)?;
+        summarize_json(&added)?;
     }
     Ok([USAGE, INCOMPLETE]
         .into_iter()
@@ -163,13 +163,13 @@ fn lacks(path: &Path, run: &NewRun) -> String {
 fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
     let dates: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
     let mut undated = Vec::new();
-    for (at, run) in runs.iter_mut().enumerate() {
+    for (index, run) in runs.iter_mut().enumerate() {
         if run.kind != Kind::Release || run.released.is_some() {
             continue;
         }
         undated.extend(run.adapters.first().map(|a| a.adapter.version.clone()));
-        let later = dates[at..].iter().flatten().next();
-        let earlier = dates[..at].iter().rev().flatten().next();
+        let later = dates[index..].iter().flatten().next();
+        let earlier = dates[..index].iter().rev().flatten().next();
         // Of equal times, the one that was added first stands first.
         run.released = later.map(|later| *earlier.unwrap_or(later));
     }
@@ -270,8 +270,8 @@ mod tests {
     #[test]
     fn the_dates_that_are_compiled_in_parse_and_climb() {
         let dates = dates(None).unwrap();
-        let of = |version| dates.of("swiftshader", version).unwrap();
-        assert!(of("106.0.2") < of("118.0.0") && of("118.0.0") < of("153.0.0"));
+        let date = |version| dates.of("swiftshader", version).unwrap();
+        assert!(date("106.0.2") < date("118.0.0") && date("118.0.0") < date("153.0.0"));
         assert_eq!(dates.of("lavapipe", "26.2.6"), None);
     }
 }

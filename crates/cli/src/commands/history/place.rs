@@ -31,14 +31,14 @@ pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String
 /// Returns the drivers and the suites of two runs in words.
 pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId; 2]) -> String {
     let [before, now] = [after, at].map(|run| versions(history, run, timeline));
-    let of = |what: &str, i: usize| {
+    let field = |what: &str, i: usize| {
         if before[i] == now[i] {
             format!("{what} {}", now[i])
         } else {
             format!("{what} {} to {}", before[i], now[i])
         }
     };
-    format!("{}, {}", of("driver", 0), of("suite", 1))
+    format!("{}, {}", field("driver", 0), field("suite", 1))
 }
 
 /// A run for programs.

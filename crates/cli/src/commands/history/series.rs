@@ -166,8 +166,8 @@ impl Series {
 
     /// True if the change may lie right before this run.
     fn holds(&self, change: &ChangePoint, run: RunId) -> bool {
-        let [after, at] = change.between;
-        self.runs[after + 1..=at].contains(&run)
+        let [after, first] = change.between;
+        self.runs[after + 1..=first].contains(&run)
     }
 
     /// The machine of the series.
@@ -194,8 +194,8 @@ impl Series {
             })
         };
         entry(self.first_run(change)).or_else(|| {
-            let [after, at] = change.between;
-            let runs = self.runs[after + 1..=at].iter();
+            let [after, first] = change.between;
+            let runs = self.runs[after + 1..=first].iter();
             runs.rev().find_map(|run| entry(*run))
         })
     }
@@ -207,7 +207,7 @@ impl Series {
         states: &TriageStates,
         change: &ChangePoint,
     ) -> String {
-        let [after, at] = change.between.map(|at| self.runs[at]);
+        let [after, first] = change.between.map(|at| self.runs[at]);
         let state = self.state(states, change);
         let returns = if change.returns {
             ", which goes back and forth"
@@ -218,12 +218,12 @@ impl Series {
             format!(", ruler {}", percent(ruler.estimate))
         });
         format!(
-            "{} at {}: {} to {}{returns}; between runs {after} and {at}: {}; smallest visible change {}; {}{ruler}; {}",
+            "{} at {}: {} to {}{returns}; between runs {after} and {first}: {}; smallest visible change {}; {}{ruler}; {}",
             range(&change.ratio),
             run_text(history, self.first_run(change)),
             milliseconds(change.before),
             milliseconds(change.after),
-            range_text(history, &self.key.timeline, [after, at]),
+            range_text(history, &self.key.timeline, [after, first]),
             percent(change.visible),
             change.cause.text(),
             state_text(state)
@@ -300,7 +300,7 @@ impl Series {
             let state = self.state(states, change);
             json!({
                 "run": self.first_run(change).number(),
-                "between": change.between.map(|at| run_json(history, self.runs[at], &self.key.timeline)),
+                "between": change.between.map(|index| run_json(history, self.runs[index], &self.key.timeline)),
                 "before": change.before,
                 "after": change.after,
                 "ratio": ratio(&change.ratio),

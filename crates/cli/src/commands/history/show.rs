@@ -49,27 +49,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return list(&history, &timelines, &labels, arguments.format);
     };
     known_case(&history, case)?;
-    let told = || -> Result<_, HistoryError> {
+    let read = || -> Result<_, HistoryError> {
         let states = history.triage_states()?;
-        let mut all = Vec::new();
+        let mut lines = Vec::new();
         for of_adapter in verdicts(&history, case, &timelines, &labels)? {
             let (timeline, time) = (&of_adapter.timeline, arguments.time.into());
             let series = series_of(&history, case, timeline, time, &labels)?;
-            all.push((of_adapter, series));
+            lines.push((of_adapter, series));
         }
-        Ok((states, all))
+        Ok((states, lines))
     };
-    let (states, all) = told().map_err(failure)?;
-    if all.is_empty() {
+    let (states, lines) = read().map_err(failure)?;
+    if lines.is_empty() {
         return Err(Failure::nothing(format!(
             "no run with these labels has {} on these adapters",
             plain(case, 300)
         )));
     }
     match arguments.format {
-        Format::Text => print(&text(&history, case, &states, &all))?,
+        Format::Text => print(&text(&history, case, &states, &lines))?,
         Format::Json => {
-            let adapters = all.iter().map(|(of_adapter, series)| {
+            let adapters = lines.iter().map(|(of_adapter, series)| {
                 let entry = states.get(&subject(case, &of_adapter.timeline));
                 let mut value = of_adapter.json(&history);
                 value["state"] = json!(state_name(entry));
@@ -160,15 +160,15 @@ pub(super) fn known_timelines(
     history: &History,
     names: &[String],
 ) -> Result<Vec<Rc<str>>, Failure> {
-    let all = history.timelines();
+    let timelines = history.timelines();
     if names.is_empty() {
-        return Ok(all);
+        return Ok(timelines);
     }
     let mut found = Vec::new();
     for name in names {
-        let known = all.iter().find(|timeline| ***timeline == **name);
+        let known = timelines.iter().find(|timeline| ***timeline == **name);
         let Some(known) = known else {
-            let near = did_you_mean(name, all.iter().map(|timeline| &**timeline));
+            let near = did_you_mean(name, timelines.iter().map(|timeline| &**timeline));
             return Err(Failure::usage(format!(
                 "{} has no adapter `{}`{near}",
                 history.path().display(),
@@ -200,8 +200,8 @@ fn text(
         lines.push(String::new());
         let entry = states.get(&subject(case, &of_adapter.timeline));
         lines.extend(verdict_lines(history, of_adapter, entry));
-        for one in series {
-            let indented = one.lines(history, states).into_iter();
+        for times in series {
+            let indented = times.lines(history, states).into_iter();
             lines.extend(indented.map(|line| format!("  {line}")));
         }
     }

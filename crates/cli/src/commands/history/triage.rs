@@ -20,7 +20,7 @@ use std::time::SystemTime;
 /// The entries of each kind that are printed.
 const PRINTED: usize = 40;
 
-/// What people say of a change.
+/// A person's word on a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum State {
     /// Nobody has looked yet.
@@ -205,11 +205,11 @@ fn line(entry: &TriageEntry) -> String {
         timeline,
         step,
     } = &entry.subject;
-    let of = step.map_or(String::new(), |step| {
+    let step_name = step.map_or(String::new(), |step| {
         format!(", {} time from run {} on", step.time.name(), step.run)
     });
     format!(
-        "{} on {}{of}: {}",
+        "{} on {}{step_name}: {}",
         plain(case, 400),
         plain(timeline, 100),
         state_text(Some(entry))
@@ -240,22 +240,27 @@ fn list(arguments: &Arguments, history: &History, labels: &Labels) -> Result<u8,
     let bad = open_verdicts(history, &timelines, labels, &states, settled).map_err(failure)?;
     let steps = open_steps(history, &timelines, labels, &states, time, settled).map_err(failure)?;
     if arguments.format == Format::Json {
-        let each = |all: &[Open]| all.iter().map(|open| open.json.clone()).collect::<Vec<_>>();
+        let each = |entries: &[Open]| {
+            entries
+                .iter()
+                .map(|open| open.json.clone())
+                .collect::<Vec<_>>()
+        };
         print_json(&json!({ "verdicts": each(&bad), "steps": each(&steps) }))?;
         return Ok(0);
     }
     let what = if settled { "" } else { "open " };
     let mut text = String::new();
-    for (noun, rest, all) in [
+    for (noun, left, found) in [
         ("bad verdict", "", &bad),
         ("change", " of frame times", &steps),
     ] {
-        let title = counted(all.len() as u64, &format!("{what}{noun}"));
-        text.push_str(&format!("{title}{rest}\n"));
-        for open in all.iter().take(PRINTED) {
+        let title = counted(found.len() as u64, &format!("{what}{noun}"));
+        text.push_str(&format!("{title}{left}\n"));
+        for open in found.iter().take(PRINTED) {
             text.push_str(&format!("  {}\n", open.line));
         }
-        if let Some(more @ 1..) = all.len().checked_sub(PRINTED) {
+        if let Some(more @ 1..) = found.len().checked_sub(PRINTED) {
             text.push_str(&format!("  and {more} more (--format json has all)\n"));
         }
     }

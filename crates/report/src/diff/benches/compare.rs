@@ -155,8 +155,8 @@ impl BenchDiff {
         }
         let [undecided, alone] = self.untold();
         if undecided > 0 {
-            let all = self.changes.len();
-            parts.push(format!("{undecided} of {all} comparisons cannot tell"));
+            let pairs = self.changes.len();
+            parts.push(format!("{undecided} of {pairs} comparisons cannot tell"));
         }
         if alone > 0 {
             parts.push(format!(
@@ -188,8 +188,8 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let kind = software(sides[0].or(sides[1]));
         // The ruler is the processor's: it says nothing of what another device does by itself.
         let ruled = same_ruler && (kind || time != Time::Gpu);
-        let of = |record: &BenchRecord| samples(record, time, ruled);
-        match (of(old), new.and_then(of)) {
+        let samples_of = |record: &BenchRecord| samples(record, time, ruled);
+        match (samples_of(old), new.and_then(samples_of)) {
             (Some(b), Some(a)) => found.changes.push(TimeChange {
                 case: case.clone(),
                 adapter: adapter.clone(),

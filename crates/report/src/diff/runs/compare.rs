@@ -233,9 +233,9 @@ mod tests {
     use super::*;
     use etalon_record::Expected;
 
-    fn record(verdict: Verdict, expected: bool, due: bool) -> Record {
+    fn record(verdict: Verdict, expected: bool, due_fail: bool) -> Record {
         let mut record = Record::new("a/b", "cpu", verdict);
-        record.due_fail = due;
+        record.due_fail = due_fail;
         record.expected = expected.then(|| Expected {
             reason: "known".to_owned(),
         });
@@ -246,7 +246,7 @@ mod tests {
         let kinds = [(false, false), (true, false), (false, true)];
         Verdict::ALL
             .into_iter()
-            .flat_map(move |v| kinds.map(|(expected, due)| record(v, expected, due)))
+            .flat_map(move |v| kinds.map(|(expected, due_fail)| record(v, expected, due_fail)))
     }
 
     #[test]
@@ -296,13 +296,13 @@ mod tests {
         let fail = |expected| record(Verdict::Fail, expected, false);
         assert_eq!(direction(&fail(true), &fail(false)), Direction::Worse);
         assert_eq!(direction(&fail(false), &fail(true)), Direction::Other);
-        let due = |verdict| record(verdict, false, true);
+        let caught = |verdict| record(verdict, false, true);
         assert_eq!(
-            direction(&due(Verdict::Fail), &due(Verdict::Pass)),
+            direction(&caught(Verdict::Fail), &caught(Verdict::Pass)),
             Direction::Worse
         );
         assert_eq!(
-            direction(&due(Verdict::Pass), &due(Verdict::Fail)),
+            direction(&caught(Verdict::Pass), &caught(Verdict::Fail)),
             Direction::Better
         );
     }

@@ -172,13 +172,13 @@ impl Pair {
     pub(super) fn add(&mut self, both: &[&Record; 2]) {
         self.compared += 1;
         for (side, record) in both.iter().enumerate() {
-            let [asserted, all] = &mut self.channels[side];
+            let [asserted, channels] = &mut self.channels[side];
             for a in &record.assertions {
                 *asserted = asserted.saturating_add(a.asserted);
-                *all = all.saturating_add(a.channels);
+                *channels = channels.saturating_add(a.channels);
             }
-            if *all > 0 {
-                self.asserted[side] = *asserted as f64 / *all as f64;
+            if *channels > 0 {
+                self.asserted[side] = *asserted as f64 / *channels as f64;
             }
         }
         let verdict = both.map(|r| r.verdict);

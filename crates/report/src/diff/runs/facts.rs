@@ -10,8 +10,8 @@ use etalon_record::{AdapterRecord, Header};
 /// selection if they have as many cases.
 pub(super) fn same_selection(before: &Header, after: &Header) -> bool {
     let (b, a) = (&before.settings, &after.settings);
-    let told = !b.selection.is_empty() && !a.selection.is_empty();
-    before.cases == after.cases && b.shard == a.shard && (!told || b.selection == a.selection)
+    let known = !b.selection.is_empty() && !a.selection.is_empty();
+    before.cases == after.cases && b.shard == a.shard && (!known || b.selection == a.selection)
 }
 
 /// The facts of the runs.
@@ -38,7 +38,7 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
     let [Some(before), Some(after)] = found else {
         return Vec::new();
     };
-    let mut all = facts([before, after], |a: &AdapterRecord| {
+    let mut found = facts([before, after], |a: &AdapterRecord| {
         let l = &a.limits;
         let positions = l.sample_positions.iter();
         vec![
@@ -60,7 +60,7 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
         ]
     });
     let [b, a] = [&before.limits, &after.limits];
-    all.push(lacking(
+    found.push(lacking(
         "features that only one has",
         b.features.difference(&a.features).map(|f| f.name()),
         a.features.difference(&b.features).map(|f| f.name()),
@@ -69,22 +69,22 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
         let alone = x.formats.iter().filter(|(f, _)| !y.formats.contains_key(f));
         alone.map(|(f, _)| f.name()).collect::<Vec<_>>()
     };
-    all.push(lacking("formats that only one has", only(b, a), only(a, b)));
+    found.push(lacking("formats that only one has", only(b, a), only(a, b)));
     let unlike = b.formats.iter().filter(|(f, support)| {
         let other = a.formats.get(f);
         other.is_some_and(|other| other != *support)
     });
     let unlike = unlike.count() as u64;
     if unlike > 0 {
-        all.push(Fact {
+        found.push(Fact {
             name: "formats",
             before: String::new(),
             after: format!("{} with other support than before", count(unlike, "format")),
         });
     }
     // What neither states says nothing.
-    all.retain(|fact| !fact.before.is_empty() || !fact.after.is_empty());
-    all
+    found.retain(|fact| !fact.before.is_empty() || !fact.after.is_empty());
+    found
 }
 
 fn lacking<'a>(
@@ -100,8 +100,8 @@ fn lacking<'a>(
     }
 }
 
-fn facts<T>(sides: [&T; 2], of: impl Fn(&T) -> Vec<(&'static str, String)>) -> Vec<Fact> {
-    let [before, after] = sides.map(of);
+fn facts<T>(sides: [&T; 2], facts_of: impl Fn(&T) -> Vec<(&'static str, String)>) -> Vec<Fact> {
+    let [before, after] = sides.map(facts_of);
     before
         .into_iter()
         .zip(after)

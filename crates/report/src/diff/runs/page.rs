@@ -171,8 +171,8 @@ fn section(
     folders: &[&Path; 2],
     budget: &mut usize,
 ) -> Markup {
-    let all = diff.count(direction);
-    if all == 0 {
+    let total = diff.count(direction);
+    if total == 0 {
         return html! {};
     }
     // One of each kind goes before the second of any; then they are shown by case file.
@@ -184,12 +184,12 @@ fn section(
     let these = diff.changes.iter().filter(|c| c.direction == direction);
     let these = these.filter(|c| chosen.contains(&std::ptr::from_ref(*c)));
     let files = grouped(these.map(|change| (&*change.case_file, change)));
-    let rest = all - chosen.len() as u64;
+    let left = total - chosen.len() as u64;
     html! {
         section id=(direction.name()) {
-            h2 { (title(direction)) " (" (all) ")" }
-            @if rest > 0 {
-                p.note { (rest) " more are left out here; " code { "etalon diff --format json" } " has them all." }
+            h2 { (title(direction)) " (" (total) ")" }
+            @if left > 0 {
+                p.note { (left) " more are left out here; " code { "etalon diff --format json" } " has them all." }
             }
             @for (file, changes) in &files {
                 div.file {
@@ -278,12 +278,12 @@ fn only(diff: &RunDiff) -> Markup {
             section id="only" {
                 h2 { "In one run only (" (diff.only.len()) ")" }
                 ul {
-                    @for (one, n) in files.iter().take(ROWS) {
+                    @for (file, n) in files.iter().take(ROWS) {
                         li {
-                            @if one.worse { b { "✗ " } }
-                            (phrases::side(one.side)) ", " (breakable(&one.adapter)) ": "
-                            @if *n == 1 { code { (one.case) } ", " (name(one.verdict)) }
-                            @else { (count(*n, "case")) " of " code { (one.case_file) } }
+                            @if file.worse { b { "✗ " } }
+                            (phrases::side(file.side)) ", " (breakable(&file.adapter)) ": "
+                            @if *n == 1 { code { (file.case) } ", " (name(file.verdict)) }
+                            @else { (count(*n, "case")) " of " code { (file.case_file) } }
                         }
                     }
                 }

@@ -27,10 +27,10 @@ impl<'a> Folder<'a> {
             });
         }
         for record in &run.records {
-            let of = records.entry(&record.adapter).or_default();
+            let cases = records.entry(&record.adapter).or_default();
             // A run has one record per case and adapter; should it have two, the worse one counts.
             let rank = |r: &Record| (r.unexpected(), r.verdict.severity());
-            let place = of.entry(&record.case).or_insert(record);
+            let place = cases.entry(&record.case).or_insert(record);
             if rank(place) < rank(record) {
                 *place = record;
             }

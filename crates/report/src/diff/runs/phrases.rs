@@ -68,12 +68,16 @@ pub(super) fn value(value: &Value) -> String {
             (None, Some(float)) => short(float),
             (None, None) => number.to_string(),
         },
-        Value::Array(all) => match all.as_slice() {
+        Value::Array(values) => match values.as_slice() {
             [] => "none".to_owned(),
-            all => all.iter().map(self::value).collect::<Vec<_>>().join(", "),
+            values => values
+                .iter()
+                .map(self::value)
+                .collect::<Vec<_>>()
+                .join(", "),
         },
-        Value::Object(all) => {
-            let known = all.iter().filter(|(_, v)| !v.is_null());
+        Value::Object(members) => {
+            let known = members.iter().filter(|(_, v)| !v.is_null());
             let each = known.map(|(key, v)| format!("{key} {}", self::value(v)));
             each.collect::<Vec<_>>().join(", ")
         }
@@ -162,14 +166,14 @@ pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
 /// and one of them.
 pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
     let mut found: BTreeMap<(bool, &str, &str, bool), (&Only, u64)> = BTreeMap::new();
-    for one in only {
+    for feature in only {
         let key = (
-            !one.worse,
-            one.case_file.as_str(),
-            one.adapter.as_str(),
-            one.side == Side::After,
+            !feature.worse,
+            feature.case_file.as_str(),
+            feature.adapter.as_str(),
+            feature.side == Side::After,
         );
-        found.entry(key).or_insert((one, 0)).1 += 1;
+        found.entry(key).or_insert((feature, 0)).1 += 1;
     }
     found.into_values().collect()
 }
@@ -211,7 +215,7 @@ mod tests {
 
     #[test]
     fn figures_are_short() {
-        let all = [
+        let texts = [
             (json!(0.0), "0"),
             (json!(0.25), "0.25"),
             (json!(1.0 / 3.0), "0.3333"),
@@ -227,8 +231,8 @@ mod tests {
                 "kind died, signal 6",
             ),
         ];
-        for (json, due) in all {
-            assert_eq!(value(&json), due);
+        for (json, expected) in texts {
+            assert_eq!(value(&json), expected);
         }
     }
 }

@@ -40,8 +40,8 @@ pub(super) fn strips(folders: &[&Path; 2], frame: &FrameChange) -> Vec<Strip> {
 }
 
 fn read(folders: &[&Path; 2], files: [&str; 2]) -> Result<[FrameFile; 2], String> {
-    let one = |i: usize| Run::read_frame(folders[i], files[i]).map_err(|e| e.to_string());
-    Ok([one(0)?, one(1)?])
+    let frame = |i: usize| Run::read_frame(folders[i], files[i]).map_err(|e| e.to_string());
+    Ok([frame(0)?, frame(1)?])
 }
 
 /// Images of the same thing, and the names of those that have no partner of their shape.

@@ -34,8 +34,8 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     }
     for pair in &diff.pairs {
         for fact in pair.facts.iter().filter(|f| f.differs()) {
-            let of = format!("{} ", pair.name());
-            text.push_str(&fact_line(&of, fact.name, &fact.before, &fact.after));
+            let name = format!("{} ", pair.name());
+            text.push_str(&fact_line(&name, fact.name, &fact.before, &fact.after));
         }
     }
     for unpaired in &diff.unpaired {
@@ -70,13 +70,13 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     text
 }
 
-fn fact_line(of: &str, what: &str, before: &str, after: &str) -> String {
+fn fact_line(name: &str, what: &str, before: &str, after: &str) -> String {
     let shown = |text: &str| match text {
         "" => "–".to_owned(),
         text => plain(text, 160),
     };
-    let of = plain(of, 120);
-    format!("{of}{what}: {} → {}\n", shown(before), shown(after))
+    let name = plain(name, 120);
+    format!("{name}{what}: {} → {}\n", shown(before), shown(after))
 }
 
 /// A row per pair of adapters.
@@ -104,8 +104,8 @@ pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
 
 fn transitions(text: &mut String, pairs: &[Pair]) {
     for pair in pairs.iter().filter(|p| !p.transitions.is_empty()) {
-        let all = phrases::transitions(pair);
-        text.push_str(&format!("{}: {all}\n", plain(&pair.name(), 120)));
+        let changes = phrases::transitions(pair);
+        text.push_str(&format!("{}: {changes}\n", plain(&pair.name(), 120)));
     }
 }
 
@@ -171,16 +171,16 @@ fn only(text: &mut String, diff: &RunDiff) {
         "\n{} in one run only\n",
         count(diff.only.len() as u64, "record")
     ));
-    for (one, n) in files.iter().take(LINES) {
-        let sign = if one.worse { "✗" } else { " " };
+    for (file, n) in files.iter().take(LINES) {
+        let sign = if file.worse { "✗" } else { " " };
         let line = match n {
-            1 => format!("{}, {}", one.case, name(one.verdict)),
-            n => format!("{} of {}", count(*n, "case"), one.case_file),
+            1 => format!("{}, {}", file.case, name(file.verdict)),
+            n => format!("{} of {}", count(*n, "case"), file.case_file),
         };
         let line = format!(
             "{sign} {}  {}  {line}",
-            phrases::side(one.side),
-            one.adapter
+            phrases::side(file.side),
+            file.adapter
         );
         text.push_str(&format!("{}\n", plain(&line, 400)));
     }
@@ -249,9 +249,9 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
     let (table, _) = method_table().terminal(sorted, options, &[]);
     match times.len().saturating_sub(LINES) {
         0 => format!("{table}\n"),
-        rest => {
-            let rest = count(rest as u64, "method");
-            format!("{table}\nand {rest} that changed less\n")
+        left => {
+            let left = count(left as u64, "method");
+            format!("{table}\nand {left} that changed less\n")
         }
     }
 }

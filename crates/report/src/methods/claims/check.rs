@@ -27,11 +27,11 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
         figures: Vec::new(),
         blind: Vec::new(),
     };
-    let own = methods.scenes().filter(|s| {
+    let scenes = methods.scenes().filter(|s| {
         s.question == claim.question
             && (claim.families.is_empty() || claim.families.contains(&s.name))
     });
-    for scene in own {
+    for scene in scenes {
         for (index, adapter) in methods.adapters.iter().enumerate() {
             let on = On {
                 claim,
@@ -130,8 +130,8 @@ impl<'a> On<'_, 'a> {
         let Some([less, more]) = self.claim.fewer else {
             return true;
         };
-        let of = |method| self.quantity(setting, method, Quantity::Fragments);
-        matches!((of(less), of(more)), (Some((less, _)), Some((more, _))) if less < more)
+        let fragments = |method| self.quantity(setting, method, Quantity::Fragments);
+        matches!((fragments(less), fragments(more)), (Some((less, _)), Some((more, _))) if less < more)
     }
 
     fn counted(&self, value: Option<f64>) -> bool {
@@ -145,12 +145,12 @@ impl<'a> On<'_, 'a> {
     /// A figure at each setting that counts and where there is one.
     fn at_settings(
         &self,
-        of: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
+        figure: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
     ) -> Vec<Found<'a>> {
         let settings = self.scene.settings().into_iter();
         let counted = settings.filter(|s| self.counted(s.parameter.map(|(_, value)| value)));
         let found = counted.filter_map(|s| {
-            let (unit, value, interval, holds) = of(&s)?;
+            let (unit, value, interval, holds) = figure(&s)?;
             let finite = value.is_finite() && interval.iter().all(|v| v.is_finite());
             finite.then(|| {
                 let figure = self.figure(&s.text(), unit, value, interval, holds);
@@ -164,10 +164,10 @@ impl<'a> On<'_, 'a> {
     fn per_series(
         &self,
         method: &str,
-        of: impl Fn(&Series<'a>) -> Option<Figure>,
+        figure: impl Fn(&Series<'a>) -> Option<Figure>,
     ) -> Vec<Found<'a>> {
-        let own = self.scene.series.iter().filter(|s| s.method == method);
-        own.filter_map(|s| Some((None, of(s)?))).collect()
+        let series = self.scene.series.iter().filter(|s| s.method == method);
+        series.filter_map(|s| Some((None, figure(s)?))).collect()
     }
 
     fn figure(
@@ -203,8 +203,8 @@ impl<'a> On<'_, 'a> {
     }
 
     fn point(&self, setting: &Setting<'a>, method: &str) -> Option<&Point<'a>> {
-        let own = self.scene.series.iter().filter(|s| s.method == method);
-        let mut points = own.flat_map(|s| s.on(self.adapter).map(move |p| (s, p)));
+        let series = self.scene.series.iter().filter(|s| s.method == method);
+        let mut points = series.flat_map(|s| s.on(self.adapter).map(move |p| (s, p)));
         points.find_map(|(s, p)| (s.setting(p) == *setting).then_some(p))
     }
 
@@ -241,25 +241,26 @@ impl<'a> On<'_, 'a> {
 
     /// The points of a curve that count, in order.
     fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p Point<'a>> {
-        let own = series.on(self.adapter);
-        own.filter(|p| p.value.is_some() && self.counted(p.value))
+        let times = series.on(self.adapter);
+        times
+            .filter(|p| p.value.is_some() && self.counted(p.value))
             .collect()
     }
 
     fn same(&self, a: &str, b: &str) -> Vec<Found<'a>> {
         let settings = self.scene.settings().into_iter();
         let found = settings.filter_map(|s| {
-            let [one, other] = [a, b].map(|method| {
+            let [first, other] = [a, b].map(|method| {
                 let distance = self.point(&s, method)?.measured.distance;
                 Some((distance.rmse, distance.max))
             });
-            let (one, other) = (one?, other?);
-            let text = if one == other {
+            let (first, other) = (first?, other?);
+            let text = if first == other {
                 "the same".to_owned()
             } else {
-                format!("RMSE {} and {}", share(one.0), share(other.0))
+                format!("RMSE {} and {}", share(first.0), share(other.0))
             };
-            let figure = self.told(&s.text(), text, one == other);
+            let figure = self.told(&s.text(), text, first == other);
             Some((Some(s), figure))
         });
         found.collect()
@@ -281,27 +282,31 @@ impl<'a> On<'_, 'a> {
             pairs.iter().filter(|p| p.0 <= LIMIT).count(),
             pairs.iter().filter(|p| p.1 <= LIMIT).count(),
         ];
-        let all = pairs.len();
-        let text = format!("{right} right at {first} of {all}, {wrong} at {second}");
-        vec![(None, self.told("", text, first == all && second < all))]
+        let compared = pairs.len();
+        let text = format!("{right} right at {first} of {compared}, {wrong} at {second}");
+        vec![(
+            None,
+            self.told("", text, first == compared && second < compared),
+        )]
     }
 
     /// Each value of one method against twice the value of the other.
     fn halves(&self, of: &str, over: &str) -> Vec<Found<'a>> {
         let curve = |method: &str| -> Vec<(f64, f64, u32)> {
-            let own = self.scene.series.iter().filter(|s| s.method == method);
-            own.flat_map(|s| s.on(self.adapter))
+            let series = self.scene.series.iter().filter(|s| s.method == method);
+            series
+                .flat_map(|s| s.on(self.adapter))
                 .filter_map(|p| Some((p.value?, p.error()?, p.measured.passes)))
                 .collect()
         };
         let double = curve(over);
         let figures = curve(of).into_iter().filter_map(|(value, error, passes)| {
-            let (_, due, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
-            let factor = (*due > 0.0).then(|| error / due)?;
+            let (_, twice_error, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
+            let factor = (*twice_error > 0.0).then(|| error / twice_error)?;
             let half = passes < *twice && passes <= twice.div_ceil(2) + 2;
             let text = format!("{twice} → {passes} passes, RMSE ×{}", digits(factor, 2));
-            let at = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
-            Some((None, self.told(&at, text, half && factor <= ALIKE)))
+            let place = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
+            Some((None, self.told(&place, text, half && factor <= ALIKE)))
         });
         figures.collect()
     }
@@ -314,18 +319,25 @@ impl<'a> On<'_, 'a> {
         match breaks::find(&curve, ratio >= 20.0)? {
             Break::Never => Some(Some(curve.first()?.0)),
             Break::Always => Some(None),
-            Break::Crossings(all) => Some(all.last().filter(|c| !c.leaves).map(|c| c.value)),
+            Break::Crossings(crossings) => {
+                Some(crossings.last().filter(|c| !c.leaves).map(|c| c.value))
+            }
         }
     }
 
-    fn narrowest(&self, of: &'static str, over: &'static str, holds: Condition) -> Vec<Found<'a>> {
+    fn narrowest(
+        &self,
+        narrow: &'static str,
+        wide: &'static str,
+        holds: Condition,
+    ) -> Vec<Found<'a>> {
         let curves = |method: &'static str| {
-            let all = self.scene.series.iter();
-            all.filter(move |s| s.method == method)
+            let series = self.scene.series.iter();
+            series.filter(move |s| s.method == method)
         };
         let mut found = Vec::new();
-        for base in curves(over) {
-            for other in curves(of).filter(|s| s.variant == base.variant) {
+        for base in curves(wide) {
+            for other in curves(narrow).filter(|s| s.variant == base.variant) {
                 // The same values of both, else nothing is compared.
                 let same = base.values() == other.values();
                 let (Some(a), Some(b)) = (self.resolved(other), self.resolved(base)) else {
@@ -353,16 +365,16 @@ impl<'a> On<'_, 'a> {
 
     fn levels(&self, series: &Series<'a>, samples: u32) -> Option<Figure> {
         let curve = series.curve(self.adapter);
-        let at = |halves: bool| {
+        let range = |halves: bool| {
             let among = move |v: f64| {
                 let steps = v * f64::from(2 * samples);
                 (steps - steps.round()).abs() < 1e-6 && (steps.round() % 2.0 == 1.0) == halves
             };
-            let own = curve.iter().filter(move |(v, _)| among(*v));
-            own.map(|(_, e)| *e)
+            let values = curve.iter().filter(move |(v, _)| among(*v));
+            values.map(|(_, e)| *e)
         };
-        let on = at(false).reduce(f64::max)?;
-        let between = at(true).reduce(f64::min)?;
+        let on = range(false).reduce(f64::max)?;
+        let between = range(true).reduce(f64::min)?;
         let text = format!(
             "at most {} on levels, at least {} between",
             share(on),

@@ -43,8 +43,8 @@ pub(super) enum Holds {
 impl Holds {
     /// The outcome of a figure whose interval lies inside, outside or across a condition.
     pub(super) fn of(met: impl Fn(f64) -> bool, value: f64, [low, high]: [f64; 2]) -> Self {
-        let all = [low, value, high];
-        match all.iter().filter(|v| met(**v)).count() {
+        let values = [low, value, high];
+        match values.iter().filter(|v| met(**v)).count() {
             3 => Self::Yes,
             0 => Self::No,
             _ => Self::Unclear,
@@ -77,8 +77,8 @@ impl Figure {
     }
 
     /// Some figures as a range, with the interval around all of them where it is wider.
-    pub(super) fn range(all: &[&Self]) -> String {
-        let Some(first) = all.first() else {
+    pub(super) fn range(figures: &[&Self]) -> String {
+        let Some(first) = figures.first() else {
             return String::new();
         };
         let text = |v: f64| match &first.unit {
@@ -87,10 +87,18 @@ impl Figure {
             Unit::Count(_) => digits(v, 4),
             Unit::Text(text) => text.clone(),
         };
-        let least =
-            |of: &dyn Fn(&Self) -> f64| all.iter().map(|f| of(f)).fold(f64::INFINITY, f64::min);
-        let most =
-            |of: &dyn Fn(&Self) -> f64| all.iter().map(|f| of(f)).fold(f64::NEG_INFINITY, f64::max);
+        let least = |part: &dyn Fn(&Self) -> f64| {
+            figures
+                .iter()
+                .map(|f| part(f))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let most = |part: &dyn Fn(&Self) -> f64| {
+            figures
+                .iter()
+                .map(|f| part(f))
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
         let ends = [text(least(&|f| f.value)), text(most(&|f| f.value))];
         let outer = [
             text(least(&|f| f.interval[0])),
@@ -131,17 +139,17 @@ impl Reproduction {
         let count = |holds| figures.iter().filter(|f| f.holds == holds).count();
         match (count(Holds::Yes), count(Holds::No), figures.len()) {
             (_, _, 0) => Self::NotMeasured,
-            (held, _, all) if held == all => Self::Reproduced,
+            (held, _, total) if held == total => Self::Reproduced,
             (0, 0, _) => Self::Undecided,
             (0, _, _) => Self::NotReproduced,
-            (held, _, all) => Self::Partly(held, all),
+            (held, _, total) => Self::Partly(held, total),
         }
     }
 
     pub(super) fn text(self) -> String {
         match self {
             Self::Reproduced => "✓ reproduced".to_owned(),
-            Self::Partly(held, all) => format!("≈ reproduced in {held} of {all} cases"),
+            Self::Partly(held, total) => format!("≈ reproduced in {held} of {total} cases"),
             Self::NotReproduced => "✗ not reproduced".to_owned(),
             Self::Undecided => "? too close to tell".to_owned(),
             Self::NotMeasured => "– not measured".to_owned(),

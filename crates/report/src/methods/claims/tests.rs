@@ -75,17 +75,17 @@ fn with(made: Made, quantity: Quantity, figure: f64) -> Made {
 /// Records that meet a claim, or that refute it.
 fn made(claim: &Claim, good: bool) -> Vec<Made> {
     let (scene, values) = place(claim);
-    let at =
+    let setting =
         |method: &str, value: f64| Made::new(&format!("{scene}/method={method}")).at("p", value);
     let pick = |condition| figures(condition)[usize::from(!good)];
-    let mut all = Vec::new();
+    let mut records = Vec::new();
     match claim.test {
         Test::Value {
             quantity,
             of,
             holds,
         } => {
-            all.extend(values.map(|v| with(at(of, v), quantity, pick(holds))));
+            records.extend(values.map(|v| with(setting(of, v), quantity, pick(holds))));
         }
         Test::Ratio {
             quantity,
@@ -99,7 +99,7 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
                     let less = terms.iter().filter(|t| t.1 < 0.0).count() as f64 * 2.0;
                     for (method, sign) in terms {
                         let figure = if *sign < 0.0 { 2.0 } else { sum + less };
-                        all.push(with(at(method, value), quantity, figure));
+                        records.push(with(setting(method, value), quantity, figure));
                     }
                 };
                 add(over, 1.0);
@@ -110,10 +110,10 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
                             m.id.ends_with(&format!("={method}"))
                                 && m.parameter == Some(("p", value))
                         };
-                        if !all.iter().any(known) {
-                            all.push(Made {
+                        if !records.iter().any(known) {
+                            records.push(Made {
                                 fragments: Some(n),
-                                ..at(method, value)
+                                ..setting(method, value)
                             });
                         }
                     }
@@ -121,21 +121,21 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
             }
         }
         Test::Same { methods: [a, b] } => {
-            all.push(at(a, 1.0).off(0.02));
-            all.push(at(b, 1.0).off(if good { 0.02 } else { 0.0201 }));
+            records.push(setting(a, 1.0).off(0.02));
+            records.push(setting(b, 1.0).off(if good { 0.02 } else { 0.0201 }));
         }
         Test::Trend {
             quantity,
             of,
             holds,
         } => {
-            all.push(with(at(of, values[0]), quantity, 0.01));
-            all.push(with(at(of, values[1]), quantity, 0.01 * pick(holds)));
+            records.push(with(setting(of, values[0]), quantity, 0.01));
+            records.push(with(setting(of, values[1]), quantity, 0.01 * pick(holds)));
         }
         Test::Unlike { right, wrong } => {
             for (i, value) in values.into_iter().enumerate() {
-                all.push(at(right, value).off(0.001));
-                all.push(at(wrong, value).off(if good && i == 1 { 0.2 } else { 0.001 }));
+                records.push(setting(right, value).off(0.001));
+                records.push(setting(wrong, value).off(if good && i == 1 { 0.2 } else { 0.001 }));
             }
         }
         Test::Halves { of, over } => {
@@ -143,8 +143,8 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
                 passes,
                 ..made.off(0.01)
             };
-            all.push(passes(at(over, 8.0), 16));
-            all.push(passes(at(of, 4.0), if good { 9 } else { 15 }));
+            records.push(passes(setting(over, 8.0), 16));
+            records.push(passes(setting(of, 4.0), if good { 9 } else { 15 }));
         }
         Test::Narrowest { of, over, holds } => {
             let gaps = [0.001, 0.01, 0.1, 1.0];
@@ -154,36 +154,36 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
                 _ => 3,
             };
             for (i, gap) in gaps.into_iter().enumerate() {
-                all.push(at(over, gap).off(if i < 2 { 0.3 } else { 0.001 }));
-                all.push(at(of, gap).off(if i < from { 0.3 } else { 0.001 }));
+                records.push(setting(over, gap).off(if i < 2 { 0.3 } else { 0.001 }));
+                records.push(setting(of, gap).off(if i < from { 0.3 } else { 0.001 }));
             }
         }
         Test::Levels { of, samples } => {
             for i in 1..2 * samples {
                 let alpha = f64::from(i) / f64::from(2 * samples);
                 let off = if i % 2 == 1 && good { 0.07 } else { 0.001 };
-                all.push(at(of, alpha).off(off));
+                records.push(setting(of, alpha).off(off));
             }
         }
         Test::HalfCodes { of, holds } => {
             let alpha = 0.1;
             let off = pick(holds) * 0.5 / 255.0 / alpha;
-            all.push(at(of, alpha).off(off));
+            records.push(setting(of, alpha).off(off));
         }
     }
-    all
+    records
 }
 
 #[test]
 fn every_claim_has_figures_that_reproduce_and_figures_that_refute_it() {
     assert!(claims().count() >= 21, "{}", claims().count());
     for claim in claims() {
-        for (good, due) in [
+        for (good, expected) in [
             (true, Reproduction::Reproduced),
             (false, Reproduction::NotReproduced),
         ] {
             let (found, figures, _) = of(claim, &made(claim, good));
-            assert_eq!(found, due, "{}: {figures:?}", claim.title);
+            assert_eq!(found, expected, "{}: {figures:?}", claim.title);
         }
         let text = words::compared(claim);
         assert!(
@@ -211,20 +211,20 @@ fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
         ) {
             continue;
         }
-        let all = made(claim, true);
-        let mut methods: Vec<&str> = all
+        let records = made(claim, true);
+        let mut methods: Vec<&str> = records
             .iter()
             .map(|m| m.id.rsplit('/').next().unwrap())
             .collect();
         methods.sort_unstable();
         methods.dedup();
         for missing in methods {
-            let rest: Vec<Made> = all
+            let others: Vec<Made> = records
                 .iter()
                 .filter(|m| !m.id.ends_with(missing))
                 .cloned()
                 .collect();
-            let (found, figures, _) = of(claim, &rest);
+            let (found, figures, _) = of(claim, &others);
             assert_eq!(
                 found,
                 Reproduction::NotMeasured,
@@ -233,7 +233,7 @@ fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
             );
         }
         // Each method at values of its own, as a covering array has them.
-        let mut apart = all.clone();
+        let mut apart = records.clone();
         for (i, made) in apart.iter_mut().enumerate() {
             made.parameter = Some(("p", 100.0 + i as f64));
         }
@@ -246,7 +246,7 @@ fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
 /// The prepass draws in the order of `unsorted`: its own fragments are not shaded ones.
 #[test]
 fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
-    let of = |sorted, prepass| {
+    let records = |sorted, prepass| {
         let fragments = [
             ("no-test", 4000),
             ("unsorted", 1500),
@@ -260,19 +260,19 @@ fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
     };
     let title = "Drawing front to back";
     // 1500 of the prepass and 1000 shaded.
-    let (found, figures, _) = outcome(title, &of(1000, 2500));
+    let (found, figures, _) = outcome(title, &records(1000, 2500));
     assert_eq!(found, Reproduction::Reproduced);
     assert_eq!(told(&figures), ["×1 rooms at layers 8 on cpu"]);
     // A fifth as many as the prepass runs in all, but far fewer than it shades: ×0.24 against ×1.2 once passed.
-    let (found, figures, _) = outcome(title, &of(300, 2500));
+    let (found, figures, _) = outcome(title, &records(300, 2500));
     assert_eq!(found, Reproduction::NotReproduced, "{figures:?}");
     // One that shades half as much again.
     assert_eq!(
-        outcome(title, &of(1500, 2500)).0,
+        outcome(title, &records(1500, 2500)).0,
         Reproduction::NotReproduced
     );
     // An adapter that counts before the depth test says nothing.
-    let mut blind = of(4000, 8000);
+    let mut blind = records(4000, 8000);
     blind[1].fragments = Some(4000);
     let (found, _, names) = outcome(title, &blind);
     assert_eq!(
@@ -328,37 +328,37 @@ fn as_much_is_not_less_and_a_wide_interval_decides_nothing() {
 #[test]
 fn gaps_that_nothing_resolves_are_not_measured() {
     let curve = |method: &str, gaps: &[(f64, f64)]| -> Vec<Made> {
-        let of = |(gap, off): &(f64, f64)| {
+        let records = |(gap, off): &(f64, f64)| {
             Made::new(&format!("depth-precision/planes/method={method}"))
                 .at("gap", *gap)
                 .off(*off)
         };
-        gaps.iter().map(of).collect()
+        gaps.iter().map(records).collect()
     };
     let title = "Reversed float depth";
     let never = [(0.001, 0.3), (0.01, 0.3)];
-    let of = |a: &[(f64, f64)], b: &[(f64, f64)]| {
-        let all = [curve("depth24", a), curve("reversed-depth", b)].concat();
-        outcome(title, &all).0
+    let records = |a: &[(f64, f64)], b: &[(f64, f64)]| {
+        let records = [curve("depth24", a), curve("reversed-depth", b)].concat();
+        outcome(title, &records).0
     };
-    assert_eq!(of(&never, &never), Reproduction::NotMeasured);
+    assert_eq!(records(&never, &never), Reproduction::NotMeasured);
     assert_eq!(
-        of(&[(0.01, 0.3)], &[(0.01, 0.001)]),
+        records(&[(0.01, 0.3)], &[(0.01, 0.001)]),
         Reproduction::NotMeasured
     );
     assert_eq!(
-        of(&[(0.1, 0.3), (1.0, 0.001)], &[(0.001, 0.3), (0.01, 0.001)]),
+        records(&[(0.1, 0.3), (1.0, 0.001)], &[(0.001, 0.3), (0.01, 0.001)]),
         Reproduction::NotMeasured,
         "curves over different gaps"
     );
     let late = [(0.001, 0.3), (0.01, 0.001)];
-    assert_eq!(of(&never, &late), Reproduction::Reproduced);
-    assert_eq!(of(&late, &never), Reproduction::NotReproduced);
+    assert_eq!(records(&never, &late), Reproduction::Reproduced);
+    assert_eq!(records(&late, &never), Reproduction::NotReproduced);
 }
 
 #[test]
 fn cases_that_are_told_together_keep_their_range_and_their_places() {
-    let of = |value: f64, alpha: f64, off: f64| {
+    let record = |value: f64, alpha: f64, off: f64| {
         Made::new(&format!(
             "transparency/windows/method={}",
             if value > 0.0 {
@@ -371,12 +371,12 @@ fn cases_that_are_told_together_keep_their_range_and_their_places() {
         .off(off)
     };
     let made = [
-        of(1.0, 0.1, 0.01),
-        of(0.0, 0.1, 0.02),
-        of(1.0, 0.5, 0.03),
-        of(0.0, 0.5, 0.04),
-        of(1.0, 0.9, 0.3),
-        of(0.0, 0.9, 0.1),
+        record(1.0, 0.1, 0.01),
+        record(0.0, 0.1, 0.02),
+        record(1.0, 0.5, 0.03),
+        record(0.0, 0.5, 0.04),
+        record(1.0, 0.9, 0.3),
+        record(0.0, 0.9, 0.1),
     ];
     let (found, figures, _) = outcome("Weighted blended transparency is nearer", &made);
     assert_eq!(found, Reproduction::Partly(2, 3));

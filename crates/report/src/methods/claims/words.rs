@@ -65,11 +65,11 @@ pub(super) fn compared(claim: &Claim) -> String {
     let families = match claim.families {
         [] => claim.question.to_owned(),
         some => {
-            let all: Vec<String> = some
+            let names: Vec<String> = some
                 .iter()
                 .map(|f| format!("{}/{f}", claim.question))
                 .collect();
-            all.join(", ")
+            names.join(", ")
         }
     };
     text.push_str(&format!(". Cases: {families}"));

@@ -99,12 +99,11 @@ const modeButtons = MODES.map(mode => {
 const large = make("canvas", { class: "large", tabindex: "0", role: "img" });
 const scaleText = make("p", { class: "scale" });
 const values = make("div", { class: "values", role: "status" });
-const told = make("div", { class: "values story" });
 const close = make("button", { type: "button" }, "Close");
 close.addEventListener("click", () => dialog.close());
 dialog.append(
   make("h2", { id: "viewer-title" }), make("div", { class: "modes" }, ...modeButtons, close),
-  large, scaleText, values, told,
+  large, scaleText, values,
   make("p", { class: "cap" }, "The arrow keys or the pointer choose a texel; 1 to 4 choose a picture; Escape closes."));
 
 function enlarge(figure, mode, from) {
@@ -157,7 +156,6 @@ function draw() {
   }
   lines.push(`etalon explain ${view.figure.dataset.case} --texel ${view.x},${view.y} --adapter ${adapter}`);
   values.textContent = lines.join("\n");
-  told.textContent = story(view.figure, all, view.x, view.y).join("\n");
   const bar = colors => { const i = make("i", {}); i.style.background = `linear-gradient(to right, ${colors})`; return i; };
   const scales = {
     difference: () => [`−${all.range}`, bar("#000, #808080, #fff"), `+${all.range} codes per channel; grey is none`],

@@ -59,10 +59,12 @@ fn counters(grid: &Grid<'_>) -> Markup {
         )
         .text("Counts", |((_, kind), _)| kind.name())
         .number("Read back", |(_, [all, ..])| thousands(*all))
-        .number("Asserted", |(_, [all, asserted, _])| {
-            percent_of(*asserted, *all)
+        .number("Asserted", |(_, [channels, asserted, _])| {
+            percent_of(*asserted, *channels)
         })
-        .number("Exact", |(_, [all, _, exact])| percent_of(*exact, *all));
+        .number("Exact", |(_, [channels, _, exact])| {
+            percent_of(*exact, *channels)
+        });
     html! { @if !rows.is_empty() { (table.page(rows)) } }
 }
 
@@ -131,9 +133,9 @@ fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, (&'a str, Aspect, Figures<'a>)>
         .head("Area", |(area, ..)| *area)
         .text("Aspect", |(_, aspect, _)| aspect.name())
         .text("Adapters", |(.., f)| {
-            let all = f.adapters.len() == grid.adapters.len() && f.adapters.len() > 1;
+            let everywhere = f.adapters.len() == grid.adapters.len() && f.adapters.len() > 1;
             let names = f.adapters.join(", ");
-            Cell::from(if all { "all".to_owned() } else { names }).class("names")
+            Cell::from(if everywhere { "all".to_owned() } else { names }).class("names")
         })
         .number("Channels", |(.., f)| {
             let [least, most] = f.channels;

@@ -55,19 +55,19 @@ pub(crate) struct Consensus {
 impl Consensus {
     /// Of one case of a grid.
     pub(crate) fn of(grid: &Grid<'_>, case: &CaseRow<'_>) -> Self {
-        let mut due = false;
+        let mut is_due = false;
         let mut votes = Vec::new();
         for (column, index) in case.records.iter().enumerate() {
             let Some(record) = index.map(|i| grid.record(i)) else {
                 continue;
             };
-            due |= record.due_fail;
+            is_due |= record.due_fail;
             if !record.due_fail {
                 votes.push((column, record.verdict));
             }
         }
         let mut result = Self::of_verdicts(&votes, &grid.adapters);
-        if due && result.votes == Votes::Nobody {
+        if is_due && result.votes == Votes::Nobody {
             result.text = "due to fail".to_owned();
         }
         result

@@ -169,7 +169,7 @@ fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
     let mut texts: Interner<String> = Interner::default();
     let mut lists: Interner<Vec<usize>> = Interner::default();
     lists.place(Vec::new());
-    let mut of = vec![0; records.len()];
+    let mut group_of = vec![0; records.len()];
     // What is unexpected gets its texts before there is no room left.
     let mut order: Vec<usize> = (0..records.len()).collect();
     order.sort_by_key(|i| kind(&records[*i]));
@@ -187,40 +187,29 @@ fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
             let text = texts.place(text);
             [label as usize, text]
         });
-        of[index] = lists.place(list.collect());
+        group_of[index] = lists.place(list.collect());
     }
-    (lists.values, of, texts.values)
+    (lists.values, group_of, texts.values)
 }
 
 /// The bytes that a text takes in the block.
 fn escaped(text: &str) -> usize {
-    let one = |c: char| match c {
+    let escaped = |c: char| match c {
         '<' => 6,
         '"' | '\\' | '\n' => 2,
         c if c.is_ascii_control() => 6,
         c => c.len_utf8(),
     };
-    text.chars().map(one).sum::<usize>() + 3
+    text.chars().map(escaped).sum::<usize>() + 3
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{Header, Machine, Record, Run, Settings};
+    use etalon_record::{Header, Record, Run};
 
     fn run(records: Vec<Record>) -> Run {
-        let header = Header {
-            format: etalon_record::FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
-            command: Vec::new(),
-            cases: records.len() as u64,
-            settings: Settings::default(),
-            adapters: Vec::new(),
-            absent: Vec::new(),
-        };
+        let header = Header::new(Vec::new(), records.len() as u64);
         Run {
             header,
             records,

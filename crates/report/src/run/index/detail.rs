@@ -108,7 +108,7 @@ fn pictures(strips: &[Option<Strip>], budget: &mut Budget) -> Markup {
 
 fn texels(record: &Record) -> Markup {
     let shown = record.wrong.len().min(TEXELS);
-    let all = record.texels.wrong + record.texels.imprecise;
+    let outside = record.texels.wrong + record.texels.imprecise;
     // The bounds of an imprecise texel are the yardstick's, which it left.
     let imprecise = |t: &WrongTexel| t.band == Band::Imprecise;
     let bound = match record.wrong[..shown]
@@ -134,7 +134,7 @@ fn texels(record: &Record) -> Markup {
                 }
             }
         } }
-        @if all > shown as u64 { p.note { "and " (all - shown as u64) " more" } }
+        @if outside > shown as u64 { p.note { "and " (outside - shown as u64) " more" } }
     }
 }
 

@@ -195,7 +195,7 @@ fn counted(c: &CounterOutcome) -> String {
 fn end(text: &str) -> String {
     match text.char_indices().rev().nth(LONGEST) {
         None => text.to_owned(),
-        Some((at, c)) => format!("… {}", &text[at + c.len_utf8()..]),
+        Some((start, c)) => format!("… {}", &text[start + c.len_utf8()..]),
     }
 }
 
@@ -237,7 +237,7 @@ mod tests {
         });
         let labels: Vec<Label> = of(&record).into_iter().map(|(label, _)| label).collect();
         use Label::*;
-        let due = [
+        let expected = [
             Process,
             StandardError,
             Validation,
@@ -245,6 +245,6 @@ mod tests {
             Repeats,
             After,
         ];
-        assert_eq!(labels, due);
+        assert_eq!(labels, expected);
     }
 }

@@ -185,9 +185,9 @@ impl Section<'_> {
     }
 
     fn file(&mut self, file: &CaseFile<'_>, column: usize) -> Markup {
-        let all = listed(self.grid, file, column);
-        let (shown, rest): (Vec<usize>, Vec<usize>) =
-            all.into_iter().partition(|i| self.plan.lists(*i));
+        let listed_cases = listed(self.grid, file, column);
+        let (shown, others): (Vec<usize>, Vec<usize>) =
+            listed_cases.into_iter().partition(|i| self.plan.lists(*i));
         html! {
             @for index in shown {
                 @let record = self.grid.record(index);
@@ -204,9 +204,9 @@ impl Section<'_> {
                     }
                 }
             }
-            @if !rest.is_empty() {
+            @if !others.is_empty() {
                 p.d.more {
-                    "and " (rest.len()) " more of " code { (file.name) } ", under "
+                    "and " (others.len()) " more of " code { (file.name) } ", under "
                     a href=(link::filter(file.name, self.grid.adapters[column])) { "All cases" }
                 }
             }

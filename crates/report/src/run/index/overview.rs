@@ -82,7 +82,7 @@ const ROWS: usize = 500;
 /// The cases that were not drawn: a row per reason, a column per adapter.
 pub(crate) fn not_drawn(run: &Run) -> Markup {
     let reasons = undrawn(run);
-    let all: u64 = reasons.iter().map(Undrawn::records).sum();
+    let undrawn_records: u64 = reasons.iter().map(Undrawn::records).sum();
     let mut table = Table::<&Undrawn>::new("")
         .spoken("Reasons why cases were not drawn")
         .head("Reason", |reason| {
@@ -101,7 +101,7 @@ pub(crate) fn not_drawn(run: &Run) -> Markup {
             section id="undrawn" {
                 h2 { "Not drawn" }
                 p {
-                    b { (all) } " of " (count(run.records.len() as u64, "record"))
+                    b { (undrawn_records) } " of " (count(run.records.len() as u64, "record"))
                     " are of cases that were not drawn. Nothing is known about them."
                 }
                 (table.page(reasons.iter().take(ROWS)))
@@ -120,8 +120,8 @@ pub(crate) fn dead(dead: &[Dead]) -> Markup {
             section id="dead" {
                 h2 { "Dead expectations" }
                 p { "They excuse nothing: correct or remove them." }
-                ul { @for one in dead.iter().take(ROWS) {
-                    li { (meaning(one.kind)) ": " code { (plain(&one.place, 200)) } ": " (plain(&one.about, 300)) }
+                ul { @for entry in dead.iter().take(ROWS) {
+                    li { (meaning(entry.kind)) ": " code { (plain(&entry.place, 200)) } ": " (plain(&entry.about, 300)) }
                 } }
                 @if dead.len() > ROWS { p.note { "and " (dead.len() - ROWS) " more" } }
             }

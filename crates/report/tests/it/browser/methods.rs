@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 type Check = fn(&Chromium, &Path);
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 8] = [
+pub(super) const CHECKS: [(&str, Check); 6] = [
     (
         "a legend highlights its method",
         a_legend_highlights_its_method,
@@ -24,10 +24,6 @@ pub(super) const CHECKS: [(&str, Check); 8] = [
         pictures_are_enlarged_by_click_and_by_keys,
     ),
     (
-        "a texel is told of in its method's terms",
-        a_texel_is_told_of_in_its_methods_terms,
-    ),
-    (
         "the page's FLIP is that of its authors' code",
         the_pages_flip_is_that_of_its_authors_code,
     ),
@@ -35,7 +31,6 @@ pub(super) const CHECKS: [(&str, Check); 8] = [
         "break points lead to the pictures beside them",
         break_points_lead_to_the_pictures_beside_them,
     ),
-    ("breaks at other limits", breaks_at_other_limits),
     (
         "a narrow window and no scripts",
         a_narrow_window_and_no_scripts,
@@ -61,15 +56,6 @@ fn drawn(x: u32, y: u32) -> [u8; 3] {
     }
 }
 
-/// Behind the intersecting panes.
-const BACKGROUND: [u8; 3] = [230, 230, 217];
-
-/// Their truth in the middle at alpha 0.5: a half of red, a quarter of yellow, an eighth of blue and of what is behind.
-const PANES: [u8; 3] = [201, 112, 83];
-
-/// Two samples of the red pane and two of what is behind all panes.
-const HALF_COVERED: [u8; 3] = [223, 140, 128];
-
 /// Writes a run with pictures and its page.
 pub(super) fn write(folder: &Path) -> PathBuf {
     let plain = folder.join("plain-methods");
@@ -84,23 +70,8 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     };
     save("truth.png", &truth);
     save("drawn.png", &drawn);
-    for (name, middle) in [("panes-truth.png", PANES), ("panes.png", HALF_COVERED)] {
-        let picture = RgbImage::from_fn(128, 128, |x, y| {
-            image::Rgb(if [x, y] == [64, 64] {
-                middle
-            } else {
-                BACKGROUND
-            })
-        });
-        picture.save(out.join("pictures").join(name)).unwrap();
-    }
     for record in run.records {
         let mut record = record;
-        if record.adapter == "cpu" && record.case.contains("/intersecting-panes/") {
-            let measured = record.measured.as_mut().unwrap();
-            measured.picture = Some("pictures/panes.png".to_owned());
-            measured.truth = Some("pictures/panes-truth.png".to_owned());
-        }
         if record.adapter == "cpu" && record.case.contains("/windows/") {
             let measured = record.measured.as_mut().unwrap();
             let right = measured.method == "sorted";
@@ -269,147 +240,6 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
     assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
 }
 
-fn a_texel_is_told_of_in_its_methods_terms(chromium: &Chromium, path: &Path) {
-    let page = chromium.open(path, "");
-    let panes = "[data-name='transparency/intersecting-panes']";
-    let told = |method: &str| -> String {
-        let shot = format!("{panes} .pictures:not(.off) [data-method={method}]");
-        page.run(&format!(
-            "document.querySelector(\"{shot}\").scrollIntoView({{block: 'center'}})"
-        ));
-        let button = format!("{shot} button[data-mode=picture]");
-        page.wait(&format!("document.querySelector(\"{button}\")"));
-        page.click(&button);
-        page.wait("document.querySelector('dialog').open");
-        let text = page.text("dialog .story");
-        page.press("Escape");
-        page.wait("!document.querySelector('dialog').open");
-        text
-    };
-    let layers = |notes: [&str; 3], last: &str| {
-        let known = [
-            "layer 1: depth 0.402, alpha 0.50, 50.0 % of the truth",
-            "layer 2: depth 0.500, alpha 0.50, 25.0 % of the truth",
-            "layer 3: depth 0.598, alpha 0.50, 12.5 % of the truth",
-        ];
-        let lines = known.iter().zip(notes);
-        let mut text: Vec<String> = lines.map(|(l, n)| format!("{l}{n}")).collect();
-        text.extend((!last.is_empty()).then(|| last.to_owned()));
-        text.join("\n")
-    };
-    assert_eq!(told("sorted"), layers(["", "", ""], ""));
-    assert_eq!(
-        told("weighted-blended"),
-        layers(
-            [
-                "; weight 321: 46.4 % of the colour",
-                "; weight 188: 27.1 % of the colour",
-                "; weight 97.1: 14.0 % of the colour",
-            ],
-            "revealage: 12.5 % of the background",
-        )
-    );
-    // Two panes turned by 45 degrees and one that is not, all wide enough for the middle.
-    let listed = told("linked-lists");
-    let start = layers(["; in the list"; 3], "");
-    assert!(
-        listed.starts_with(&start) && listed.ends_with(" fragments, 131072 nodes"),
-        "{listed}"
-    );
-    // A pool without room: the drawn colour tells which layer is missing, where but one choice gives it.
-    let full = |drawn: &str| -> String {
-        page.eval(&format!(
-            "(f => {{ const found = layersAt(f, compared(f), 64, 64), pool = () => ({{ nodes: 3, fragments: 9 }}); \
-             const [notes, last] = TELL['linked-lists']({{ ...found, pool, drawn: {drawn} }}); \
-             return [...notes, last].join('|'); }})(document.querySelector(\"{panes} .pictures:not(.off) [data-method=linked-lists]\"))"
-        ))
-    };
-    // Red and blue without the yellow between them.
-    assert_eq!(
-        full("[178, 102, 128]"),
-        "in the list|found no room|in the list|9 fragments, 3 nodes"
-    );
-    assert!(full("[0, 0, 0]").contains("doesn't tell which layers found no room"));
-    // A quarter of a layer's own absorbance counts as in front of it.
-    assert_eq!(
-        told("moment-based"),
-        layers(
-            [
-                "; transmittance 0.841 told, 1.000 exact: 50.0 % of the colour",
-                "; transmittance 0.420 told, 0.500 exact: 25.0 % of the colour",
-                "; transmittance 0.210 told, 0.250 exact: 12.5 % of the colour",
-            ],
-            "absorbance: 12.5 % of the background left",
-        )
-    );
-    assert_eq!(
-        told("depth-peeling"),
-        layers(
-            ["; peel 1 of 4", "; peel 2 of 4", "; peel 3 of 4"],
-            "every layer taken",
-        )
-    );
-    assert_eq!(
-        told("dual-depth-peeling"),
-        layers(
-            [
-                "; peel 1 of 2, front",
-                "; peel 2 of 2, both",
-                "; peel 1 of 2, back",
-            ],
-            "every layer taken",
-        )
-    );
-    assert_eq!(
-        told("unsorted"),
-        layers(
-            [
-                "; drawn 2 of 3",
-                "; drawn 1 of 3",
-                "; drawn 3 of 3, rejected behind layer 1",
-            ],
-            "",
-        )
-    );
-    let asked = "; alpha asks for 2.0 of 4 samples, seen in";
-    assert_eq!(
-        told("alpha-to-coverage"),
-        layers(
-            [2, 0, 0]
-                .map(|n| format!("{asked} {n}"))
-                .each_ref()
-                .map(String::as_str),
-            "the background: seen in 2 of 4 samples",
-        )
-    );
-    // Fewer peels than layers lose the farthest, from both sides those in the middle.
-    let few = |method: &str, passes: u32| -> String {
-        page.eval(&format!(
-            "(f => {{ f.dataset.passes = {passes}; return story(f, compared(f), 64, 64).join('|'); }})\
-             (document.querySelector(\"{panes} .pictures:not(.off) [data-method={method}]\"))"
-        ))
-    };
-    let lost = few("depth-peeling", 4);
-    assert!(
-        lost.contains("truth; not reached|1 layer lost after 2 peels"),
-        "{lost}"
-    );
-    let lost = few("dual-depth-peeling", 3);
-    let middle = "layer 2: depth 0.500, alpha 0.50, 25.0 % of the truth; not reached|";
-    assert!(
-        lost.contains(middle) && lost.ends_with("1 layer lost after 1 peel"),
-        "{lost}"
-    );
-    // Where the truth is another one than the layers', nothing is told.
-    let at = |x: u32, y: u32| -> String {
-        page.eval(&format!(
-            "(f => story(f, compared(f), {x}, {y}).join('|'))(document.querySelector(\"{panes} .pictures:not(.off) [data-method=sorted]\"))"
-        ))
-    };
-    assert_eq!(at(60, 64), "");
-    assert_eq!(at(2, 2), "no layer in front of the background");
-}
-
 fn the_pages_flip_is_that_of_its_authors_code(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
     let mean: f64 = page.eval(&format!(
@@ -455,41 +285,6 @@ fn break_points_lead_to_the_pictures_beside_them(chromium: &Chromium, path: &Pat
     assert_eq!(shown(&page, ".pictures"), ["2"]);
 }
 
-fn breaks_at_other_limits(chromium: &Chromium, path: &Path) {
-    let page = chromium.open(path, "");
-    let rows = || page.texts("#break-rows td:nth-child(3)");
-    let written = rows();
-    assert!(
-        written
-            .iter()
-            .any(|r| r == "weighted-blended leaves 1\u{a0}% RMSE at alpha 0.53"),
-        "{written:?}"
-    );
-    // The script finds what the page was written with.
-    page.run("showBreaks(1)");
-    assert_eq!(rows(), written);
-    page.run("document.querySelector('#limit').select()");
-    page.type_in("5");
-    page.wait("document.querySelector('#limit-text').textContent.startsWith('5')");
-    let other = rows();
-    assert_ne!(other, written);
-    assert!(
-        other.iter().all(|r| r.contains("5\u{a0}% RMSE")),
-        "{other:?}"
-    );
-    // Between 0.7, where it is 0.035, and 0.9, where it is 0.106.
-    assert!(
-        other
-            .iter()
-            .any(|r| r.starts_with("weighted-blended leaves 5\u{a0}% RMSE at alpha 0.7")),
-        "{other:?}"
-    );
-    assert!(
-        page.eval::<bool>("getComputedStyle(document.querySelector('.rings')).display === 'none'"),
-        "the rings are those of 1 %"
-    );
-}
-
 fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
     page.resize(390, 800);
@@ -521,7 +316,6 @@ fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
     assert!(page.eval::<bool>(&format!(
         "document.querySelector(\"{WINDOWS} .setting input\").disabled"
     )));
-    assert!(!page.eval::<bool>("document.querySelector('#limit-field').checkVisibility()"));
     assert!(
         page.eval::<String>("document.body.innerText")
             .contains("Scripts are off")
