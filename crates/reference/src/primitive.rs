@@ -377,11 +377,20 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         && at.x <= all.high.x + far
         && at.y >= all.low.y - far
         && at.y <= all.high.y + far;
-    let distance = |p: Point, q: Point| edge_value(p, q, at).unsigned_abs() as f64;
-    let nearest = distance(a.low, b.low).min(distance(a.high, b.high));
-    // Snapping moves either end by no more than the box is wide.
-    let slack = (width(a).max(width(b)) * 2) as f64;
-    if !near || (length > 0.0 && nearest > length * (reach + slack)) {
+    // An edge function is linear in each end, so its extremes lie at corners of the boxes.
+    let values = a
+        .corners()
+        .into_iter()
+        .flat_map(|p| b.corners().map(|q| edge_value(p, q, at)));
+    let (least, most) = values.fold((i64::MAX, i64::MIN), |(least, most), v| {
+        (least.min(v), most.max(v))
+    });
+    let nearest = if least <= 0 && most >= 0 {
+        0.0
+    } else {
+        least.unsigned_abs().min(most.unsigned_abs()) as f64
+    };
+    if !near || (length > 0.0 && nearest > length * reach) {
         return (0, 0);
     }
     // Certain are texels past half a texel for the diamond at the end, one for a fragment that is off, and one for a
@@ -410,11 +419,6 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
         || (vertical && misses(all.low.x, all.high.x, at.x));
     (u32::from(must), u32::from(!beside))
-}
-
-/// Returns the width of a box, in sub-texel units.
-fn width(ends: SnapBox) -> i64 {
-    (ends.high.x - ends.low.x).max(ends.high.y - ends.low.y)
 }
 
 /// True if a line between two positions can run through a sample's texel.

@@ -20,7 +20,7 @@ use etalon_frame::{
     WorldBox,
 };
 use etalon_pipeline::Point;
-use etalon_scene::{Draw, Scene};
+use etalon_scene::{Draw, RESTART, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
@@ -257,6 +257,13 @@ impl<'a> Walk<'a> {
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
         let draw = &self.scene.passes[p].draws[d];
+        // An index that is no restart leads out of the vertices: whatever is drawn then is not followed.
+        if draw.fetch.base_vertex != 0
+            && draw.mesh.indices.iter().flatten().any(|i| *i == RESTART)
+            && !self.rules.restarts_before_base_vertex.value()
+        {
+            return None;
+        }
         let mut skipped = Skipped::new(notes);
         let point = self.sample_point(at);
         for primitive in primitives {

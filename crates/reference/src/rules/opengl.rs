@@ -79,6 +79,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.4.1",
             ]),
         ),
+        restarts_before_base_vertex: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.8.1 Transferring Array Elements: the index is compared before the base vertex is added",
+                "OpenGL 4.5: 10.3.6 Primitive Restart: the index is tested before the base vertex is added",
+                "OpenGL 4.6: 10.3.6 Primitive Restart: the index is tested before the base vertex is added",
+            ]),
+        ),
         snap: permit(
             Snap::EitherSide,
             text.cite([

@@ -63,6 +63,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.4",
             ]),
         ),
+        restarts_before_base_vertex: permit(
+            true,
+            "OpenGL ES 3.2: 10.3.4 Primitive Restart: the index is tested before the base vertex is added",
+        ),
         snap: permit(
             Snap::EitherSide,
             text.cite([

@@ -396,6 +396,8 @@ rules! {
     shader_error: f64,
     /// Relative error of a normalized code read as a float; 0 and 1 are exact.
     decode_error: f64,
+    /// True if the index that restarts a strip is found before the base vertex is added; otherwise there or after.
+    restarts_before_base_vertex: bool,
     /// Vertex snapping.
     snap: Snap,
     /// Samples on edges.

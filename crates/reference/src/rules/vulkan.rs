@@ -5,7 +5,7 @@ use super::permission::{
     EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
     SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
-use etalon_frame::{ApiVersion, Grade, Limits, Property};
+use etalon_frame::{Grade, Limits, Property};
 
 /// Returns the text that binds a version.
 fn text(limits: &Limits) -> &'static str {
@@ -47,6 +47,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             1e-5,
             "Vulkan: Fundamentals, Conversion from Normalized Fixed-Point to Floating-Point, at the \
              accuracy of Floating-Point Computation",
+        ),
+        restarts_before_base_vertex: permit(
+            true,
+            "Vulkan: Drawing Commands, primitiveRestartEnable: the index is compared before vertexOffset is added",
         ),
         snap: permit(
             Snap::EitherSide,
@@ -92,19 +96,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: Multisample Coverage: all alpha values of the section are those of the output at location 0, index 0",
         ),
-        blends_negative_alpha: if limits.version >= ApiVersion::new(1, 4) {
-            permit(
-                false,
-                "Vulkan 1.4: Advanced Blend Operations, since 1.4.334: all components are undefined if an alpha is negative",
-            )
-        } else {
-            narrowed(
-                true,
-                false,
-                Grade::Disputed,
-                "Vulkan: Advanced Blend Operations: no exception for negative alphas; 1.4.334 makes the result undefined",
-            )
-        },
+        blends_negative_alpha: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Advanced Blend Operations: up to 1.4.333 no exception for negative alphas; 1.4.334 makes the result undefined",
+        ),
         masks_reference: permit(
             true,
             "Vulkan: Stencil Test: reference and stored value are both masked",

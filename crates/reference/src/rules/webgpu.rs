@@ -23,6 +23,12 @@ pub(super) fn rules() -> Rules {
             1e-5,
             "WebGPU: silent on normalized conversions; Vulkan and OpenGL: about 1 part in 10^5",
         ),
+        restarts_before_base_vertex: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: 23.2.1 Index Resolution adds the base vertex, 23.2.3 Primitive Assembly then splits strips; Vulkan and OpenGL compare before",
+        ),
         snap: permit(
             Snap::EitherSide,
             "WebGPU: 23.2.5 Rasterization is silent on vertex snapping; Vulkan and OpenGL: at least \

@@ -41,6 +41,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             f64::from(f32::EPSILON),
             "Direct3D 11.3: 3.2.3.5 UNORM to FLOAT: 1 ULP",
         ),
+        restarts_before_base_vertex: permit(
+            text.restarts_before_base_vertex.value,
+            "Yardstick: as the API's text says",
+        ),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
         covers_at_positions: permit(true, "Yardstick: at the positions that are told"),

@@ -215,7 +215,7 @@ fn small_floats_of_opengl_keep_what_they_can_hold() {
 }
 
 #[test]
-fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_vulkan_1_4() {
+fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_later_texts_of_vulkan() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,1]}},
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
