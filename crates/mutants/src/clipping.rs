@@ -152,7 +152,7 @@ fn far(list: &mut List) {
     list.bug("wraps: Places wrap around at 32,768 texels.")
         .draws(|draw| places(draw, |v| (v + 32768.0).rem_euclid(65536.0) - 32768.0));
     list.bug("held: Places are held to 32,767 texels.")
-        .draws(|draw| places(draw, |v| v.clamp(-32767.0, 32767.0) * 0.999 + v * 0.001));
+        .draws(|draw| places(draw, |v| v.clamp(-32767.0, 32767.0)));
     list.source(CONFUSION);
     list.bug("far-lost: A triangle with a vertex beyond 60,000 texels is lost.")
         .draws(|draw| {
