@@ -4,7 +4,7 @@
 //! of the whole. Lines get new ends.
 
 use crate::linear::{UNITS, Varying};
-use crate::raster::{Planes, Vertex, plane_bias, viewport};
+use crate::planes::{Planes, Vertex, plane_bias, viewport};
 use crate::steps::Steps;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{

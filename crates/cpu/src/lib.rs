@@ -10,6 +10,7 @@ mod linear;
 mod lists;
 mod memory;
 mod pass;
+mod planes;
 mod prepared;
 mod raster;
 mod sampling;

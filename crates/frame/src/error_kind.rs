@@ -15,7 +15,6 @@ pub enum ErrorKind {
         /// The object: `a buffer`.
         object: String,
         /// The result code of the API, if it gave one: `ERROR_OUT_OF_HOST_MEMORY`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         code: Option<String>,
     },
     /// A shader could not be translated or compiled.
@@ -25,7 +24,6 @@ pub enum ErrorKind {
         /// The condition, without the numbers and names of this scene: `the scene is not prepared`.
         condition: String,
         /// The result code of the API, if it gave one: `GL_INVALID_OPERATION`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         code: Option<String>,
     },
 }

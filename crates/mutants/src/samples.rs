@@ -156,9 +156,6 @@ fn alpha(list: &mut List) {
     list.bug("alpha-to-one-before-coverage: Alpha is 1 before it covers.")
         .plant(states(|d, _| d.alpha_to_coverage &= !d.alpha_to_one));
     list.source(CONFUSION);
-    list.bug("alpha-to-one-without-second-source: The second source keeps its alpha.")
-        .source("i965: alpha-to-one missing the second source")
-        .plant(second_source(|_, second| second));
     list.bug("alpha-to-one-for-all-channels: All channels of the second source become 1.")
         .plant(second_source(|state, second| {
             if state.alpha_to_one { [1.0; 4] } else { second }

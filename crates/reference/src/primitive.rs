@@ -393,10 +393,9 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     if !near || (length > 0.0 && nearest > length * reach) {
         return (0, 0);
     }
-    // Certain are texels past half a texel for the diamond at the end, one for a fragment that is off, and one for a
-    // fragment that is missing.
+    // Certain are texels past half a texel for the diamond at an end, and one for a fragment that is off or missing.
     let along =
-        |low: i64, high: i64, at: i64| at - units * 5 / 2 > low && at + units * 5 / 2 < high;
+        |low: i64, high: i64, at: i64| at - units * 3 / 2 > low && at + units * 3 / 2 < high;
     // True if a line between two positions runs neither through the sample's texel nor through one beside it.
     let misses = |low: i64, high: i64, at: i64| !touches(low - units, high + units, at, units);
     let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {

@@ -2,24 +2,9 @@
 
 use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
-use crate::world::{Decision, World, Worlds};
+use crate::world::{Contested, Decision, World, Worlds};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use smallvec::{SmallVec, smallvec};
-
-/// A text about stores of colours with two readings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Contested {
-    /// True: what is blended into signed formats is clamped to -1 to 1; false: to 0 to 1.
-    SignedOperands,
-    /// True: what is stored in signed formats is clamped to -1 to 1; false: to 0 to 1.
-    SignedResults,
-    /// True: logic operations apply to sRGB attachments.
-    SrgbLogic,
-    /// True: the blend constant is clamped to 0 to 1.
-    ClampedConstant,
-    /// True: alpha to one replaces the alpha of every output; false: of the first one.
-    OneForAll,
-}
 
 impl Walk<'_> {
     /// Splits a world by the readings that matter to a draw and that it has not taken yet.

@@ -4,10 +4,9 @@ use crate::fragment::Incoming;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::notes::Notes;
-use crate::readings::Contested;
 use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
-use crate::world::{Decision, World};
+use crate::world::{Contested, Decision, World};
 use etalon_frame::{
     Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat,
     ValueRange,

@@ -1,7 +1,6 @@
 //! Worlds: the consistent stories of one sample.
 
 use crate::primitive::VertexId;
-use crate::readings::Contested;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 use std::hash::{Hash, Hasher};
@@ -51,6 +50,21 @@ pub(crate) struct Increment {
     pub(crate) fragment: (u32, u32),
     /// True if it counts for certain; else it may.
     pub(crate) certain: bool,
+}
+
+/// A text about stores of colours with two readings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Contested {
+    /// True: what is blended into signed formats is clamped to -1 to 1; false: to 0 to 1.
+    SignedOperands,
+    /// True: what is stored in signed formats is clamped to -1 to 1; false: to 0 to 1.
+    SignedResults,
+    /// True: logic operations apply to sRGB attachments.
+    SrgbLogic,
+    /// True: the blend constant is clamped to 0 to 1.
+    ClampedConstant,
+    /// True: alpha to one replaces the alpha of every output; false: of the first one.
+    OneForAll,
 }
 
 /// A choice that the rules leave open, taken once per world.

@@ -140,6 +140,24 @@ mod tests {
         assert!(receive::<Response>(&mut &[3, 0, 0, 0, 1][..]).is_err());
     }
 
+    #[test]
+    fn errors_survive_the_pipe_with_and_without_a_code() {
+        let refused = || BackendError::refused("a buffer", "no memory");
+        for error in [
+            BackendError::lost("gone"),
+            refused(),
+            refused().with_code("ERROR_OUT_OF_HOST_MEMORY"),
+            BackendError::shader("flat_color", "no"),
+            BackendError::internal("no frame came back"),
+            BackendError::internal_of("drawing", "0x0502").with_code("GL_INVALID_OPERATION"),
+        ] {
+            let mut pipe = Vec::new();
+            send(&mut pipe, &error).expect("sent");
+            let back: Option<BackendError> = receive(&mut pipe.as_slice()).expect("received");
+            assert_eq!(back, Some(error));
+        }
+    }
+
     fn image(codes: Vec<u32>) -> Image {
         Image {
             attachment: "color".to_owned(),

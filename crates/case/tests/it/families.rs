@@ -98,7 +98,7 @@ fn the_quick_profile_takes_some_of_every_file() {
         assert_eq!(met, due, "{}", file.name());
         all += quick.len();
     }
-    assert!(all <= 2600, "{all} cases are not quick");
+    assert!(all <= 2700, "{all} cases are not quick");
 }
 
 #[test]
@@ -446,8 +446,15 @@ fn textbook_values_are_what_the_equations_give() {
 
 #[test]
 fn culling_shows_each_face_alone() {
-    // Flat colours of provoking vertices show no face, and patches of one winding no two.
-    let other = ["cull/provoking/", "cull/tessellation/"];
+    // Flat colours of provoking vertices show no face, patches and single triangles of one winding no two, and
+    // what asks for coverage none.
+    let other = [
+        "cull/provoking/",
+        "cull/tessellation/",
+        "cull/clipping/guard-band-slanted/",
+        "cull/shared-edges/",
+        "cull/lines-outside/",
+    ];
     let other = |case: &Case| other.iter().any(|f| case.id.starts_with(f));
     for case in cases("cull/").into_iter().filter(|c| !other(c)) {
         let drawn = case.scene.passes[0].draws.iter();

@@ -68,7 +68,10 @@ fn the_release_that_mended_a_case_is_found() {
         Some("<25")
     );
     let finding = broken.finding.as_deref().unwrap_or_default();
-    assert_eq!(finding, "softpipe lets points face by front_face");
+    assert_eq!(
+        finding,
+        "softpipe treats points as back-facing in the fragment shader"
+    );
     assert!(sound.bad().is_empty());
     // The ends and one between.
     let drawn = sound.verdicts.iter().flatten().count();

@@ -194,7 +194,7 @@ fn known_bugs_are_named_by_their_findings() {
     let text = String::from_utf8(output.stdout).unwrap();
     for due in [
         "in 2 groups (0 new, 1 like a finding, 1 known)",
-        "\n  known: softpipe-stencil-points: softpipe takes back stencil state for points: 1 scene in 1 group\n",
+        "\n  known: softpipe-stencil-points: softpipe tests points by the back stencil state: 1 scene in 1 group\n",
         "\n  looks like: softpipe-depth-clamp",
     ] {
         assert!(text.contains(due), "{text}");

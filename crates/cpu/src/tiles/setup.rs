@@ -11,7 +11,7 @@ use super::texture::Texture;
 use super::triangle::{Placed, Rare, Shape, Triangle, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
-use crate::raster::depth_bias;
+use crate::planes::depth_bias;
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Plain, front_facing, is_culled, window_position};

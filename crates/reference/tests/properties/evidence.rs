@@ -223,10 +223,6 @@ fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_later_texts_of_vulkan()
     );
     let any = [77, 1, 2, 3];
     assert_eq!(
-        allowed(&scene, &version(Api::Vulkan, 1, 4), 0, &any),
-        ALWAYS
-    );
-    assert_eq!(
         allowed(&scene, &version(Api::Vulkan, 1, 3), 0, &any),
         DISPUTED
     );
