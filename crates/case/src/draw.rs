@@ -361,7 +361,11 @@ fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget])
 /// Refuses what no specification pins: vertices far out, and written depths out of range.
 fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     for vertex in &mesh.vertices {
-        if vertex.position.iter().any(|v| !(v.abs() <= FARTHEST)) {
+        if vertex
+            .position
+            .iter()
+            .any(|v| v.is_nan() || v.abs() > FARTHEST)
+        {
             return Err(At::new(format!(
                 "a part of a clip-space position lies between -{FARTHEST} and {FARTHEST}"
             )));

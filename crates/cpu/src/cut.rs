@@ -26,7 +26,10 @@ fn window(draw: &Draw, vertex: &Vertex) -> WindowVertex {
 /// True if a vertex lies behind the eye or too far out to be snapped.
 pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
     let [x, y, w] = window(draw, vertex);
-    let far = |v: f64| !((v / w).abs() <= FARTHEST);
+    let far = |v: f64| {
+        let at = v / w;
+        at.is_nan() || at.abs() > FARTHEST
+    };
     w <= 0.0 || far(x) || far(y)
 }
 

@@ -36,7 +36,10 @@ pub(crate) fn is_cut(context: &PassContext<'_>, draw: &Draw, vertices: &[usize])
     let units = units_per_texel(context.limits) as f64;
     vertices.iter().any(|i| {
         let [x, y, w] = window_vertex(draw.mesh.vertices[*i].position, &draw.viewport, units);
-        let far = |v: f64| !((v / w).abs() <= FARTHEST);
+        let far = |v: f64| {
+            let at = v / w;
+            at.is_nan() || at.abs() > FARTHEST
+        };
         w <= 0.0 || far(x) || far(y)
     })
 }

@@ -181,9 +181,13 @@ fn a_case_that_ends_its_worker_is_reduced_to_what_ends_it() {
         ("exit", Verdict::Crash, "process died with exit status 7"),
         ("hang", Verdict::Timeout, "no answer"),
         ("garbage", Verdict::Crash, "invalid message"),
-        ("lost", Verdict::DeviceLost, "planted"),
-        ("refused", Verdict::ResourceError, "planted"),
-        ("panic", Verdict::InternalError, "a planted panic"),
+        ("lost", Verdict::DeviceLost, "the device was lost"),
+        (
+            "refused",
+            Verdict::ResourceError,
+            "the driver refused a buffer",
+        ),
+        ("panic", Verdict::InternalError, "the backend panicked"),
     ] {
         let folder = TempDir::new().unwrap();
         let cases = folder.path().join("cases");

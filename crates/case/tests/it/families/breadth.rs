@@ -243,7 +243,8 @@ fn no_primitive_hides_which_vertex_provokes() {
 
 #[test]
 fn clipping_meets_every_kind_of_w() {
-    let kinds: [(&str, fn(f32) -> bool); 6] = [
+    type Holds = fn(f32) -> bool;
+    let kinds: [(&str, Holds); 6] = [
         ("one", |w| w == 1.0),
         ("another", |w| (2.0..=64.0).contains(&w)),
         ("tiny", |w| w > 0.0 && w < 1e-5),
