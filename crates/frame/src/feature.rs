@@ -51,6 +51,8 @@ state_enum! {
         FirstProvokingVertex = "first-provoking-vertex",
         /// Shaders that run after the depth and stencil tests, whatever they do.
         ForcedEarlyTests = "forced-early-tests",
+        /// The same where the shader writes a depth, which has no effect.
+        ForcedEarlyTestsWithDepth = "forced-early-tests-with-depth",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
         /// Draws without a fragment shader.

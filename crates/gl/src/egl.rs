@@ -101,6 +101,61 @@ pub(crate) struct ContextRequest {
     pub(crate) debug: bool,
 }
 
+/// An initialised display.
+struct OpenDisplay {
+    display: Display,
+    is_1_5: bool,
+    extensions: HashSet<String>,
+}
+
+impl OpenDisplay {
+    fn has(&self, extension: &str) -> bool {
+        self.extensions.contains(extension)
+    }
+
+    /// Returns the attribute that asks for reset notification, if there is one.
+    fn robustness(&self, es: bool) -> Option<i32> {
+        if self.is_1_5 && !es {
+            Some(egl::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY)
+        } else if self.has("EGL_EXT_create_context_robustness") {
+            Some(ext::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT)
+        } else {
+            None
+        }
+    }
+
+    /// Returns the terminated list of a context's attributes.
+    fn context_attributes(
+        &self,
+        request: ContextRequest,
+        (major, minor): (i32, i32),
+        reset_strategy: Option<i32>,
+    ) -> Vec<i32> {
+        let mut list = vec![
+            egl::CONTEXT_MAJOR_VERSION,
+            major,
+            egl::CONTEXT_MINOR_VERSION,
+            minor,
+        ];
+        if !request.es {
+            list.extend([
+                egl::CONTEXT_OPENGL_PROFILE_MASK,
+                egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
+            ]);
+        }
+        if request.debug && self.is_1_5 {
+            list.extend([egl::CONTEXT_OPENGL_DEBUG, 1]);
+        } else if request.debug {
+            list.extend([ext::CONTEXT_FLAGS_KHR, ext::CONTEXT_OPENGL_DEBUG_BIT_KHR]);
+        }
+        if let Some(name) = reset_strategy {
+            list.extend([name, egl::LOSE_CONTEXT_ON_RESET]);
+        }
+        list.push(egl::NONE);
+        list
+    }
+}
+
 impl Egl {
     fn load(path: &Path) -> Result<Self, Unavailable> {
         let name = path.display();
@@ -301,6 +356,47 @@ impl Egl {
         request: ContextRequest,
         versions: &[(i32, i32)],
     ) -> Result<EglContext, Unavailable> {
+        let opened = self.open(platform)?;
+        let display = opened.display;
+        let config = self.bind_api(&opened, request.es)?;
+        let robust = opened.robustness(request.es);
+        let mut failure = String::new();
+        for &version in versions {
+            // A driver without reset notification refuses the first attempt only.
+            let strategies = [robust, None];
+            for &strategy in &strategies[usize::from(robust.is_none())..] {
+                let list = opened.context_attributes(request, version, strategy);
+                // SAFETY: the display is initialised, the config is its own or none, and the list
+                // is terminated.
+                let context = unsafe {
+                    self.functions.eglCreateContext(
+                        display,
+                        config,
+                        std::ptr::null_mut(),
+                        list.as_ptr(),
+                    )
+                };
+                if context.is_null() {
+                    failure = self.error();
+                } else {
+                    return self.current(display, context);
+                }
+            }
+        }
+        let (major, minor) = versions.last().copied().unwrap_or_default();
+        let api = if request.es {
+            "OpenGL ES"
+        } else {
+            "OpenGL core"
+        };
+        Err(Unavailable::new(
+            format!("no {api} context of version {major}.{minor} or above: {failure}"),
+            "use a newer driver, or check the environment variables that choose it",
+        ))
+    }
+
+    /// Initialises a display that has contexts without a surface.
+    fn open(&self, platform: Platform) -> Result<OpenDisplay, Unavailable> {
         let display = self.display(platform)?;
         let (mut major, mut minor) = (0, 0);
         // SAFETY: the display came from EGL and the results have room.
@@ -315,22 +411,30 @@ impl Egl {
                 "check the driver's installation and the environment variables that choose it",
             ));
         }
-        let extensions = self.display_extensions(display);
-        let has = |name: &str| extensions.contains(name);
-        if !has("EGL_KHR_surfaceless_context") {
+        let opened = OpenDisplay {
+            display,
+            is_1_5: (major, minor) >= (1, 5),
+            extensions: self.display_extensions(display),
+        };
+        if !opened.has("EGL_KHR_surfaceless_context") {
             return Err(Unavailable::new(
                 "the driver lacks EGL_KHR_surfaceless_context",
                 "use a driver that draws without a window",
             ));
         }
-        let at_least_1_5 = (major, minor) >= (1, 5);
-        if !at_least_1_5 && !has("EGL_KHR_create_context") {
+        if !opened.is_1_5 && !opened.has("EGL_KHR_create_context") {
             return Err(Unavailable::new(
                 "the driver lacks EGL 1.5 and EGL_KHR_create_context",
                 "use a newer driver",
             ));
         }
-        let api = if request.es {
+        Ok(opened)
+    }
+
+    /// Makes contexts be of OpenGL or OpenGL ES, and returns their configuration, or null where
+    /// they need none.
+    fn bind_api(&self, opened: &OpenDisplay, es: bool) -> Result<Config, Unavailable> {
+        let api = if es {
             egl::OPENGL_ES_API
         } else {
             egl::OPENGL_API
@@ -340,82 +444,33 @@ impl Egl {
             let reason = format!("eglBindAPI failed: {}", self.error());
             return Err(Unavailable::new(reason, "use a driver that has this API"));
         }
-        let config = if has("EGL_KHR_no_config_context") || has("EGL_MESA_configless_context") {
-            std::ptr::null_mut()
+        if opened.has("EGL_KHR_no_config_context") || opened.has("EGL_MESA_configless_context") {
+            Ok(std::ptr::null_mut())
         } else {
-            self.choose_config(display, request.es)?
-        };
-        let robust = match (at_least_1_5, has("EGL_EXT_create_context_robustness")) {
-            (true, _) if !request.es => Some(egl::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY),
-            (_, true) => Some(ext::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT),
-            _ => None,
-        };
-        let mut failure = String::new();
-        for &(major, minor) in versions {
-            // A driver without reset notification refuses the first attempt only.
-            let strategies = [robust, None];
-            let attempts = &strategies[usize::from(robust.is_none())..];
-            for strategy in attempts {
-                let mut list = vec![
-                    egl::CONTEXT_MAJOR_VERSION,
-                    major,
-                    egl::CONTEXT_MINOR_VERSION,
-                    minor,
-                ];
-                if !request.es {
-                    list.extend([
-                        egl::CONTEXT_OPENGL_PROFILE_MASK,
-                        egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                    ]);
-                }
-                if request.debug && at_least_1_5 {
-                    list.extend([egl::CONTEXT_OPENGL_DEBUG, 1]);
-                } else if request.debug {
-                    list.extend([ext::CONTEXT_FLAGS_KHR, ext::CONTEXT_OPENGL_DEBUG_BIT_KHR]);
-                }
-                if let Some(name) = strategy {
-                    list.extend([*name, egl::LOSE_CONTEXT_ON_RESET]);
-                }
-                list.push(egl::NONE);
-                // SAFETY: the display is initialised, the config is its own or none, and the list
-                // is terminated.
-                let context = unsafe {
-                    self.functions.eglCreateContext(
-                        display,
-                        config,
-                        std::ptr::null_mut(),
-                        list.as_ptr(),
-                    )
-                };
-                if !context.is_null() {
-                    let context = EglContext {
-                        egl: self,
-                        display,
-                        context,
-                        software: self.display_is_software(display),
-                        driver: self.driver_name(display),
-                    };
-                    context.make_current().map_err(|(_, e)| {
-                        Unavailable::new(
-                            format!("eglMakeCurrent failed: {e}"),
-                            "use a driver that draws without a window",
-                        )
-                    })?;
-                    return Ok(context);
-                }
-                failure = self.error();
-            }
+            self.choose_config(opened.display, es)
         }
-        let (major, minor) = versions.last().copied().unwrap_or_default();
-        let what = if request.es {
-            "OpenGL ES"
-        } else {
-            "OpenGL core"
+    }
+
+    /// Makes a new context current.
+    fn current(
+        &'static self,
+        display: Display,
+        context: ContextHandle,
+    ) -> Result<EglContext, Unavailable> {
+        let context = EglContext {
+            egl: self,
+            display,
+            context,
+            software: self.display_is_software(display),
+            driver: self.driver_name(display),
         };
-        Err(Unavailable::new(
-            format!("no {what} context of version {major}.{minor} or above: {failure}"),
-            "use a newer driver, or check the environment variables that choose it",
-        ))
+        context.make_current().map_err(|(_, e)| {
+            Unavailable::new(
+                format!("eglMakeCurrent failed: {e}"),
+                "use a driver that draws without a window",
+            )
+        })?;
+        Ok(context)
     }
 
     fn choose_config(&self, display: Display, es: bool) -> Result<Config, Unavailable> {

@@ -36,6 +36,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::DepthClamp => caps.depth_clamp,
         Feature::DualSourceBlending => caps.dual_source,
         Feature::ForcedEarlyTests => caps.early_tests,
+        // In ES it is an error to write `gl_FragDepth` then (GLSL ES 3.20, 4.4.1, Fragment Shader Inputs).
+        Feature::ForcedEarlyTestsWithDepth => caps.early_tests && !caps.es,
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
         Feature::FirstProvokingVertex | Feature::MixedProvokingVertices => {

@@ -86,7 +86,8 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
             (shader, EarlyTests::LessEqual),
             (shader, EarlyTests::Unchanged),
         ],
-        Feature::ForcedEarlyTests => &[(shader, EarlyTests::Forced)],
+        Feature::ForcedEarlyTests => &[(Shader::FlatColor, EarlyTests::Forced)],
+        Feature::ForcedEarlyTestsWithDepth => &[(shader, EarlyTests::Forced)],
         Feature::FragmentStorage => &[
             (Shader::ListAppend, EarlyTests::Implicit),
             (Shader::ListCompose, EarlyTests::Implicit),

@@ -14,7 +14,7 @@ use etalon_scene::LogicOperation;
 /// reading of the text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// In floating-point.
+    /// In floating-point, of the least precision that is permitted or any above.
     pub float: Interval,
     /// Rounded to destination codes at every step.
     pub coarse: Interval,
@@ -172,14 +172,87 @@ impl<'r> Judging<'r> {
         self.computed(exact.widen_relative(units))
     }
 
-    /// Widens to the destination's codes on either side, where blending may round to them.
-    fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
+    /// True if blending may be as coarse as the destination.
+    fn is_coarse(&self) -> bool {
         let precision = if self.advanced {
             &self.rules.advanced_blend
         } else {
             &self.rules.blend
         };
-        if precision.value() != BlendPrecision::DestinationCodes {
+        precision.value() == BlendPrecision::DestinationCodes
+    }
+
+    /// Widens an operand or an exact result, whose computed values lie in `computed`, by the rounding of the
+    /// shortest significand that has the destination's precision.
+    fn float_outward(
+        &self,
+        encoding: ChannelEncoding,
+        exact: Interval,
+        computed: Interval,
+    ) -> Interval {
+        let bits = match encoding {
+            ChannelEncoding::Unorm(bits) => u32::from(bits),
+            ChannelEncoding::Snorm(bits) => u32::from(bits) - 1,
+            ChannelEncoding::Srgb8 => 8,
+            // Every step of these is rounded in the coarse way of computing.
+            _ => return computed,
+        };
+        if !self.is_coarse() || exact.may_be_nan() {
+            return computed;
+        }
+        let bits = if self.advanced {
+            bits.min(HALF_SIGNIFICAND)
+        } else {
+            bits
+        };
+        computed.hull(to_significand(bits, exact))
+    }
+
+    /// Returns the results that one step of a blend may compute for an exact one.
+    fn rounded_once(&self, encoding: ChannelEncoding, exact: Range) -> Range {
+        let computed = exact.float.widen_relative(self.error());
+        Range {
+            float: self.float_outward(encoding, exact.float, computed),
+            coarse: self.round_outward(encoding, exact.coarse),
+        }
+    }
+
+    /// Returns one over a value that is above 0 where it counts.
+    fn inverse(&self, encoding: ChannelEncoding, value: Range) -> Range {
+        let exact = value.zip(value, |v, _| {
+            let least = f64::from(f32::MIN_POSITIVE);
+            if v.may_be_nan() {
+                v
+            } else {
+                Interval::between(1.0 / v.high.max(least), 1.0 / v.low.max(least))
+            }
+        });
+        self.rounded_once(encoding, exact)
+    }
+
+    /// Returns the results for a quotient: in one step, or as a product with the inverse.
+    fn divided(
+        &self,
+        encoding: ChannelEncoding,
+        exact: Range,
+        dividend: Range,
+        divisor: Range,
+    ) -> Range {
+        if divisor.float.is(1.0) && divisor.coarse.is(1.0) {
+            return Range {
+                float: exact.float,
+                coarse: self.round_outward(encoding, exact.coarse),
+            };
+        }
+        let inverse = self.inverse(encoding, divisor);
+        let product = dividend.zip(inverse, Interval::times);
+        self.rounded_once(encoding, exact)
+            .zip(self.rounded_once(encoding, product), Interval::hull)
+    }
+
+    /// Widens to the destination's codes on either side, where blending may round to them.
+    fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
+        if !self.is_coarse() {
             return value;
         }
         match encoding {
@@ -321,6 +394,35 @@ pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
     Interval {
         low: (value.low * scale + INTEGER_SLACK).floor() / scale,
         high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
+    }
+}
+
+/// The bits of a 16-bit float's significand, the hidden one among them.
+const HALF_SIGNIFICAND: u32 = 11;
+
+/// Widens to floats on either side whose significands have so many bits.
+fn to_significand(bits: u32, value: Interval) -> Interval {
+    let unit = 1_u64 << (f64::MANTISSA_DIGITS - bits);
+    let towards_zero = |v: f64| f64::from_bits(v.to_bits() & !(unit - 1));
+    let away = |v: f64| {
+        let truncated = towards_zero(v);
+        if truncated == v {
+            v
+        } else {
+            f64::from_bits(truncated.to_bits() + unit)
+        }
+    };
+    Interval {
+        low: if value.low < 0.0 {
+            away(value.low)
+        } else {
+            towards_zero(value.low)
+        },
+        high: if value.high < 0.0 {
+            towards_zero(value.high)
+        } else {
+            away(value.high)
+        },
     }
 }
 
@@ -540,7 +642,7 @@ impl Arithmetic for Judging<'_> {
             coarse: self.blend_clamp(encoding, value.coarse),
         };
         Range {
-            float: clamped.float,
+            float: self.float_outward(encoding, clamped.float, clamped.float),
             coarse: self.round_outward(encoding, clamped.coarse),
         }
     }
@@ -551,7 +653,8 @@ impl Arithmetic for Judging<'_> {
         let float = if value.float.is(0.0) || value.float.is(1.0) {
             exact.float
         } else {
-            exact.float.widen_relative(self.error())
+            let computed = exact.float.widen_relative(self.error());
+            self.float_outward(encoding, exact.float, computed)
         };
         Range {
             float,
@@ -594,7 +697,8 @@ impl Arithmetic for Judging<'_> {
         let float = if plain(operand.float) || plain(factor.float) {
             product.float
         } else {
-            product.float.widen_relative(self.error())
+            let computed = product.float.widen_relative(self.error());
+            self.float_outward(encoding, product.float, computed)
         };
         Range {
             float: float.may_overflow(),
@@ -619,7 +723,8 @@ impl Arithmetic for Judging<'_> {
             let largest = [a.float.low, a.float.high, b.float.low, b.float.high]
                 .into_iter()
                 .fold(0.0, |m: f64, v| m.max(v.abs().min(greatest)));
-            sum.float.widen(largest * self.error())
+            let computed = sum.float.widen(largest * self.error());
+            self.float_outward(encoding, sum.float, computed)
         };
         Range {
             float: float.may_overflow(),
@@ -643,12 +748,7 @@ impl Arithmetic for Judging<'_> {
             (false, true) => Interval::EVERYTHING,
             (false, false) => c.corners(a, |c, a| c / a),
         });
-        let float = if alpha.float.is(1.0) {
-            exact.float
-        } else {
-            exact.float.widen_relative(self.error())
-        };
-        let mut coarse = self.round_outward(encoding, exact.coarse);
+        let Range { float, mut coarse } = self.divided(encoding, exact, color, alpha);
         if let Some((low, high)) = encoding.normalized_range() {
             coarse = coarse.hull(coarse.clamp(f64::from(low), f64::from(high)));
         }
@@ -673,22 +773,13 @@ impl Arithmetic for Judging<'_> {
             };
             Interval { low, high }
         });
-        let float = if b.float.is(1.0) {
-            exact.float
-        } else {
-            exact.float.widen_relative(self.error())
-        };
-        let held = |v: Interval| {
-            if v.may_be_nan() {
-                v
-            } else {
-                v.map_increasing(|v| v.min(1.0))
-            }
-        };
-        Range {
-            float: held(float),
-            coarse: held(self.round_outward(encoding, exact.coarse)),
-        }
+        let ratio = self.divided(encoding, exact, a, b);
+        ratio.zip(
+            ratio,
+            |v, _| {
+                if v.may_be_nan() { v } else { v.clamp(0.0, 1.0) }
+            },
+        )
     }
 
     fn blend_root(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
@@ -699,10 +790,10 @@ impl Arithmetic for Judging<'_> {
                 v.map_increasing(|v| v.max(0.0).sqrt())
             }
         });
-        Range {
-            float: exact.float.widen_relative(self.error()),
-            coarse: self.round_outward(encoding, exact.coarse),
-        }
+        let inverse = self.inverse(encoding, exact);
+        let product = value.zip(inverse, Interval::times);
+        self.rounded_once(encoding, exact)
+            .zip(self.rounded_once(encoding, product), Interval::hull)
     }
 
     /// Each way of computing decides for itself.
@@ -762,6 +853,38 @@ mod tests {
         }
         let back = a.decode(e, CodeInterval::exact(100));
         assert_eq!(a.encode(e, back), CodeInterval::new(99, 101));
+    }
+
+    /// 254/255 is between two 16-bit floats, and 1 less the lower one is an eighth more than 1 less 254/255.
+    #[test]
+    fn a_blend_in_16_bit_floats_is_legal_although_they_lack_the_codes() {
+        let rules = Rules::of(&crate::test_limits::limits(Api::Vulkan));
+        let mut a = Judging::new(&rules);
+        let e = ChannelEncoding::Srgb8;
+        let alpha = a.constant(254.0 / 255.0);
+        let alpha = a.blend_operand(ChannelEncoding::Unorm(8), alpha);
+        let rest = a.blend_complement(ChannelEncoding::Unorm(8), alpha);
+        assert!(rest.float.contains(1.0 - 2039.0 / 2048.0));
+        let color = a.decode(e, CodeInterval::exact(254));
+        let color = a.blend_operand(e, color);
+        let product = a.blend_product(e, color, rest);
+        assert!(a.encode(e, product).contains(14));
+    }
+
+    #[test]
+    fn short_significands_round_away_on_both_sides() {
+        let widened = |low, high| to_significand(2, Interval { low, high });
+        for (low, high, outer) in [
+            (0.3, 0.3, (0.25, 0.375)),
+            (-0.3, 0.3, (-0.375, 0.375)),
+            (-0.3, -0.3, (-0.375, -0.25)),
+            (0.5, 0.75, (0.5, 0.75)),
+            (0.9, 0.9, (0.75, 1.0)),
+            (0.0, 0.0, (0.0, 0.0)),
+        ] {
+            let (low, high) = (widened(low, high).low, widened(low, high).high);
+            assert_eq!((low, high), outer);
+        }
     }
 
     #[test]

@@ -183,6 +183,10 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     need(early.is_conservative(), Feature::ConservativeDepth);
     let shader = draw.shader;
     need(
+        early == EarlyTests::Forced && shader.writes_depth(),
+        Feature::ForcedEarlyTestsWithDepth,
+    );
+    need(
         shader.interpolation_sampling() == InterpolationSampling::Centroid,
         Feature::CentroidInterpolation,
     );

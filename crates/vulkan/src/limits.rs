@@ -115,6 +115,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::FirstInstance
         | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests
+        | Feature::ForcedEarlyTestsWithDepth
         | Feature::FragmentShaderAbsent
         | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling

@@ -202,6 +202,10 @@ fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> 
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
         ),
+        (
+            Feature::ForcedEarlyTestsWithDepth,
+            feature(Features::SHADER_EARLY_DEPTH_TEST),
+        ),
         (Feature::FragmentStorage, storage),
         // A pipeline without targets fits no pass with colour attachments (render pass layouts).
         (Feature::FragmentShaderAbsent, true),

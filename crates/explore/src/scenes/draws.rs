@@ -239,7 +239,12 @@ impl Maker<'_> {
             return "implicit";
         }
         let mut words = vec!["implicit"];
-        let forced = self.extra_with("forced", Feature::ForcedEarlyTests);
+        let feature = if shader.writes_depth() {
+            Feature::ForcedEarlyTestsWithDepth
+        } else {
+            Feature::ForcedEarlyTests
+        };
+        let forced = self.extra_with("forced", feature);
         words.extend(forced.then_some("forced"));
         let promise =
             shader.writes_depth() && self.extra_with("promise", Feature::ConservativeDepth);

@@ -159,8 +159,74 @@ fn check_window_position([x, y, z]: [f32; 3], viewport: Viewport) -> Result<(), 
     Ok(())
 }
 
+fn normalized() -> impl Strategy<Value = f32> {
+    prop_oneof![0.0_f32..=1.0, code().prop_map(|code| code as f32 / 255.0)]
+}
+
+/// Rounds to a float whose significand has so many bits: down, up or to the nearest.
+fn short(bits: i32, direction: i8, value: f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let step = (value.abs().log2().floor() + 1.0 - f64::from(bits)).exp2();
+    let steps = value / step;
+    step * match direction {
+        -1 => steps.floor(),
+        1 => steps.ceil(),
+        _ => steps.round(),
+    }
+}
+
+/// The source weighed by the complement of the destination's alpha, and the destination by the source's alpha, with
+/// every operand and result rounded by `short`.
+fn short_blend(
+    encoding: ChannelEncoding,
+    short: impl Fn(f64) -> f64,
+    src: [f32; 4],
+    dst: [u32; 4],
+) -> [f64; 4] {
+    let src = src.map(|v| short(f64::from(v)));
+    let dst = dst.map(|c| short(decoded(encoding, c)));
+    std::array::from_fn(|c| {
+        let from_src = short(src[c] * short(1.0 - dst[3]));
+        short(from_src + short(dst[c] * src[3]))
+    })
+}
+
+fn decoded(encoding: ChannelEncoding, code: u32) -> f64 {
+    match encoding {
+        ChannelEncoding::Srgb8 => etalon_frame::srgb_to_linear(f64::from(code) / 255.0),
+        _ => f64::from(code) / 255.0,
+    }
+}
+
 proptest! {
     #![proptest_config(config(4000))]
+
+    #[test]
+    fn a_blend_in_floats_of_the_destinations_precision_is_legal(
+        src in [normalized(), normalized(), normalized(), normalized()],
+        dst in [code(), code(), code(), code()],
+        bits in 8_i32..=24,
+        direction in -1_i8..=1,
+        srgb in any::<bool>(),
+    ) {
+        let encoding = if srgb { ChannelEncoding::Srgb8 } else { ChannelEncoding::Unorm(8) };
+        let component = BlendComponent {
+            operation: BlendOperation::Add,
+            src_factor: BlendFactor::OneMinusDstAlpha,
+            dst_factor: BlendFactor::SrcAlpha,
+        };
+        let state = BlendState { color: component, alpha: component };
+        let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
+        let codes = results.map(|v| encoding.position(v.clamp(0.0, 1.0)).map_or(0, |p| p.round() as i64));
+        let mut all = all_rules();
+        all.pop();
+        for rules in all {
+            let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
+            assert_inside(rules.name, codes, intervals)?;
+        }
+    }
 
     #[test]
     fn a_plain_blend_into_8_bits_lies_inside_every_judged_one(blend in blends()) {
