@@ -136,8 +136,8 @@ pub enum Rounding {
 /// The precision of blending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendPrecision {
-    /// In floating-point, or with every result rounded to one of the destination's neighbouring
-    /// codes.
+    /// With every operand and result rounded to one of the destination's neighbouring codes, or to a
+    /// neighbouring float with as many bits in its significand, or less coarsely.
     DestinationCodes,
     /// In 32-bit floating-point.
     Float32,
