@@ -47,9 +47,8 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             made().attachments != scene.attachments,
             "no attachment is drawn to first, from a clear value that is kept exactly",
         ),
-        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect) | PathValue::State(_) => {
-            (draws().next().is_some(), "there is no draw")
-        }
+        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect | PathDraws::IndirectCount)
+        | PathValue::State(_) => (draws().next().is_some(), "there is no draw"),
         PathValue::Draws(_) => {
             let called = |s: &Scene| -> Vec<_> {
                 let draws = s.passes.iter().flat_map(|p| &p.draws);

@@ -129,6 +129,8 @@ path_values! {
         Instanced = "instanced",
         /// Arguments from a buffer.
         Indirect = "indirect",
+        /// Arguments from a buffer, and the number of draws from another place, less than the most that is stated.
+        IndirectCount = "indirect-count",
         /// Lists as strips that the greatest index ends.
         Restart = "restart",
     }

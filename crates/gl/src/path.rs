@@ -27,6 +27,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         }
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => caps.indirect,
+        PathValue::Draws(PathDraws::IndirectCount) => false,
         PathValue::Draws(_) => true,
         PathValue::End(PathEnd::Copy) => caps.copy_image,
         PathValue::End(_) => true,

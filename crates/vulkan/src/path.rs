@@ -11,8 +11,8 @@ use crate::samples;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{
-    Aspect, ChannelEncoding, PathArea, PathClip, PathEnd, PathState, PathTarget, PathValue,
-    PathViewport, Requirement, TextureFormat,
+    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathState, PathTarget,
+    PathValue, PathViewport, Requirement, TextureFormat,
 };
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
@@ -22,6 +22,7 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::State(PathState::ExtendedDynamic3) => device.extended.is_some(),
         PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
+        PathValue::Draws(PathDraws::IndirectCount) => device.indirect_count,
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
         // Only OpenGL has them.

@@ -9,7 +9,7 @@ use crate::extended::Extended;
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::{Image, ImageKey, Place};
-use crate::inputs::{CallNumbers, DrawInputs};
+use crate::inputs::{Arguments, CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::path;
 use crate::pipeline::Pipeline;
@@ -110,8 +110,8 @@ pub(crate) struct DrawPlan {
     pub(crate) overwritten: bool,
     /// The further dynamic state, where the path asks for it.
     pub(crate) extended: Option<Extended>,
-    /// The offset of the arguments, in an indirect draw.
-    pub(crate) arguments: Option<u64>,
+    /// The arguments of an indirect draw.
+    pub(crate) arguments: Option<Arguments>,
     pub(crate) set: vk::DescriptorSet,
     pub(crate) params: u32,
     pub(crate) vertices: u64,

@@ -169,6 +169,21 @@ functions! {
             }
         });
     }
+    instead v12 cmd_draw_indirect_count(
+        commands: vk::CommandBuffer, buffer: vk::Buffer, offset: vk::DeviceSize, count_buffer: vk::Buffer,
+        count_offset: vk::DeviceSize, most: u32, stride: u32
+    ) |planted| {
+        // SAFETY: the caller's; there are arguments for the most draws.
+        unsafe {
+            if planted.calls.has(CallFault::IndirectMost) {
+                (planted.driver.v10.cmd_draw_indirect)(commands, buffer, offset, most, stride);
+            } else {
+                (planted.driver.v12.cmd_draw_indirect_count)(
+                    commands, buffer, offset, count_buffer, count_offset, most, stride
+                );
+            }
+        }
+    }
     before v10 cmd_set_scissor(
         commands: vk::CommandBuffer, first: u32, count: u32, scissors: *const vk::Rect2D
     ) [scissors; count] |planted| {

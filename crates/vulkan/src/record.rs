@@ -9,7 +9,7 @@ use crate::image_state::{
     COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
     ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
 };
-use crate::inputs::CallNumbers;
+use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers, MOST_COUNTED};
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role};
 use crate::read::ReadPlan;
@@ -501,10 +501,37 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             first_instance,
         } = draw.call;
         match (draw.indices, draw.arguments) {
-            (Some(_), Some(offset)) => {
-                api.cmd_draw_indexed_indirect(commands, input, offset, 1, 0);
+            (
+                indices,
+                Some(Arguments {
+                    offset,
+                    count: None,
+                }),
+            ) => match indices {
+                Some(_) => api.cmd_draw_indexed_indirect(commands, input, offset, 1, 0),
+                None => api.cmd_draw_indirect(commands, input, offset, 1, 0),
+            },
+            (
+                indices,
+                Some(Arguments {
+                    offset,
+                    count: Some(count),
+                }),
+            ) => {
+                let draw = match indices {
+                    Some(_) => api.fp_v1_2().cmd_draw_indexed_indirect_count,
+                    None => api.fp_v1_2().cmd_draw_indirect_count,
+                };
+                draw(
+                    commands,
+                    input,
+                    offset,
+                    input,
+                    count,
+                    MOST_COUNTED,
+                    ARGUMENTS_BYTES as u32,
+                );
             }
-            (None, Some(offset)) => api.cmd_draw_indirect(commands, input, offset, 1, 0),
             (Some(_), None) => {
                 api.cmd_draw_indexed(
                     commands,

@@ -21,6 +21,7 @@ pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BT
         PathValue::Commands(_) => true,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
+        PathValue::Draws(PathDraws::IndirectCount) => false,
         PathValue::Draws(_) => true,
         PathValue::End(end) => end != PathEnd::Blit,
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,

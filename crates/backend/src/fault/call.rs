@@ -153,6 +153,8 @@ faults! {
     ClearFirstTarget = "clear-first-target" in "sequence/loads-by-target/*";
     /// Passes without draws resolve nothing.
     EmptyResolve = "empty-resolve" in "sequence/empty-resolve/*" of OpenGl;
+    /// As many draws as there may be take place, whatever their number in the buffer.
+    IndirectMost = "indirect-most" in "paths/indirect-count/*" of Vulkan;
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
 }
