@@ -496,15 +496,14 @@ impl Device {
         })
     }
 
-    /// True if images of a format can be blitted from and to.
-    pub(crate) fn blits(&self, format: vk::Format) -> bool {
-        let both = vk::FormatFeatureFlags::BLIT_SRC | vk::FormatFeatureFlags::BLIT_DST;
+    /// True if images of a format have these features.
+    pub(crate) fn has(&self, format: vk::Format, features: vk::FormatFeatureFlags) -> bool {
         // SAFETY: the physical device is of this living instance.
         let properties = unsafe {
             let api = self.instance.raw();
             api.get_physical_device_format_properties(self.physical, format)
         };
-        properties.optimal_tiling_features.contains(both)
+        properties.optimal_tiling_features.contains(features)
     }
 
     /// Returns the memory types among `allowed` that have the requested flags, in order of
