@@ -13,12 +13,14 @@
 //!   its top row.
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
+mod blits;
 pub mod codes;
 mod fault;
 mod halves;
 mod recording;
 mod tree;
 
+pub use blits::{Blit, Blits, Piece, doubled};
 pub use fault::{
     CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, ProcessFault, ReadFault,
 };

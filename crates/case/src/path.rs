@@ -5,10 +5,10 @@
 
 use crate::error::At;
 use etalon_frame::{
-    ChannelEncoding, PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue, PathViewport,
-    TextureFormat,
+    ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathStart, PathTarget, PathValue,
+    PathViewport, TextureFormat,
 };
-use etalon_scene::{Attachment, Scene};
+use etalon_scene::{Attachment, ClearTarget, ColorTarget, Contents, Draw, Pass, Scene, Shader};
 
 /// Checks that every value of a scene's path applies to something.
 pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
@@ -32,6 +32,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
         let mut channels = a.format.color_channels().iter();
         channels.any(|e| !e.is_float() && !matches!(e, ChannelEncoding::Uint(_)))
     };
+    let drawn = |index: usize| scene.passes.iter().any(|p| p.color.contains(&index));
     let draws = || scene.passes.iter().flat_map(|p| &p.draws);
     let made = || scene.on_path();
     let tessellated = draws().any(|d| d.tessellation.is_some());
@@ -47,9 +48,8 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             made().attachments != scene.attachments,
             "no attachment is drawn to first, from a clear value that is kept exactly",
         ),
-        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect) | PathValue::State(_) => {
-            (draws().next().is_some(), "there is no draw")
-        }
+        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect | PathDraws::IndirectCount)
+        | PathValue::State(_) => (draws().next().is_some(), "there is no draw"),
         PathValue::Draws(_) => {
             let called = |s: &Scene| -> Vec<_> {
                 let draws = s.passes.iter().flat_map(|p| &p.draws);
@@ -80,6 +80,22 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             any(&|i, a| read(i, a) && !normalized(a)),
             "no attachment with a single sample is read back, of floats, integers, depth or stencil",
         ),
+        PathValue::End(PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart) => (
+            any(&|i, a| read(i, a) && !normalized(a) && a.size[0] > 1 && a.size[1] > 1),
+            "no attachment with a single sample and several rows and columns is read back, of floats, integers, depth \
+             or stencil",
+        ),
+        PathValue::End(PathEnd::BlitLinear) => (
+            scene.attachments.iter().all(has_two_values)
+                && draws().all(writes_two_values)
+                && scene.passes.iter().all(clears_to_two_values)
+                && any(&|i, a| read(i, a) && a.format.is_color()),
+            "colors are others than 0 and 1, or none with a single sample are read back",
+        ),
+        PathValue::End(PathEnd::ReadBuffer) => (
+            any(&|i, a| read(i, a) && a.format.is_color() && drawn(i)),
+            "no color attachment with a single sample is drawn to and read back",
+        ),
         PathValue::End(PathEnd::ShaderRead) => (
             any(&|i, a| {
                 read(i, a)
@@ -92,6 +108,17 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             any(&|i, a| read(i, a) && a.size.iter().any(|side| *side > 11)),
             "no attachment that is read back has 12 columns or rows and a single sample",
         ),
+        PathValue::Clears(PathClears::Together) => (
+            made().passes.iter().any(|p| !p.clears.is_empty()),
+            "no command clears",
+        ),
+        PathValue::Clears(PathClears::Undefined) => (
+            made()
+                .passes
+                .iter()
+                .any(|p| !p.cleared().is_empty() || p.clears.iter().any(|c| !c.target.is_masked())),
+            "nothing is cleared without a mask",
+        ),
         PathValue::Area(PathArea::Part) => (
             scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
             "a draw in two parts counts twice, or nothing has two columns",
@@ -101,10 +128,48 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
         | PathValue::Commands(_)
         | PathValue::End(_)
         | PathValue::Area(_)
+        | PathValue::Clears(_)
         | PathValue::Clip(_)
         | PathValue::Viewport(_) => (!scene.passes.is_empty(), "there is no pass"),
     };
     (!applies).then_some(reason)
+}
+
+fn is_zero_or_one(value: &f32) -> bool {
+    *value == 0.0 || *value == 1.0
+}
+
+/// True if a color attachment begins with zeros and ones.
+fn has_two_values(attachment: &Attachment) -> bool {
+    match &attachment.contents {
+        Contents::Color(value) => value.iter().all(is_zero_or_one),
+        Contents::DepthStencil { .. } => true,
+        Contents::Texels(_) => false,
+    }
+}
+
+/// True if a draw stores zeros and ones as colors.
+fn writes_two_values(draw: &Draw) -> bool {
+    let replaces = |target: &ColorTarget| target.blend.is_none() && target.advanced.is_none();
+    draw.shader == Shader::UniformColor
+        && draw.params.color.iter().all(is_zero_or_one)
+        && draw.logic.is_none()
+        && draw.targets.iter().all(replaces)
+}
+
+/// True if a pass clears colors to zeros and ones, and resolves none.
+fn clears_to_two_values(pass: &Pass) -> bool {
+    let loads = (0..pass.color.len())
+        .filter_map(|location| pass.color_operations(location).load.clear_value());
+    let clears = pass.clears.iter().filter_map(|clear| match clear.target {
+        ClearTarget::Color { value, .. } => Some(value),
+        ClearTarget::DepthStencil { .. } => None,
+    });
+    loads
+        .chain(clears)
+        .flatten()
+        .all(|value| is_zero_or_one(&value))
+        && pass.resolve.iter().all(Option::is_none)
 }
 
 #[cfg(test)]
@@ -144,7 +209,12 @@ mod tests {
         for value in PathValue::all() {
             let attachment = json!({ "format": "rgba16float" });
             let path = json!({ value.key(): value.name() });
-            let parsed = parse_scene(&scene(attachment, path));
+            let mut scene = scene(attachment, path);
+            // The values of this shader are its parameters, which is what one of the paths asks for.
+            scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
+            scene["passes"][0]["clears"] =
+                json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);
+            let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");
         }
     }

@@ -90,6 +90,8 @@ path_values! {
         Overwritten = "overwritten",
         /// Before another pipeline is bound, and the draw's own again.
         OtherPipeline = "other-pipeline",
+        /// Only if it differs from that of the draw before, also of another pass.
+        Kept = "kept",
     }
     /// The part of a texture that an attachment is.
     Target(PathTarget) = "target" {
@@ -129,6 +131,8 @@ path_values! {
         Instanced = "instanced",
         /// Arguments from a buffer.
         Indirect = "indirect",
+        /// Arguments from a buffer, and the number of draws from another place, less than the most that is stated.
+        IndirectCount = "indirect-count",
         /// Lists as strips that the greatest index ends.
         Restart = "restart",
     }
@@ -140,6 +144,16 @@ path_values! {
         Copy = "copy",
         /// A blit of equal size to another texture, which is then read.
         Blit = "blit",
+        /// A blit that mirrors in both directions; its texels are read in reverse.
+        BlitMirrored = "blit-mirrored",
+        /// A blit that makes six texels of one; one of the six is read.
+        BlitScaled = "blit-scaled",
+        /// Blits of parts that change places, each of one aspect.
+        BlitPart = "blit-part",
+        /// A blit with linear filter between the texels and others of zeros; twice its result is read.
+        BlitLinear = "blit-linear",
+        /// The framebuffer that was drawn to, whose color attachments are read one after the other.
+        ReadBuffer = "read-buffer",
         /// A shader.
         ShaderRead = "shader-read",
         /// Several transfers, each of a part.
@@ -151,6 +165,15 @@ path_values! {
         Full = "full",
         /// A part: every pass is recorded once for each half of its attachments.
         Part = "part",
+    }
+    /// The calls that clear within passes.
+    Clears(PathClears) = "clears" {
+        /// One for each clear.
+        Each = "each",
+        /// One for clears that follow one another: of several attachments, aspects or rectangles.
+        Together = "together",
+        /// Each behind a call that leaves undefined what it clears.
+        Undefined = "undefined",
     }
     /// The clip volume's convention.
     Clip(PathClip) = "clip" {

@@ -9,6 +9,8 @@ pub(crate) struct Attachment {
     pub(crate) name: String,
     pub(crate) format: TextureFormat,
     pub(crate) surface: Surface,
+    /// The framebuffer of the last pass that draws to it, or its own, and its point there.
+    pub(crate) drawn: (glow::Framebuffer, u32),
     pub(crate) initial: InitialContents,
 }
 

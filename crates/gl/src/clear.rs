@@ -1,89 +1,242 @@
 //! Clears of a pass, and contents that it discards.
 //!
-//! OpenGL has one kind of clear: load operations and commands differ in their moment alone. The scissor
-//! test, masks and rasterizer discard of the last draw would affect it, so each clear sets them; draws set
-//! their own.
+//! Load operations and commands differ in their moment alone. The scissor test, masks and rasterizer discard of the last
+//! draw would affect a clear, so each sets them; draws set their own. A clear is a call for one attachment, or with others
+//! the older call that clears all draw buffers, where the path says so.
 
 use crate::context::Context;
 use crate::state;
-use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass};
+use etalon_frame::PathClears;
+use etalon_scene::{Clear, ClearTarget, Pass};
 use glow::HasContext;
 
-/// A clear, ready to be executed on the pass's framebuffer.
+/// Clears that one call, or several, execute on the pass's framebuffer.
 pub(crate) struct ClearCall {
-    target: ClearTarget,
-    /// True for a colour attachment of integers.
-    integer: bool,
+    targets: Vec<ClearTarget>,
+    /// For each color attachment of the pass, true if it holds integers.
+    integers: Vec<bool>,
     rect: Option<[i32; 4]>,
+    way: PathClears,
+    /// True if depth and stencil are one attachment.
+    packed: bool,
+}
+
+/// Returns clear commands with the draws before which they are executed. `integers` tells for each color attachment if
+/// it holds integers.
+pub(crate) fn commands<'c>(
+    clears: impl Iterator<Item = &'c Clear>,
+    integers: &[bool],
+    way: PathClears,
+    packed: bool,
+) -> Vec<(usize, ClearCall)> {
+    let mut calls: Vec<(usize, ClearCall)> = Vec::new();
+    for clear in clears {
+        let call = ClearCall {
+            targets: vec![clear.target],
+            integers: integers.to_vec(),
+            rect: clear.rect.map(|r| r.map(|v| v as i32)),
+            way,
+            packed,
+        };
+        match calls.last_mut() {
+            Some((before, last)) if *before == clear.before && last.takes(&call) => {
+                last.targets.push(clear.target);
+            }
+            _ => calls.push((clear.before, call)),
+        }
+    }
+    calls
 }
 
 impl ClearCall {
-    /// Returns a clear command. `integers` tells for each colour attachment if it holds integers.
-    pub(crate) fn new(clear: &Clear, integers: &[bool]) -> Self {
-        Self {
-            target: clear.target,
-            integer: match clear.target {
-                ClearTarget::Color { location, .. } => {
-                    integers.get(location).copied().unwrap_or_default()
-                }
-                ClearTarget::DepthStencil { .. } => false,
-            },
-            rect: clear.rect.map(|r| r.map(|v| v as i32)),
-        }
+    /// Returns the clears that a pass's load operations stand for.
+    pub(crate) fn loads(
+        pass: &Pass,
+        integers: &[bool],
+        way: PathClears,
+        packed: bool,
+    ) -> Vec<Self> {
+        let clears = pass.loading_clears();
+        let calls = commands(clears.iter(), integers, way, packed);
+        calls.into_iter().map(|(_, call)| call).collect()
     }
 
-    /// Returns the clears that a pass's load operations stand for.
-    pub(crate) fn loads(pass: &Pass, integers: &[bool]) -> Vec<Self> {
-        let mut targets = Vec::new();
-        for location in 0..pass.color.len() {
-            if let LoadOperation::Clear(value) = pass.color_operations(location).load {
-                targets.push(ClearTarget::Color {
-                    location,
-                    value,
-                    write_mask: 0b1111,
-                });
-            }
-        }
-        let depth = pass.operations.depth.load.clear_value();
-        let stencil = pass.operations.stencil.load.clear_value();
-        if depth.is_some() || stencil.is_some() {
-            targets.push(ClearTarget::DepthStencil {
-                depth,
-                stencil,
-                depth_write: true,
-                stencil_write_mask: 0xff,
-            });
-        }
-        let whole = |target| Clear {
-            before: 0,
-            target,
-            rect: None,
+    /// True if one call clears what both of two calls clear: the same texels of different attachments, and colors of one
+    /// value under one mask.
+    fn takes(&self, other: &Self) -> bool {
+        let color = |target: &ClearTarget| match *target {
+            ClearTarget::Color {
+                location,
+                value,
+                write_mask,
+            } => Some((location, (value, write_mask))),
+            ClearTarget::DepthStencil { .. } => None,
         };
-        let each = targets.into_iter();
-        each.map(|target| Self::new(&whole(target), integers))
-            .collect()
+        let all = || self.targets.iter().chain(&other.targets);
+        let colors = || all().filter_map(color);
+        let mut locations: Vec<usize> = colors().map(|(location, _)| location).collect();
+        locations.sort_unstable();
+        locations.dedup();
+        self.way == PathClears::Together
+            && self.rect == other.rect
+            && locations.len() == colors().count()
+            && all().count() - colors().count() <= 1
+            && colors().all(|(_, how)| colors().all(|(_, first)| first == how))
+            && colors().all(|(location, _)| self.integers.get(location) == Some(&false))
+    }
+
+    /// True if the call for all draw buffers can clear the targets: integers have no value there.
+    fn is_plain(&self) -> bool {
+        self.targets.iter().all(|target| match *target {
+            ClearTarget::Color { location, .. } => self.integers.get(location) == Some(&false),
+            ClearTarget::DepthStencil { .. } => true,
+        })
     }
 
     /// Clears the bound framebuffer.
     pub(crate) fn apply(&self, context: &Context) {
         let gl = &context.gl;
         state::set(gl, glow::RASTERIZER_DISCARD, false);
-        state::set(gl, glow::SCISSOR_TEST, self.rect.is_some());
-        // SAFETY: the context is current; the entry points are of version 3.
+        let together = self.way == PathClears::Together && self.is_plain();
+        // A rectangle beyond the framebuffer on all sides leaves nothing out.
+        let rect = self.rect.or(together.then_some([-9, -7, 0x4000, 0x4000]));
+        state::set(gl, glow::SCISSOR_TEST, rect.is_some());
+        // SAFETY: the context is current; the entry points are of version 3, or known.
         unsafe {
-            if let Some([x, y, w, h]) = self.rect {
-                gl.scissor(x, y, w, h);
+            match (rect, context.entry_points.scissor_array) {
+                // Of several, clears obey the first (OpenGL 4.5, 14.9.2).
+                (Some(rect), Some(scissors)) if together => {
+                    let rects = [rect, [1, 0, 2, 1]];
+                    scissors(0, 2, rects.as_ptr().cast());
+                }
+                (Some([x, y, w, h]), _) => gl.scissor(x, y, w, h),
+                (None, _) => {}
             }
-            match self.target {
+            if self.way == PathClears::Undefined {
+                self.invalidate(context);
+            }
+            if together {
+                self.clear_together(gl, context.caps.es);
+            } else {
+                for target in &self.targets {
+                    self.clear(gl, target);
+                }
+            }
+        }
+    }
+
+    /// Clears by the call for all draw buffers, of which others than the targets are taken away.
+    ///
+    /// # Safety
+    /// The context is current, and the scissor is set.
+    unsafe fn clear_together(&self, gl: &glow::Context, es: bool) {
+        let mut buffers = vec![glow::NONE; self.integers.len().max(1)];
+        let mut mask = 0;
+        // SAFETY: the caller's.
+        unsafe {
+            for target in &self.targets {
+                match *target {
+                    ClearTarget::Color {
+                        location,
+                        value: [r, g, b, a],
+                        write_mask,
+                    } => {
+                        mask |= glow::COLOR_BUFFER_BIT;
+                        buffers[location] = glow::COLOR_ATTACHMENT0 + location as u32;
+                        gl.clear_color(r, g, b, a);
+                        color_mask(gl, write_mask);
+                    }
+                    ClearTarget::DepthStencil {
+                        depth,
+                        stencil,
+                        depth_write,
+                        stencil_write_mask,
+                    } => {
+                        if let Some(depth) = depth {
+                            mask |= glow::DEPTH_BUFFER_BIT;
+                            if es {
+                                gl.clear_depth_f32(depth);
+                            } else {
+                                gl.clear_depth_f64(f64::from(depth));
+                            }
+                        }
+                        if let Some(stencil) = stencil {
+                            mask |= glow::STENCIL_BUFFER_BIT;
+                            gl.clear_stencil(i32::from(stencil));
+                        }
+                        gl.depth_mask(depth_write);
+                        gl.stencil_mask(u32::from(stencil_write_mask));
+                    }
+                }
+            }
+            let all: Vec<u32> = (glow::COLOR_ATTACHMENT0..)
+                .take(self.integers.len())
+                .collect();
+            let some = mask & glow::COLOR_BUFFER_BIT != 0 && buffers != all;
+            if some {
+                gl.draw_buffers(&buffers);
+            }
+            gl.clear(mask);
+            if some {
+                gl.draw_buffers(&all);
+            }
+        }
+    }
+
+    /// Leaves undefined what is cleared, if no mask keeps a part of it.
+    ///
+    /// # Safety
+    /// The context is current and has the functions.
+    unsafe fn invalidate(&self, context: &Context) {
+        if self.targets.iter().any(ClearTarget::is_masked) {
+            return;
+        }
+        let mut points = Vec::new();
+        for target in &self.targets {
+            match *target {
+                ClearTarget::Color { location, .. } => {
+                    points.push(glow::COLOR_ATTACHMENT0 + location as u32);
+                }
+                ClearTarget::DepthStencil { depth, stencil, .. } => {
+                    points.extend(depth_stencil_points(
+                        depth.is_some(),
+                        stencil.is_some(),
+                        self.packed,
+                    ));
+                }
+            }
+        }
+        // SAFETY: the caller's.
+        unsafe {
+            match self.rect {
+                None => context
+                    .gl
+                    .invalidate_framebuffer(glow::FRAMEBUFFER, &points),
+                Some([x, y, w, h]) => {
+                    context
+                        .gl
+                        .invalidate_sub_framebuffer(glow::FRAMEBUFFER, &points, x, y, w, h)
+                }
+            }
+        }
+    }
+
+    /// Clears one attachment.
+    ///
+    /// # Safety
+    /// The context is current, and the scissor is set.
+    unsafe fn clear(&self, gl: &glow::Context, target: &ClearTarget) {
+        // SAFETY: the caller's.
+        unsafe {
+            match *target {
                 ClearTarget::Color {
                     location,
                     value,
                     write_mask,
                 } => {
-                    let [r, g, b, a] = [1, 2, 4, 8].map(|bit| write_mask & bit != 0);
-                    gl.color_mask(r, g, b, a);
+                    color_mask(gl, write_mask);
                     let buffer = location as u32;
-                    if self.integer {
+                    if self.integers.get(location) == Some(&true) {
                         let value = value.map(|v| v as u32);
                         gl.clear_buffer_u32_slice(glow::COLOR, buffer, &value);
                     } else {
@@ -116,6 +269,26 @@ impl ClearCall {
     }
 }
 
+/// Sets the mask of colors.
+///
+/// # Safety
+/// The context is current.
+unsafe fn color_mask(gl: &glow::Context, write_mask: u8) {
+    let [r, g, b, a] = [1, 2, 4, 8].map(|bit| write_mask & bit != 0);
+    // SAFETY: the caller's.
+    unsafe { gl.color_mask(r, g, b, a) };
+}
+
+/// Returns the attachment points of depth, stencil or both.
+fn depth_stencil_points(depth: bool, stencil: bool, packed: bool) -> Vec<u32> {
+    if depth && stencil && packed {
+        return vec![glow::DEPTH_STENCIL_ATTACHMENT];
+    }
+    let depth = depth.then_some(glow::DEPTH_ATTACHMENT);
+    let stencil = stencil.then_some(glow::STENCIL_ATTACHMENT);
+    depth.into_iter().chain(stencil).collect()
+}
+
 /// Returns the attachment points that a pass discards. `packed` is true if depth and stencil are one
 /// attachment.
 pub(crate) fn discards(pass: &Pass, packed: bool) -> Vec<u32> {
@@ -128,13 +301,8 @@ pub(crate) fn discards(pass: &Pass, packed: bool) -> Vec<u32> {
         .map(|(_, point)| point)
         .collect();
     if let Some(index) = pass.depth_stencil {
-        match (has(index, Aspect::Depth), has(index, Aspect::Stencil)) {
-            (true, true) if packed => points.push(glow::DEPTH_STENCIL_ATTACHMENT),
-            (depth, stencil) => {
-                points.extend(depth.then_some(glow::DEPTH_ATTACHMENT));
-                points.extend(stencil.then_some(glow::STENCIL_ATTACHMENT));
-            }
-        }
+        let (depth, stencil) = (has(index, Aspect::Depth), has(index, Aspect::Stencil));
+        points.extend(depth_stencil_points(depth, stencil, packed));
     }
     points
 }

@@ -8,8 +8,10 @@ use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
 use crate::query::Query;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
-use crate::vertices::{self, Fetched};
+use crate::vertices::{self, Arguments, Fetched};
 use glow::HasContext;
+
+const PARAMETER_BUFFER: u32 = 0x80EE;
 
 /// Buffers that all draws share, with their sizes in bytes.
 #[derive(Default)]
@@ -47,6 +49,8 @@ pub(crate) struct Pass {
     pub(crate) loads: Vec<ClearCall>,
     /// Clear commands with the draws before which they are executed, in order.
     pub(crate) clears: Vec<(usize, ClearCall)>,
+    /// True if state that does not change is not set again.
+    pub(crate) keeps_state: bool,
     /// The attachment points that are discarded at the end.
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
@@ -71,8 +75,8 @@ pub(crate) struct DrawCall {
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
     pub(crate) fetched: Fetched,
-    /// The offset of the arguments of an indirect draw.
-    pub(crate) arguments: Option<i32>,
+    /// The arguments of an indirect draw.
+    pub(crate) arguments: Option<Arguments>,
     /// True if the commands are flushed behind the draw.
     pub(crate) flushed: bool,
 }
@@ -101,9 +105,12 @@ pub(crate) fn draw_all(
         }
     }
     let mut closed = false;
+    // The draw whose state is set.
+    let mut set: Option<&DrawState> = None;
     for pass in passes {
         if std::mem::take(&mut closed) {
             state::reset(context);
+            set = None;
         }
         if inputs.indices.is_some() {
             state::set_restart(context);
@@ -112,16 +119,21 @@ pub(crate) fn draw_all(
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
         for clear in &pass.loads {
             clear.apply(context);
+            set = None;
         }
         let mut clears = pass.clears.iter().peekable();
         for (index, draw) in pass.draws.iter().enumerate() {
             while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
                 clear.apply(context);
+                set = None;
             }
-            draw_one(context, inputs, draw);
+            let is_set = pass.keeps_state && set == Some(&draw.state);
+            draw_one(context, inputs, draw, is_set);
+            set = Some(&draw.state);
         }
         for (_, clear) in clears {
             clear.apply(context);
+            set = None;
         }
         for (from, to) in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
@@ -139,12 +151,15 @@ pub(crate) fn draw_all(
     }
 }
 
-fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
+/// Draws, with the draw's state if it `is_set` not yet.
+fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
     let gl = &context.gl;
     if let Some(other) = &draw.other {
         other.apply(context);
     }
-    draw.state.apply(context);
+    if !is_set {
+        draw.state.apply(context);
+    }
     // SAFETY: the context is current and all objects are its own; vertices, indices and blocks
     // were counted when the buffers were filled.
     unsafe {
@@ -180,9 +195,17 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
             gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
         }
         let place = arguments.map(|(place, _)| place);
+        // Mesa takes numbers of draws from a bound buffer for all indirect draws.
+        let counted = place.is_some_and(Arguments::is_counted);
+        if let (true, Some((_, (buffer, _)))) = (counted, arguments) {
+            gl.bind_buffer(PARAMETER_BUFFER, Some(buffer));
+        }
         draw.state.begin_advanced(context);
         draw.fetched.draw(context, draw.mode, place);
         draw.state.end_advanced(context);
+        if counted {
+            gl.bind_buffer(PARAMETER_BUFFER, None);
+        }
         for query in &draw.queries {
             gl.end_query(query.target);
         }

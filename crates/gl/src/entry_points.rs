@@ -46,6 +46,8 @@ entry_points! {
     draw_elements_instanced_base_vertex: fn(u32, i32, u32, Offset, i32, i32);
     draw_arrays_instanced_base_instance: fn(u32, i32, i32, i32, u32);
     draw_elements_instanced_base_vertex_base_instance: fn(u32, i32, u32, Offset, i32, i32, u32);
+    draw_arrays_indirect_count: fn(u32, Offset, isize, i32, i32);
+    draw_elements_indirect_count: fn(u32, u32, Offset, isize, i32, i32);
 }
 
 impl EntryPoints {
@@ -165,6 +167,25 @@ impl EntryPoints {
             load!(
                 draw_elements_instanced_base_vertex_base_instance,
                 c"glDrawElementsInstancedBaseVertexBaseInstanceEXT"
+            );
+        }
+        if !es && version >= (4, 6) {
+            load!(
+                draw_arrays_indirect_count,
+                c"glMultiDrawArraysIndirectCount"
+            );
+            load!(
+                draw_elements_indirect_count,
+                c"glMultiDrawElementsIndirectCount"
+            );
+        } else if !es && has("GL_ARB_indirect_parameters") {
+            load!(
+                draw_arrays_indirect_count,
+                c"glMultiDrawArraysIndirectCountARB"
+            );
+            load!(
+                draw_elements_indirect_count,
+                c"glMultiDrawElementsIndirectCountARB"
             );
         }
         if !es && (version >= (4, 6) || has("GL_ARB_polygon_offset_clamp")) {

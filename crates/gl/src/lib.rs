@@ -12,6 +12,7 @@
 
 mod attachment;
 mod backend;
+mod blits;
 mod caps;
 mod clear;
 mod codes;

@@ -6,8 +6,8 @@
 use crate::context::Context;
 use crate::support::{ReadPlan, Support};
 use etalon_frame::{
-    ChannelEncoding, Feature, PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass,
-    PathState, PathTarget, PathValue, PathViewport,
+    ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
+    PathPass, PathState, PathTarget, PathValue, PathViewport,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
@@ -27,11 +27,16 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         }
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => caps.indirect,
+        PathValue::Draws(PathDraws::IndirectCount) => {
+            context.entry_points.draw_arrays_indirect_count.is_some()
+        }
         PathValue::Draws(_) => true,
         PathValue::End(PathEnd::Copy) => caps.copy_image,
         PathValue::End(_) => true,
         PathValue::Clip(PathClip::Toggled) => caps.clip_control,
-        PathValue::State(PathState::Overwritten) => true,
+        PathValue::State(PathState::Overwritten | PathState::Kept) => true,
+        PathValue::Clears(PathClears::Together) => true,
+        PathValue::Clears(PathClears::Undefined) => caps.invalidate,
         PathValue::Viewport(PathViewport::Array) => arrays && caps.second_viewport,
         PathValue::Viewport(_) => arrays,
         // OpenGL has neither passes with objects, nor pipelines, nor command buffers, nor render areas.
@@ -47,6 +52,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         )
         | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
         | PathValue::Area(PathArea::Full | PathArea::Part)
+        | PathValue::Clears(PathClears::Each)
         | PathValue::Clip(PathClip::Constant) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
@@ -99,11 +105,16 @@ pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
     let format = attachment.format;
     let exact = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Uint(_));
     let twofold = |e: &ChannelEncoding| matches!(e, ChannelEncoding::Snorm(_));
+    let halved = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Unorm(_));
     let channels = format.color_channels();
     let can = attachment.samples == 1
         && match scene.path.end {
             PathEnd::Store | PathEnd::Copy | PathEnd::Part => true,
-            PathEnd::Blit => channels.iter().all(exact),
+            PathEnd::Blit | PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart => {
+                channels.iter().all(exact)
+            }
+            PathEnd::BlitLinear => format.is_color() && channels.iter().all(halved),
+            PathEnd::ReadBuffer => format.is_color(),
             // Stencil alone is a renderbuffer where no shader has to read it.
             PathEnd::ShaderRead if format.has_stencil() && !format.has_depth() => {
                 by_shader(support.read)

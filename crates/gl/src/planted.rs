@@ -24,6 +24,10 @@ struct Planted {
     blits: u32,
     /// The framebuffer that is drawn to.
     framebuffer: u32,
+    /// The buffer that is read.
+    read: u32,
+    /// True before the first clear behind what leaves contents undefined.
+    undefined: bool,
 }
 
 /// Prepares the thread for a context that is opened with a fault, or without.
@@ -167,7 +171,66 @@ functions! {
             level = 0;
         }
     }
+    before glReadBuffer(buffer: u32) |planted| {
+        planted.read = buffer;
+    }
+    before glReadPixels(x: i32, y: i32, w: i32, h: i32, format: u32, kind: u32, pixels: Pointer) |planted| {
+        if planted.calls.has(CallFault::ReadBufferFirst) && planted.read > glow::COLOR_ATTACHMENT0 {
+            driver!(planted.driver, glReadBuffer(glow::COLOR_ATTACHMENT0));
+        }
+    }
+    before glScissorArrayv(first: u32, count: i32, rectangles: *const i32) |planted| {
+        let both: [[i32; 4]; 2];
+        if planted.calls.has(CallFault::ScissorFirst) && count == 2 {
+            // SAFETY: a rectangle has four components.
+            both = [unsafe { *rectangles.cast::<[i32; 4]>() }; 2];
+            rectangles = both.as_ptr().cast();
+        }
+    }
+    before glColorMask(r: u8, g: u8, b: u8, a: u8) |planted| {}
+    before glDrawBuffers(count: i32, buffers: *const u32) |planted| {
+        // SAFETY: there are so many.
+        let mut all = unsafe { std::slice::from_raw_parts(buffers, count as usize) }.to_vec();
+        if planted.calls.has(CallFault::ClearAllBuffers) && count > 1 {
+            for (buffer, point) in all.iter_mut().zip(glow::COLOR_ATTACHMENT0..) {
+                *buffer = point;
+            }
+            buffers = all.as_ptr();
+        }
+    }
+    before glInvalidateFramebuffer(target: u32, count: i32, points: *const u32) |planted| {
+        planted.undefined = true;
+    }
+    instead glInvalidateSubFramebuffer(
+        target: u32, count: i32, points: *const u32, x: i32, y: i32, w: i32, h: i32
+    ) |planted| {
+        planted.undefined = true;
+        driver!(planted.driver, glInvalidateSubFramebuffer(target, count, points, x, y, w, h));
+        // SAFETY: there is one at least.
+        let point = unsafe { *points };
+        if planted.calls.has(CallFault::InvalidateAll) && point == glow::COLOR_ATTACHMENT0 {
+            driver!(planted.driver, glDisable(glow::SCISSOR_TEST));
+            driver!(planted.driver, glClearBufferfv(glow::COLOR, 0, [0.5_f32; 4].as_ptr()));
+            driver!(planted.driver, glEnable(glow::SCISSOR_TEST));
+        }
+    }
+    instead glClear(mask: u32) |planted| {
+        let several = mask.count_ones() > 1 && planted.calls.has(CallFault::ClearFirstOfCall);
+        let color = glow::COLOR_BUFFER_BIT;
+        let mask = if several && mask & color != 0 {
+            color
+        } else if several {
+            glow::DEPTH_BUFFER_BIT
+        } else {
+            mask
+        };
+        planted.clear(None, |driver| driver!(driver, glClear(mask)));
+    }
     before glBindFramebuffer(target: u32, framebuffer: u32) |planted| {
+        if planted.calls.has(CallFault::StateForgotten) && target == glow::FRAMEBUFFER {
+            driver!(planted.driver, glColorMask(1, 1, 1, 1));
+            driver!(planted.driver, glDisable(glow::CULL_FACE));
+        }
         if target != glow::READ_FRAMEBUFFER {
             planted.framebuffer = framebuffer;
         }
@@ -215,6 +278,29 @@ functions! {
         if planted.calls.has(CallFault::BlitColumn) {
             (x1, to_x1) = (x1 - 1, to_x1 - 1);
         }
+        if planted.calls.has(CallFault::BlitReadsFirst) && planted.read > glow::COLOR_ATTACHMENT0 {
+            driver!(planted.driver, glReadBuffer(glow::COLOR_ATTACHMENT0));
+        }
+        if planted.calls.has(CallFault::BlitMirror) {
+            [x0, x1] = [x0.min(x1), x0.max(x1)];
+            [y0, y1] = [y0.min(y1), y0.max(y1)];
+            [to_x0, to_x1] = [to_x0.min(to_x1), to_x0.max(to_x1)];
+            [to_y0, to_y1] = [to_y0.min(to_y1), to_y0.max(to_y1)];
+        }
+        if planted.calls.has(CallFault::BlitScale) {
+            (to_x1, to_y1) = (to_x0 + x1 - x0, to_y0 + y1 - y0);
+        }
+        if planted.calls.has(CallFault::BlitFilter) {
+            filter = glow::NEAREST;
+        }
+        if planted.calls.has(CallFault::BlitPlace) {
+            (to_x1, to_y1) = (to_x1 - to_x0, to_y1 - to_y0);
+            (to_x0, to_y0) = (0, 0);
+        }
+        let alone = [glow::DEPTH_BUFFER_BIT, glow::STENCIL_BUFFER_BIT].contains(&mask);
+        if planted.calls.has(CallFault::BlitAspectAlone) && alone {
+            return;
+        }
     }
     instead glBeginQuery(target: u32, query: u32) |planted| {
         driver!(planted.driver, glBeginQuery(target, query));
@@ -239,6 +325,20 @@ functions! {
     before glFinish() |planted| {
         planted.calls.end_submission();
         planted.blits = 0;
+    }
+    before glMultiDrawArraysIndirectCount | glMultiDrawArraysIndirectCountARB(
+        mode: u32, place: Pointer, count: isize, most: i32, stride: i32
+    ) |planted| {
+        if planted.calls.has(CallFault::IndirectFewer) {
+            return;
+        }
+    }
+    before glMultiDrawElementsIndirectCount | glMultiDrawElementsIndirectCountARB(
+        mode: u32, kind: u32, place: Pointer, count: isize, most: i32, stride: i32
+    ) |planted| {
+        if planted.calls.has(CallFault::IndirectFewer) {
+            return;
+        }
     }
     instead glDrawArrays(mode: u32, first: i32, count: i32) |planted| {
         planted.draw(arrays(mode, count), |driver, numbers| driver!(driver, glDrawArrays(mode, first, numbers.count)));
@@ -365,6 +465,10 @@ impl Planted {
     /// clear has no rectangle.
     fn clear(&mut self, color: Option<[u32; 4]>, clear: impl FnOnce(&Driver)) {
         if self.calls.has(CallFault::ClearSkipped) && self.calls.passes > 0 {
+            return;
+        }
+        let undefined = std::mem::take(&mut self.undefined);
+        if undefined && self.calls.has(CallFault::ClearUndefinedSkipped) {
             return;
         }
         let image = u64::from(self.framebuffer);

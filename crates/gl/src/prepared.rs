@@ -15,7 +15,7 @@ use crate::read::{Reading, Source};
 use crate::recording;
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::vertices::{Fetched, Geometry};
+use crate::vertices::{Arguments, Fetched, Geometry};
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, Requirement,
@@ -45,7 +45,7 @@ pub(crate) struct PreparedScene<'a> {
 /// The parts of the shared buffers that draws have not taken yet.
 struct Unused {
     /// The places of draws, in order.
-    places: std::vec::IntoIter<(Fetched, Option<i32>)>,
+    places: std::vec::IntoIter<(Fetched, Option<Arguments>)>,
     /// The number of the next draw.
     number: usize,
     /// The offset of the next parameter block.
@@ -150,6 +150,7 @@ impl<'a> PreparedScene<'a> {
         self.attachments.push(Attachment {
             name: attachment.name.clone(),
             format,
+            drawn: (surface.framebuffer, surface.attachment),
             surface,
             initial,
         });
@@ -169,15 +170,16 @@ impl<'a> PreparedScene<'a> {
         &mut self,
         pool: &mut Pool,
         scene: &Scene,
-    ) -> Result<Vec<(Fetched, Option<i32>)>, BackendError> {
+    ) -> Result<Vec<(Fetched, Option<Arguments>)>, BackendError> {
         let context = self.context;
         let mut geometry = Geometry::default();
         let mut places = Vec::new();
         let mut params = Vec::new();
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
             let fetched = geometry.place(draw);
-            let indirect = scene.path.draws == PathDraws::Indirect;
-            let arguments = indirect.then(|| geometry.place_arguments(&fetched));
+            let counted = scene.path.draws == PathDraws::IndirectCount;
+            let indirect = counted || scene.path.draws == PathDraws::Indirect;
+            let arguments = indirect.then(|| geometry.place_arguments(&fetched, counted));
             places.push((fetched, arguments));
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
@@ -248,13 +250,18 @@ impl<'a> PreparedScene<'a> {
             // On error the target is not returned to the pool; it is deleted with the context.
             draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, unused)?);
         }
+        for (index, point) in pass.color.iter().zip(glow::COLOR_ATTACHMENT0..) {
+            self.attachments[*index].drawn = (target.framebuffer, point);
+        }
+        if let Some(index) = pass.depth_stencil {
+            self.attachments[index].drawn.0 = target.framebuffer;
+        }
         self.passes.push(Pass {
             target,
             draws,
-            loads: ClearCall::loads(pass, &integers),
-            clears: clears
-                .map(|c| (c.before, ClearCall::new(c, &integers)))
-                .collect(),
+            loads: ClearCall::loads(pass, &integers, self.path.clears, packed),
+            clears: clear::commands(clears, &integers, self.path.clears, packed),
+            keeps_state: self.path.state == PathState::Kept,
             discards: clear::discards(pass, packed),
             resolves,
         });
@@ -407,7 +414,10 @@ impl<'a> PreparedScene<'a> {
                 plan: support.read,
                 depth: &support.limits.depth,
                 surface: &attachment.surface,
+                size: attachment.surface.size(),
+                drawn: attachment.drawn,
                 end: *end,
+                blits: None,
             })?);
         }
         Ok(frame)

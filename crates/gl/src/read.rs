@@ -10,7 +10,7 @@ use crate::state;
 use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
-use etalon_backend::{BackendError, Fault, Form, halves};
+use etalon_backend::{BackendError, Blits, Fault, Form, Piece, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -33,14 +33,52 @@ pub(crate) struct Source<'a> {
     pub(crate) plan: ReadPlan,
     pub(crate) depth: &'a [ChannelEncoding],
     pub(crate) surface: &'a Surface,
+    /// The size of the attachment.
+    pub(crate) size: [u32; 2],
+    /// The framebuffer that the attachment is drawn in, and its point there.
+    pub(crate) drawn: (glow::Framebuffer, u32),
     /// The way to the host.
     pub(crate) end: PathEnd,
+    /// The blits that the surface is read behind.
+    pub(crate) blits: Option<Blits>,
 }
 
 impl Source<'_> {
     /// True if a shader fetches the texels. Several samples are never copied, which would resolve them.
     fn is_fetched(&self) -> bool {
         self.surface.samples() > 1 || self.end == PathEnd::ShaderRead
+    }
+
+    /// Returns the number of texels of the attachment.
+    fn texels(&self) -> usize {
+        self.size[0] as usize * self.size[1] as usize
+    }
+
+    /// Returns the parts in which an aspect is read.
+    fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
+        match self.blits {
+            Some(blits) => blits.pieces(aspect),
+            None if self.end == PathEnd::Part && !self.is_fetched() => {
+                let mut pieces = Vec::new();
+                for (y, rows) in halves(self.size[1]) {
+                    for (x, columns) in halves(self.size[0]) {
+                        let (place, size) = ([x, y], [columns, rows]);
+                        pieces.push(piece(place, size));
+                    }
+                }
+                pieces
+            }
+            None => vec![piece([0, 0], self.size)],
+        }
+    }
+}
+
+/// Returns the part at a place that stays there.
+fn piece(place: [u32; 2], size: [u32; 2]) -> Piece {
+    Piece {
+        from: place,
+        to: place,
+        size,
     }
 }
 
@@ -54,8 +92,15 @@ impl Reading<'_> {
 
     /// Returns the images, in a copy where the path has one.
     fn images_at(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
-        if !matches!(source.end, PathEnd::Copy | PathEnd::Blit) {
-            return self.images_of(source);
+        match source.end {
+            PathEnd::Copy | PathEnd::Blit => {}
+            PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart => {
+                return self.moved(source);
+            }
+            PathEnd::BlitLinear => return self.filtered(source),
+            PathEnd::Store | PathEnd::ShaderRead | PathEnd::Part | PathEnd::ReadBuffer => {
+                return self.images_of(source);
+            }
         }
         let context = self.context;
         let kind = SurfaceKind::Attachment(source.format, 1, PathTarget::Plain);
@@ -76,11 +121,11 @@ impl Reading<'_> {
         images
     }
 
-    fn images_of(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    pub(crate) fn images_of(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         let image = |aspect, channels, read, codes| Image {
             attachment: source.name.to_owned(),
             aspect,
-            size: source.surface.size(),
+            size: source.size,
             samples: source.surface.samples(),
             channels,
             read,
@@ -98,13 +143,13 @@ impl Reading<'_> {
                 ReadPlan::Shader { .. } => (vec![ChannelEncoding::Float32], ReadPath::Shader),
                 _ => (source.depth.to_vec(), ReadPath::Copy),
             };
-            self.plant(source.surface, &channels, &mut codes);
+            self.plant(source, &channels, &mut codes);
             images.push(image(Aspect::Depth, channels, path, codes));
         }
         if let Some(mut codes) = stencil {
             // Both ways of reading integers are exact.
             let channels = vec![ChannelEncoding::Uint(8)];
-            self.plant(source.surface, &channels, &mut codes);
+            self.plant(source, &channels, &mut codes);
             images.push(image(Aspect::Stencil, channels, ReadPath::Copy, codes));
         }
         Ok(images)
@@ -113,52 +158,52 @@ impl Reading<'_> {
     /// Returns the codes of a colour surface.
     fn color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
         let mut codes = self.stored_color(source)?;
-        self.plant(source.surface, source.format.color_channels(), &mut codes);
+        self.plant(source, source.format.color_channels(), &mut codes);
         Ok(codes)
     }
 
     /// Applies the fault that a test plants.
-    fn plant(&self, surface: &Surface, channels: &[ChannelEncoding], codes: &mut [u32]) {
+    fn plant(&self, source: &Source<'_>, channels: &[ChannelEncoding], codes: &mut [u32]) {
         if let Some(Fault::Read(fault)) = self.context.fault {
-            fault.apply(codes, surface.size(), surface.samples(), channels);
+            fault.apply(codes, source.size, source.surface.samples(), channels);
         }
     }
 
     /// Returns the codes of a colour surface. Several samples are always fetched.
     fn stored_color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
-        let (surface, format) = (source.surface, source.format);
+        let format = source.format;
         let channels = format.color_channels();
         if !source.is_fetched() && source.plan != ReadPlan::Fetched {
             return Ok(copy(self.context, source, source.plan).0);
         }
         if format.is_integer() {
-            let wide = self.fetch(surface, Reader::Integers, Aspect::Color)?;
+            let wide = self.fetch(source, Reader::Integers, Aspect::Color)?;
             let texels = wide.chunks_exact(4);
             return Ok(texels
                 .flat_map(|texel| texel.iter().take(channels.len()).copied())
                 .collect());
         }
-        let wide = self.fetch(surface, Reader::Floats, Aspect::Color)?;
+        let wide = self.fetch(source, Reader::Floats, Aspect::Color)?;
         Ok(narrowed(&wide, channels))
     }
 
     /// Returns the codes of depths that a shader fetches.
     fn fetched_depth(
         &mut self,
-        surface: &Surface,
+        source: &Source<'_>,
         encoding: ChannelEncoding,
     ) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(surface, Reader::Floats, Aspect::Depth)?;
+        let wide = self.fetch(source, Reader::Floats, Aspect::Depth)?;
         Ok(narrowed(&wide, &[encoding]))
     }
 
-    fn fetched_stencil(&mut self, surface: &Surface) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(surface, Reader::Integers, Aspect::Stencil)?;
+    fn fetched_stencil(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+        let wide = self.fetch(source, Reader::Integers, Aspect::Stencil)?;
         Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
     }
 
     fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
-        let (surface, format) = (source.surface, source.format);
+        let format = source.format;
         let fetched = source.is_fetched();
         let (depth, stencil) = match source.plan {
             ReadPlan::Shader { depth, stencil } => (depth, stencil),
@@ -178,7 +223,7 @@ impl Reading<'_> {
             _ => ChannelEncoding::Float32,
         };
         let depth = if depth {
-            Some(self.fetched_depth(surface, encoding)?)
+            Some(self.fetched_depth(source, encoding)?)
         } else {
             None
         };
@@ -188,7 +233,7 @@ impl Reading<'_> {
             ShaderStencil::Copy if !fetched => {
                 Some(copy(self.context, source, ReadPlan::Stencil).0)
             }
-            ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(surface)?),
+            ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(source)?),
         };
         Ok((depth, stencil))
     }
@@ -197,12 +242,14 @@ impl Reading<'_> {
     /// of a texel in sequence.
     fn fetch(
         &mut self,
-        surface: &Surface,
+        source: &Source<'_>,
         reader: Reader,
         aspect: Aspect,
     ) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
         let gl = &context.gl;
+        let surface = source.surface;
+        let pieces = source.pieces(aspect);
         let Storage::Texture(part) = surface.storage else {
             return Err(BackendError::internal(
                 "a renderbuffer cannot be fetched from",
@@ -236,7 +283,7 @@ impl Reading<'_> {
                 }
             }
         };
-        let texels = size[0] as usize * size[1] as usize;
+        let texels = source.texels();
         let mut codes = vec![0_u32; texels * samples as usize * 4];
         let mut wide = vec![0_u32; texels * 4];
         for sample in 0..samples as usize {
@@ -256,14 +303,8 @@ impl Reading<'_> {
                 set_mode(glow::DEPTH_COMPONENT);
             }
             // Every version reads unsigned integers as four channels.
-            read_pixels(
-                gl,
-                size,
-                glow::RGBA_INTEGER,
-                glow::UNSIGNED_INT,
-                &mut wide,
-                false,
-            );
+            let (format, kind) = (glow::RGBA_INTEGER, glow::UNSIGNED_INT);
+            read_pixels(gl, source.size[0], format, kind, &mut wide, &pieces);
             let form = match reader {
                 Reader::Integers => Form::Code,
                 Reader::Floats => Form::Float,
@@ -293,37 +334,49 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 /// beside depth.
 fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
     let (surface, format) = (source.surface, source.format);
-    let parted = source.end == PathEnd::Part;
+    let first = match (format.is_color(), plan) {
+        (true, _) => Aspect::Color,
+        (false, ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. }) => Aspect::Stencil,
+        (false, _) => Aspect::Depth,
+    };
+    let pieces = source.pieces(first);
     let gl = &context.gl;
-    let size = surface.size();
-    let texels = size[0] as usize * size[1] as usize;
-    // SAFETY: the context is current and the framebuffer is its own.
-    unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer)) };
-    let words = |format, kind, per_texel: usize| {
+    let (width, texels) = (source.size[0], source.texels());
+    // SAFETY: the context is current, the framebuffers are its own, and the one that was drawn to has the point.
+    unsafe {
+        if source.end == PathEnd::ReadBuffer {
+            let (framebuffer, point) = source.drawn;
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
+            gl.read_buffer(point);
+        } else {
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        }
+    };
+    let words_of = |pieces: &[Piece], format, kind, per_texel: usize| {
         let mut words = vec![0_u32; texels * per_texel];
-        read_pixels(gl, size, format, kind, &mut words, parted);
+        read_pixels(gl, width, format, kind, &mut words, pieces);
         words
+    };
+    let words = |format, kind, per_texel| words_of(&pieces, format, kind, per_texel);
+    // Aspects that blits move in two ways are read one after the other.
+    let stencil_words = |format, kind, per_texel| {
+        let others = source.pieces(Aspect::Stencil);
+        (others != pieces).then(|| words_of(&others, format, kind, per_texel))
     };
     let depth = glow::DEPTH_COMPONENT;
     let codes = match plan {
         ReadPlan::Packed => {
             let mut bytes = vec![0_u8; texels * codes::texel_bytes(format)];
             if let Some(client) = gl_format(format) {
-                read_pixels(gl, size, client.format, client.kind, &mut bytes, parted);
+                read_pixels(gl, width, client.format, client.kind, &mut bytes, &pieces);
             }
             (codes::unpack(format, &bytes), None)
         }
         ReadPlan::Bytes => {
             let mut bytes = vec![0_u8; texels * 4];
-            read_pixels(
-                gl,
-                size,
-                glow::RGBA,
-                glow::UNSIGNED_BYTE,
-                &mut bytes,
-                parted,
-            );
-            let channels = format.color_channels();
+            let (format, kind) = (glow::RGBA, glow::UNSIGNED_BYTE);
+            read_pixels(gl, width, format, kind, &mut bytes, &pieces);
+            let channels = source.format.color_channels();
             let mut codes = Vec::with_capacity(texels * channels.len());
             for texel in bytes.chunks_exact(4) {
                 let values = channels.iter().zip(texel);
@@ -339,7 +392,8 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
         ReadPlan::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
         ReadPlan::Depth16 => {
             let mut codes = vec![0_u16; texels];
-            read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes, parted);
+            let kind = glow::UNSIGNED_SHORT;
+            read_pixels(gl, width, depth, kind, &mut codes, &pieces);
             (codes.into_iter().map(u32::from).collect(), None)
         }
         ReadPlan::Depth24 => {
@@ -349,27 +403,30 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
         }
         ReadPlan::DepthFloat => (words(depth, glow::FLOAT, 1), None),
         ReadPlan::Depth24Stencil8 => {
-            let both = words(glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8, 1);
-            let stencil = both.iter().map(|word| word & 0xff).collect();
+            let kind = glow::UNSIGNED_INT_24_8;
+            let both = words(glow::DEPTH_STENCIL, kind, 1);
+            note_depth(plan);
+            let others = stencil_words(glow::DEPTH_STENCIL, kind, 1);
+            let stencil = others.as_ref().unwrap_or(&both);
+            let stencil = stencil.iter().map(|word| word & 0xff).collect();
             (both.iter().map(|word| word >> 8).collect(), Some(stencil))
         }
         ReadPlan::DepthFloatStencil8 => {
             let kind = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
             let both = words(glow::DEPTH_STENCIL, kind, 2);
-            let every = |offset: usize| both.iter().skip(offset).step_by(2);
-            let stencil = every(1).map(|word| word & 0xff).collect();
-            (every(0).copied().collect(), Some(stencil))
+            note_depth(plan);
+            let others = stencil_words(glow::DEPTH_STENCIL, kind, 2);
+            let every = |both: &[u32], offset: usize| -> Vec<u32> {
+                both.iter().skip(offset).step_by(2).copied().collect()
+            };
+            let stencil = every(others.as_ref().unwrap_or(&both), 1);
+            let stencil = stencil.into_iter().map(|word| word & 0xff).collect();
+            (every(&both, 0), Some(stencil))
         }
         ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
             let mut values = vec![0_u8; texels];
-            read_pixels(
-                gl,
-                size,
-                glow::STENCIL_INDEX,
-                glow::UNSIGNED_BYTE,
-                &mut values,
-                parted,
-            );
+            let (format, kind) = (glow::STENCIL_INDEX, glow::UNSIGNED_BYTE);
+            read_pixels(gl, width, format, kind, &mut values, &pieces);
             (values.into_iter().map(u32::from).collect(), None)
         }
     };
@@ -392,18 +449,22 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
         ReadPlan::Depth16 => plane(Aspect::Depth, 2, place(0, 16), Form::Code),
         ReadPlan::Depth24 => plane(Aspect::Depth, 4, place(8, 24), Form::Code),
         ReadPlan::DepthFloat => plane(Aspect::Depth, 4, place(0, 32), Form::Code),
-        ReadPlan::Depth24Stencil8 => {
-            plane(Aspect::Depth, 4, place(8, 24), Form::Code);
-            plane(Aspect::Stencil, 4, place(0, 8), Form::Code);
-        }
-        ReadPlan::DepthFloatStencil8 => {
-            plane(Aspect::Depth, 8, place(0, 32), Form::Code);
-            plane(Aspect::Stencil, 8, place(32, 8), Form::Code);
-        }
+        // Depth is noted where it is read.
+        ReadPlan::Depth24Stencil8 => plane(Aspect::Stencil, 4, place(0, 8), Form::Code),
+        ReadPlan::DepthFloatStencil8 => plane(Aspect::Stencil, 8, place(32, 8), Form::Code),
         ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
             plane(Aspect::Stencil, 1, place(0, 8), Form::Code);
         }
     }
+}
+
+/// Tells the recording where the depths are that were just copied beside stencil.
+fn note_depth(plan: ReadPlan) {
+    let (texel, place) = match plan {
+        ReadPlan::DepthFloatStencil8 => (8, [0, 32]),
+        _ => (4, [8, 24]),
+    };
+    recording::plane(Aspect::Depth, texel, vec![place], Form::Code);
 }
 
 /// Returns the places of so many channels of so many bits, one behind the other.
@@ -422,36 +483,30 @@ fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     }
 }
 
-/// Reads the bound framebuffer into a slice of exactly the image's size, in several parts if `parted`.
+/// Reads pieces of the bound framebuffer into a slice of exactly the size of an image with this width.
 fn read_pixels<T: bytemuck::Pod>(
     gl: &glow::Context,
-    size: [u32; 2],
+    width: u32,
     format: u32,
     kind: u32,
     into: &mut [T],
-    parted: bool,
+    pieces: &[Piece],
 ) {
-    let [width, height] = size;
-    let (columns, rows) = if parted {
-        (halves(width), halves(height))
-    } else {
-        (vec![(0, width)], vec![(0, height)])
-    };
-    let native = |(first, length): (u32, u32)| (first as i32, length as i32);
     recording::memory(bytemuck::cast_slice(into));
-    for (y, high) in rows.into_iter().map(native) {
-        for (x, wide) in columns.iter().copied().map(native) {
-            let bytes = bytemuck::cast_slice_mut(into);
-            let pixels = glow::PixelPackData::Slice(Some(bytes));
-            // SAFETY: rows are as long as the image's and packed tightly, the parts lie inside of it, and
-            // the callers size the slice by format and type.
-            unsafe {
-                gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
-                gl.pixel_store_i32(glow::PACK_ROW_LENGTH, width as i32);
-                gl.pixel_store_i32(glow::PACK_SKIP_PIXELS, x);
-                gl.pixel_store_i32(glow::PACK_SKIP_ROWS, y);
-                gl.read_pixels(x, y, wide, high, format, kind, pixels);
-            }
+    for piece in pieces {
+        let [x, y] = piece.from.map(|place| place as i32);
+        let [to_x, to_y] = piece.to.map(|place| place as i32);
+        let [wide, high] = piece.size.map(|length| length as i32);
+        let bytes = bytemuck::cast_slice_mut(into);
+        let pixels = glow::PixelPackData::Slice(Some(bytes));
+        // SAFETY: rows are as long as the image's and packed tightly, the pieces lie inside of it, and
+        // the callers size the slice by format and type.
+        unsafe {
+            gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
+            gl.pixel_store_i32(glow::PACK_ROW_LENGTH, width as i32);
+            gl.pixel_store_i32(glow::PACK_SKIP_PIXELS, to_x);
+            gl.pixel_store_i32(glow::PACK_SKIP_ROWS, to_y);
+            gl.read_pixels(x, y, wide, high, format, kind, pixels);
         }
     }
     for name in [
@@ -466,7 +521,7 @@ fn read_pixels<T: bytemuck::Pod>(
 
 /// Fills a surface with values that a copy which is lost would leave behind. Without it they could be those of
 /// an earlier scene with the same picture.
-fn spoil(context: &Context, format: TextureFormat, surface: &Surface) {
+pub(crate) fn spoil(context: &Context, format: TextureFormat, surface: &Surface) {
     let gl = &context.gl;
     // SAFETY: the context is current, the framebuffer is its own, and masks and scissor are open.
     unsafe {
@@ -543,17 +598,22 @@ impl Place {
 fn blit(context: &Context, format: TextureFormat, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [w, h] = from.size().map(|side| side as i32);
-    let mask = format.aspects().iter().fold(0, |mask, aspect| {
-        mask | match aspect {
-            Aspect::Color => glow::COLOR_BUFFER_BIT,
-            Aspect::Depth => glow::DEPTH_BUFFER_BIT,
-            Aspect::Stencil => glow::STENCIL_BUFFER_BIT,
-        }
-    });
+    let mask = bits(format.aspects());
     // SAFETY: the context is current and the framebuffers are its own.
     unsafe {
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
         gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, glow::NEAREST);
     }
+}
+
+/// Returns the bits of aspects.
+pub(crate) fn bits(aspects: &[Aspect]) -> u32 {
+    aspects.iter().fold(0, |mask, aspect| {
+        mask | match aspect {
+            Aspect::Color => glow::COLOR_BUFFER_BIT,
+            Aspect::Depth => glow::DEPTH_BUFFER_BIT,
+            Aspect::Stencil => glow::STENCIL_BUFFER_BIT,
+        }
+    })
 }

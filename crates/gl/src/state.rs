@@ -22,7 +22,7 @@ const FIRST_VERTEX_CONVENTION: u32 = 0x8E4D;
 const LAST_VERTEX_CONVENTION: u32 = 0x8E4E;
 
 /// The state of a draw, ready to be set.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawState {
     cull: Option<u32>,
     front_face: u32,

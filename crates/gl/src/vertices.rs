@@ -44,6 +44,50 @@ pub(crate) enum Fetched {
     Own(Own),
 }
 
+/// The offsets of the arguments of an indirect draw.
+#[derive(Clone, Copy)]
+pub(crate) struct Arguments {
+    offset: i32,
+    /// The number of draws, if it is in the buffer: 1. The arguments of another draw follow.
+    count: Option<i32>,
+}
+
+/// The most draws of an indirect draw whose number is in a buffer.
+const MOST_COUNTED: i32 = 2;
+
+impl Arguments {
+    /// True if the number of draws is in the buffer.
+    pub(crate) fn is_counted(self) -> bool {
+        self.count.is_some()
+    }
+
+    /// Calls the driver's draw, with indices of a type or without.
+    ///
+    /// # Safety
+    /// As for [`Fetched::draw`]; the arguments are in the bound buffers.
+    unsafe fn draw(self, context: &Context, mode: u32, kind: Option<u32>) {
+        let (gl, functions) = (&context.gl, &context.entry_points);
+        let place = std::ptr::without_provenance(self.offset as usize);
+        // SAFETY: as for this function.
+        unsafe {
+            match (kind, self.count) {
+                (None, None) => gl.draw_arrays_indirect_offset(mode, self.offset),
+                (Some(kind), None) => gl.draw_elements_indirect_offset(mode, kind, self.offset),
+                (None, Some(count)) => {
+                    if let Some(draw) = functions.draw_arrays_indirect_count {
+                        draw(mode, place, count as isize, MOST_COUNTED, 0);
+                    }
+                }
+                (Some(kind), Some(count)) => {
+                    if let Some(draw) = functions.draw_elements_indirect_count {
+                        draw(mode, kind, place, count as isize, MOST_COUNTED, 0);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// A draw with pointers of its own.
 pub(crate) struct Own {
     /// The offset of the vertices in bytes.
@@ -88,16 +132,23 @@ impl Geometry {
         }
     }
 
-    /// Adds the arguments of a placed draw, behind others that would draw nothing. Returns their offset.
-    pub(crate) fn place_arguments(&mut self, fetched: &Fetched) -> i32 {
+    /// Adds the arguments of a placed draw, behind others that would draw nothing. A number of draws stands between, and
+    /// the arguments again behind them, if the number is to be read.
+    pub(crate) fn place_arguments(&mut self, fetched: &Fetched, counted: bool) -> Arguments {
         let words = fetched.arguments();
         let unused = vec![0_u32; words.len()];
         self.arguments
             .extend_from_slice(bytemuck::cast_slice(&unused));
-        let place = self.arguments.len();
-        self.arguments
-            .extend_from_slice(bytemuck::cast_slice(&words));
-        place as i32
+        let count = counted.then_some(self.arguments.len() as i32);
+        if counted {
+            self.arguments.extend_from_slice(&1_u32.to_ne_bytes());
+        }
+        let offset = self.arguments.len() as i32;
+        for _ in 0..if counted { MOST_COUNTED } else { 1 } {
+            self.arguments
+                .extend_from_slice(bytemuck::cast_slice(&words));
+        }
+        Arguments { offset, count }
     }
 
     fn place_own(&mut self, vertices: usize, call: &Call<'_>) -> Own {
@@ -172,16 +223,15 @@ impl Fetched {
     ///
     /// # Safety
     /// The context is current, and the vertex array with the scene's buffers is bound.
-    pub(crate) unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<i32>) {
+    pub(crate) unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<Arguments>) {
         let gl = &context.gl;
         // SAFETY: as for this function; vertices, indices and arguments were counted when the buffers were
         // filled.
         unsafe {
             match self {
-                Self::Shared { indices, .. } if let Some(place) = arguments => match indices {
-                    Some(_) => gl.draw_elements_indirect_offset(mode, glow::UNSIGNED_INT, place),
-                    None => gl.draw_arrays_indirect_offset(mode, place),
-                },
+                Self::Shared { indices, .. } if let Some(arguments) = arguments => {
+                    arguments.draw(context, mode, indices.map(|_| glow::UNSIGNED_INT));
+                }
                 Self::Shared {
                     count,
                     indices: Some(offset),
@@ -229,7 +279,7 @@ impl Own {
     ///
     /// # Safety
     /// As for [`Fetched::draw`], with pointers set.
-    unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<i32>) {
+    unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<Arguments>) {
         let (gl, entry_points) = (&context.gl, &context.entry_points);
         let Self {
             first,
@@ -243,8 +293,8 @@ impl Own {
         // SAFETY: as for this function; limits deny scenes whose functions are missing.
         unsafe {
             let Some((offset, kind)) = self.indices else {
-                if let Some(place) = arguments {
-                    gl.draw_arrays_indirect_offset(mode, place);
+                if let Some(arguments) = arguments {
+                    arguments.draw(context, mode, None);
                     return;
                 }
                 match entry_points.draw_arrays_instanced_base_instance {
@@ -262,8 +312,8 @@ impl Own {
             let moved = entry_points.draw_elements_base_vertex;
             let moved_instances = entry_points.draw_elements_instanced_base_vertex;
             match (whole, moved, moved_instances) {
-                _ if let Some(place) = arguments => {
-                    gl.draw_elements_indirect_offset(mode, kind, place);
+                _ if let Some(arguments) = arguments => {
+                    arguments.draw(context, mode, Some(kind));
                 }
                 (Some(draw), ..) if first_instance > 0 => {
                     draw(

@@ -186,6 +186,36 @@ impl Pass {
         self.resolve.iter().flatten().copied().chain(depth_stencil)
     }
 
+    /// The clears that load operations stand for, as commands.
+    pub fn loading_clears(&self) -> Vec<Clear> {
+        let whole = |target| Clear {
+            before: 0,
+            target,
+            rect: None,
+        };
+        let mut clears = Vec::new();
+        for location in 0..self.color.len() {
+            if let LoadOperation::Clear(value) = self.color_operations(location).load {
+                clears.push(whole(ClearTarget::Color {
+                    location,
+                    value,
+                    write_mask: 0b1111,
+                }));
+            }
+        }
+        let depth = self.operations.depth.load.clear_value();
+        let stencil = self.operations.stencil.load.clear_value();
+        if depth.is_some() || stencil.is_some() {
+            clears.push(whole(ClearTarget::DepthStencil {
+                depth,
+                stencil,
+                depth_write: true,
+                stencil_write_mask: 0xff,
+            }));
+        }
+        clears
+    }
+
     /// The clear commands that are executed before the draw of this index, or at the end.
     pub fn clears_before(&self, draw: usize) -> &[Clear] {
         let start = self.clears.partition_point(|c| c.before < draw);

@@ -5,8 +5,8 @@
 //! its limits which values it has; each value that is not the default is a requirement.
 
 use etalon_frame::{
-    PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart, PathState,
-    PathTarget, PathValue, PathViewport,
+    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart,
+    PathState, PathTarget, PathValue, PathViewport,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,8 @@ pub struct Path {
     pub end: PathEnd,
     /// The render area.
     pub area: PathArea,
+    /// The calls that clear within passes.
+    pub clears: PathClears,
     /// The clip volume's convention.
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
@@ -50,6 +52,7 @@ impl Path {
             draws,
             end,
             area,
+            clears,
             clip,
             viewport,
         } = *self;
@@ -62,6 +65,7 @@ impl Path {
             PathValue::Draws(draws),
             PathValue::End(end),
             PathValue::Area(area),
+            PathValue::Clears(clears),
             PathValue::Clip(clip),
             PathValue::Viewport(viewport),
         ];

@@ -32,6 +32,13 @@ impl Ends {
         Self { load, store, value }
     }
 
+    /// Makes a load operation that clears one that leaves the contents undefined.
+    pub(crate) fn leave_undefined(&mut self) {
+        if self.load == vk::AttachmentLoadOp::CLEAR {
+            self.load = vk::AttachmentLoadOp::DONT_CARE;
+        }
+    }
+
     /// Returns the operations that keep what there is.
     pub(crate) fn kept() -> Self {
         Self {
@@ -42,10 +49,12 @@ impl Ends {
     }
 }
 
-/// A clear command.
+/// A clear command: of attachments, in each of some rectangles.
 pub(crate) struct ClearPlan {
-    attachment: vk::ClearAttachment,
-    rect: vk::ClearRect,
+    attachments: Vec<vk::ClearAttachment>,
+    rects: Vec<vk::ClearRect>,
+    /// What the attachments were made from.
+    targets: Vec<ClearTarget>,
 }
 
 impl ClearPlan {
@@ -96,13 +105,36 @@ impl ClearPlan {
             extent: vk::Extent2D { width, height },
         };
         Ok(intersection(rect, area).map(|rect| Self {
-            attachment,
-            rect: vk::ClearRect {
+            attachments: vec![attachment],
+            rects: vec![vk::ClearRect {
                 rect,
                 base_array_layer: 0,
                 layer_count: 1,
-            },
+            }],
+            targets: vec![clear.target],
         }))
+    }
+
+    /// Takes another command, if one can do both: in the same rectangles, or of the same attachments to the same values.
+    pub(crate) fn takes(&mut self, other: &Self) -> bool {
+        let rect = |rect: &vk::ClearRect| (rect.rect.offset, rect.rect.extent);
+        let overlaps = |a: &vk::ClearAttachment| {
+            other.attachments.iter().any(|b| {
+                a.aspect_mask.intersects(b.aspect_mask) && a.color_attachment == b.color_attachment
+            })
+        };
+        if self.rects.iter().map(rect).eq(other.rects.iter().map(rect)) {
+            if self.attachments.iter().any(overlaps) {
+                return false;
+            }
+            self.attachments.extend(&other.attachments);
+            self.targets.extend(&other.targets);
+        } else if self.targets == other.targets {
+            self.rects.extend(&other.rects);
+        } else {
+            return false;
+        }
+        true
     }
 
     /// Records the command.
@@ -114,7 +146,7 @@ impl ClearPlan {
         unsafe {
             device
                 .raw
-                .cmd_clear_attachments(commands, &[self.attachment], &[self.rect]);
+                .cmd_clear_attachments(commands, &self.attachments, &self.rects);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
+use crate::inputs::MOST_COUNTED;
 use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::recording;
 use ash::vk;
@@ -37,6 +38,8 @@ pub(crate) struct Device {
     pub(crate) features: vk::PhysicalDeviceFeatures,
     /// True if a vertex shader may choose the second of two viewports.
     pub(crate) second_viewport: bool,
+    /// True if the number of indirect draws may be in a buffer.
+    pub(crate) indirect_count: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::DeviceFn>,
     /// The function behind dynamic logic operations, where the device has them.
@@ -215,6 +218,19 @@ fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -
     // SAFETY: the chained structure is of an extension that the device has.
     unsafe { api.get_physical_device_features2(physical, &mut both) };
     offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
+}
+
+/// True if the number of indirect draws may be in a buffer, and less than the most.
+fn has_indirect_count(
+    api: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    limits: &vk::PhysicalDeviceLimits,
+) -> bool {
+    let mut offered = vk::PhysicalDeviceVulkan12Features::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is part of Vulkan 1.2, and devices have 1.3.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    offered.draw_indirect_count != vk::FALSE && limits.max_draw_indirect_count >= MOST_COUNTED
 }
 
 /// Returns whether a device's advanced blending is coherent; `None` if it has none.
@@ -410,6 +426,11 @@ impl Device {
             .enabled_features(&enabled)
             .enabled_extension_names(&extensions)
             .push_next(&mut enabled13);
+        let indirect_count = has_indirect_count(api, physical, &properties.limits);
+        let mut counted = vk::PhysicalDeviceVulkan12Features::default().draw_indirect_count(true);
+        if indirect_count {
+            info = info.push_next(&mut counted);
+        }
         let mut last_provokes =
             vk::PhysicalDeviceProvokingVertexFeaturesEXT::default().provoking_vertex_last(true);
         if provoking.last {
@@ -452,6 +473,7 @@ impl Device {
             features: enabled,
             second_viewport,
             provoking,
+            indirect_count,
             extended: extended.then(|| {
                 let loaded = ash::ext::extended_dynamic_state3::Device::new(api, &raw);
                 loaded.fp().clone()
@@ -474,15 +496,14 @@ impl Device {
         })
     }
 
-    /// True if images of a format can be blitted from and to.
-    pub(crate) fn blits(&self, format: vk::Format) -> bool {
-        let both = vk::FormatFeatureFlags::BLIT_SRC | vk::FormatFeatureFlags::BLIT_DST;
+    /// True if images of a format have these features.
+    pub(crate) fn has(&self, format: vk::Format, features: vk::FormatFeatureFlags) -> bool {
         // SAFETY: the physical device is of this living instance.
         let properties = unsafe {
             let api = self.instance.raw();
             api.get_physical_device_format_properties(self.physical, format)
         };
-        properties.optimal_tiling_features.contains(both)
+        properties.optimal_tiling_features.contains(features)
     }
 
     /// Returns the memory types among `allowed` that have the requested flags, in order of

@@ -15,7 +15,10 @@ use std::mem::size_of;
 pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
 /// Bytes of the arguments of an indirect draw, with indices or without.
-const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
+pub(crate) const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
+
+/// The most draws of an indirect draw whose number is in a buffer.
+pub(crate) const MOST_COUNTED: u32 = 2;
 
 /// Assigns consecutive offsets in a buffer.
 #[derive(Default)]
@@ -40,11 +43,19 @@ pub(crate) struct DrawInputs {
     pub(crate) indices: Option<(u64, vk::IndexType)>,
     /// The offset of the colours of instances.
     pub(crate) colors: Option<u64>,
-    /// The offset of the arguments, in an indirect draw.
-    pub(crate) arguments: Option<u64>,
+    /// The arguments of an indirect draw.
+    pub(crate) arguments: Option<Arguments>,
     /// True if an index restarts the primitive.
     pub(crate) restarts: bool,
     pub(crate) call: CallNumbers,
+}
+
+/// The offsets of the arguments of an indirect draw.
+#[derive(Clone, Copy)]
+pub(crate) struct Arguments {
+    pub(crate) offset: u64,
+    /// The number of draws, if it is in the buffer: 1. The arguments of another draw follow.
+    pub(crate) count: Option<u64>,
 }
 
 /// The arguments of a draw call.
@@ -73,7 +84,13 @@ impl CallNumbers {
 }
 
 impl DrawInputs {
-    fn place(offsets: &mut OffsetAllocator, uniform: u64, draw: &Draw, indirect: bool) -> Self {
+    fn place(
+        offsets: &mut OffsetAllocator,
+        uniform: u64,
+        draw: &Draw,
+        indirect: bool,
+        counted: bool,
+    ) -> Self {
         let params = offsets.allocate(PARAMS_BYTES, uniform);
         let call = call(draw);
         let bytes = size_of_val(&*call.vertices);
@@ -87,7 +104,10 @@ impl DrawInputs {
             (offsets.allocate(bytes as u64, size as u64), kind)
         });
         let colors = call.color_bytes().len() as u64;
-        let arguments = indirect.then(|| offsets.allocate(ARGUMENTS_BYTES, 4));
+        let arguments = indirect.then(|| Arguments {
+            count: counted.then(|| offsets.allocate(size_of::<u32>() as u64, 4)),
+            offset: offsets.allocate(ARGUMENTS_BYTES * (1 + u64::from(counted)), 4),
+        });
         Self {
             arguments,
             vertices,
@@ -135,8 +155,9 @@ impl Inputs {
             let place = |draw: &Draw| {
                 let first = draw.fetch.first_instance == 0
                     || device.features.draw_indirect_first_instance != 0;
-                let indirect = scene.path.draws == PathDraws::Indirect && first;
-                DrawInputs::place(&mut offsets, uniform, draw, indirect)
+                let counted = scene.path.draws == PathDraws::IndirectCount;
+                let indirect = (counted || scene.path.draws == PathDraws::Indirect) && first;
+                DrawInputs::place(&mut offsets, uniform, draw, indirect, counted)
             };
             draws.push(pass.draws.iter().map(place).collect());
         }
@@ -166,8 +187,13 @@ impl Inputs {
                 let call = call(draw);
                 buffer.write(place.vertices, call.vertex_bytes())?;
                 buffer.write(place.params, &draw.params.to_bytes())?;
-                if let Some(offset) = place.arguments {
-                    buffer.write(offset, &place.call.arguments(place.indices.is_some()))?;
+                if let Some(Arguments { offset, count }) = place.arguments {
+                    let arguments = place.call.arguments(place.indices.is_some());
+                    buffer.write(offset, &arguments)?;
+                    if let Some(count) = count {
+                        buffer.write(count, &1_u32.to_ne_bytes())?;
+                        buffer.write(offset + ARGUMENTS_BYTES, &arguments)?;
+                    }
                 }
                 if let Some((offset, _)) = place.indices {
                     buffer.write(offset, &call.index_bytes())?;

@@ -11,6 +11,7 @@
 
 mod attached;
 mod backend;
+mod blits;
 mod buffer;
 mod clear;
 mod counting;

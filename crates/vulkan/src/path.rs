@@ -11,8 +11,8 @@ use crate::samples;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{
-    Aspect, ChannelEncoding, PathArea, PathClip, PathEnd, PathState, PathTarget, PathValue,
-    PathViewport, Requirement, TextureFormat,
+    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathState, PathTarget,
+    PathValue, PathViewport, Requirement, TextureFormat,
 };
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
@@ -22,10 +22,13 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::State(PathState::ExtendedDynamic3) => device.extended.is_some(),
         PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
+        PathValue::Draws(PathDraws::IndirectCount) => device.indirect_count,
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
         // Only OpenGL has them.
-        PathValue::Target(PathTarget::Renderbuffer) | PathValue::Clip(PathClip::Toggled) => false,
+        PathValue::Target(PathTarget::Renderbuffer)
+        | PathValue::Clip(PathClip::Toggled)
+        | PathValue::End(PathEnd::ReadBuffer) => false,
         _ => true,
     };
     PathValue::all().into_iter().filter(has).collect()
@@ -105,7 +108,11 @@ pub(crate) fn end(
     let format = attachment.format;
     let single = attachment.samples == 1;
     let can = match path.end {
-        PathEnd::Blit => single && is_blitted_exactly(format),
+        PathEnd::Blit | PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart => {
+            single && is_blitted_exactly(format)
+        }
+        PathEnd::BlitLinear => single && is_filtered(format),
+        PathEnd::ReadBuffer => false,
         PathEnd::ShaderRead => single && is_fetched_exactly(format, native),
         PathEnd::Part => single,
         PathEnd::Store | PathEnd::Copy => true,
@@ -113,11 +120,44 @@ pub(crate) fn end(
     if !can {
         return Ok(PathEnd::Store);
     }
-    if path.end == PathEnd::Blit && !device.blits(native.raw) {
-        let value = PathValue::End(PathEnd::Blit);
+    let needed = match path.end {
+        PathEnd::Blit | PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart => BLITS,
+        PathEnd::BlitLinear => BLITS | vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR,
+        PathEnd::Store
+        | PathEnd::Copy
+        | PathEnd::ShaderRead
+        | PathEnd::Part
+        | PathEnd::ReadBuffer => vk::FormatFeatureFlags::empty(),
+    };
+    if !device.has(native.raw, needed) {
+        let value = PathValue::End(path.end);
         return Err(BackendError::NotSupported(Requirement::Path(value)));
     }
     Ok(path.end)
+}
+
+/// The features of the format of a blit's source and destination.
+const BLITS: vk::FormatFeatureFlags = vk::FormatFeatureFlags::from_raw(
+    vk::FormatFeatureFlags::BLIT_SRC.as_raw() | vk::FormatFeatureFlags::BLIT_DST.as_raw(),
+);
+
+/// True if an attachment is copied to another image before it is read.
+pub(crate) fn is_copied(end: PathEnd) -> bool {
+    match end {
+        PathEnd::Copy
+        | PathEnd::Blit
+        | PathEnd::BlitMirrored
+        | PathEnd::BlitScaled
+        | PathEnd::BlitPart
+        | PathEnd::BlitLinear => true,
+        PathEnd::Store | PathEnd::ShaderRead | PathEnd::Part | PathEnd::ReadBuffer => false,
+    }
+}
+
+/// True if a linear filter takes the format, and twice a half is a code again.
+fn is_filtered(format: TextureFormat) -> bool {
+    let halved = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Unorm(_));
+    format.is_color() && format.color_channels().iter().all(halved)
 }
 
 fn is_blitted_exactly(format: TextureFormat) -> bool {

@@ -1,6 +1,7 @@
 //! The commands of a scene in terms of device handles, ready to be recorded at each submit.
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
+use crate::blits;
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
@@ -9,7 +10,7 @@ use crate::extended::Extended;
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::{Image, ImageKey, Place};
-use crate::inputs::{CallNumbers, DrawInputs};
+use crate::inputs::{Arguments, CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::path;
 use crate::pipeline::Pipeline;
@@ -19,7 +20,7 @@ use crate::state;
 use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::{PathEnd, PathTarget, Requirement};
+use etalon_frame::{PathClears, PathEnd, PathTarget, Requirement};
 use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
@@ -43,6 +44,8 @@ pub(crate) struct AttachmentPlan {
     pub(crate) end: PathEnd,
     /// The image that it is copied to before it is read.
     pub(crate) copy: Option<vk::Image>,
+    /// The image that blits move it to before it is copied.
+    pub(crate) between: Option<vk::Image>,
     pub(crate) aspects: vk::ImageAspectFlags,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
@@ -110,8 +113,8 @@ pub(crate) struct DrawPlan {
     pub(crate) overwritten: bool,
     /// The further dynamic state, where the path asks for it.
     pub(crate) extended: Option<Extended>,
-    /// The offset of the arguments, in an indirect draw.
-    pub(crate) arguments: Option<u64>,
+    /// The arguments of an indirect draw.
+    pub(crate) arguments: Option<Arguments>,
     pub(crate) set: vk::DescriptorSet,
     pub(crate) params: u32,
     pub(crate) vertices: u64,
@@ -217,11 +220,24 @@ impl PassPlan {
             let attachment = index.and_then(|i| scene.attachments.get(*i));
             attachment.is_some_and(|a| a.format.is_integer())
         };
-        for clear in &pass.clears {
+        let undefined = scene.path.clears == PathClears::Undefined;
+        let loads = if undefined {
+            pass.loading_clears()
+        } else {
+            Vec::new()
+        };
+        for clear in loads.iter().chain(&pass.clears) {
             let integer =
                 matches!(clear.target, ClearTarget::Color { location, .. } if integer(location));
-            let planned = ClearPlan::new(clear, integer, plan.size, area)?;
-            plan.clears.extend(planned.map(|p| (clear.before, p)));
+            let Some(planned) = ClearPlan::new(clear, integer, plan.size, area)? else {
+                continue;
+            };
+            let together = scene.path.clears == PathClears::Together;
+            let last = plan.clears.last_mut().filter(|_| together);
+            let last = last.filter(|(before, _)| *before == clear.before);
+            if !last.is_some_and(|(_, last)| last.takes(&planned)) {
+                plan.clears.push((clear.before, planned));
+            }
         }
         for (location, index) in pass.color.iter().enumerate() {
             let resolve = match pass.resolve.get(location).copied().flatten() {
@@ -268,6 +284,14 @@ impl PassPlan {
                     }
                 },
             });
+        }
+        if undefined {
+            let colors = plan.color.iter_mut().map(|target| &mut target.ends);
+            let tested = plan.depth_stencil.iter_mut();
+            let tested = tested.flat_map(|p| p.depth.iter_mut().chain(&mut p.stencil));
+            for ends in colors.chain(tested) {
+                ends.leave_undefined();
+            }
         }
         Ok(plan)
     }
@@ -334,7 +358,7 @@ pub(crate) fn image_key(
     if read && end == PathEnd::ShaderRead {
         usage |= vk::ImageUsageFlags::SAMPLED;
     }
-    if read && matches!(end, PathEnd::Copy | PathEnd::Blit) {
+    if read && path::is_copied(end) {
         usage |= vk::ImageUsageFlags::TRANSFER_SRC;
     }
     match (read, attachment.samples) {
@@ -349,6 +373,17 @@ pub(crate) fn image_key(
         samples: attachment.samples,
         usage,
         target: path::target(scene, index, attachment),
+    })
+}
+
+/// Returns the key of the image that blits move an attachment to, if its path has them.
+pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
+    let size = blits::between(end, key.size)?;
+    Some(ImageKey {
+        size,
+        usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
+        target: PathTarget::Plain,
+        ..key
     })
 }
 

@@ -49,6 +49,8 @@ struct Planted {
     in_render_pass: bool,
     /// True if the pass has stencil.
     stencil: bool,
+    /// True before the first clear of a pass that leaves contents undefined when it begins.
+    undefined: bool,
     /// True before the first draw of a secondary command buffer.
     secondary: bool,
     topology: vk::PrimitiveTopology,
@@ -76,6 +78,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         read_only: false,
         in_render_pass: false,
         stencil: false,
+        undefined: false,
         secondary: false,
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
     }));
@@ -169,9 +172,31 @@ functions! {
             }
         });
     }
+    instead v12 cmd_draw_indirect_count(
+        commands: vk::CommandBuffer, buffer: vk::Buffer, offset: vk::DeviceSize, count_buffer: vk::Buffer,
+        count_offset: vk::DeviceSize, most: u32, stride: u32
+    ) |planted| {
+        // SAFETY: the caller's; there are arguments for the most draws.
+        unsafe {
+            if planted.calls.has(CallFault::IndirectFewer) {
+                // The backend's number is 1.
+            } else if planted.calls.has(CallFault::IndirectMost) {
+                (planted.driver.v10.cmd_draw_indirect)(commands, buffer, offset, most, stride);
+            } else {
+                (planted.driver.v12.cmd_draw_indirect_count)(
+                    commands, buffer, offset, count_buffer, count_offset, most, stride
+                );
+            }
+        }
+    }
     before v10 cmd_set_scissor(
         commands: vk::CommandBuffer, first: u32, count: u32, scissors: *const vk::Rect2D
     ) [scissors; count] |planted| {
+        if let [first, second] = &mut scissors[..]
+            && planted.calls.has(CallFault::ScissorFirst)
+        {
+            *second = *first;
+        }
         if let [scissor] = &mut scissors[..] {
             let vk::Rect2D { offset: vk::Offset2D { x, y }, extent: vk::Extent2D { width, height } } = *scissor;
             let limit = planted.calls.area[2];
@@ -212,9 +237,19 @@ functions! {
         commands: vk::CommandBuffer, count: u32, attachments: *const vk::ClearAttachment, rectangles: u32,
         areas: *const vk::ClearRect
     ) [attachments; count] [areas; rectangles] |planted| {
+        let undefined = mem::take(&mut planted.undefined);
         let calls = &planted.calls;
         if calls.has(CallFault::ClearSkipped) && (calls.passes > 1 || calls.draws > 0) {
             return;
+        }
+        if calls.has(CallFault::ClearUndefinedSkipped) && undefined {
+            return;
+        }
+        if calls.has(CallFault::ClearFirstRect) {
+            rectangles = rectangles.min(1);
+        }
+        if calls.has(CallFault::ClearFirstOfCall) {
+            count = count.min(1);
         }
         if calls.has(CallFault::ClearRect) {
             areas.iter_mut().for_each(|area| area.rect = rectangle(calls.area));
@@ -280,6 +315,17 @@ functions! {
         planted.after_read_only = planted.read_only;
         planted.read_only = depth.iter().chain(&stencil).any(|tested| tested.image_layout == read_only);
         planted.stencil = !stencil.is_empty();
+        let is_undefined =
+            |attachment: &Attachment<'_>| attachment.load_op == vk::AttachmentLoadOp::DONT_CARE;
+        planted.undefined = colors.iter().chain(&depth).chain(&stencil).any(is_undefined);
+        if planted.calls.has(CallFault::StateForgotten) {
+            // SAFETY: the caller's commands are recorded.
+            unsafe {
+                let faces = vk::StencilFaceFlags::FRONT_AND_BACK;
+                (planted.driver.v10.cmd_set_stencil_write_mask)(commands, faces, 0xff);
+                (planted.driver.v13.cmd_set_cull_mode)(commands, vk::CullModeFlags::NONE);
+            }
+        }
         planted.in_render_pass = false;
         planted.change_attachments(&mut colors, &mut depth, &mut stencil);
         info.p_color_attachments = address(&colors);
@@ -379,6 +425,35 @@ functions! {
             for region in &mut regions {
                 region.src_offsets[1].x -= 1;
                 region.dst_offsets[1].x -= 1;
+            }
+        }
+        if planted.calls.has(CallFault::BlitFirstRegion) {
+            count = count.min(1);
+        }
+        if planted.calls.has(CallFault::BlitFilter) {
+            filter = vk::Filter::NEAREST;
+        }
+        for region in &mut regions {
+            let vk::ImageBlit { src_offsets: from, dst_offsets: to, .. } = region;
+            match planted.calls.fault {
+                Some(CallFault::BlitMirror) => {
+                    for corners in [from, to] {
+                        let [first, second] = *corners;
+                        corners[0].x = first.x.min(second.x);
+                        corners[0].y = first.y.min(second.y);
+                        corners[1].x = first.x.max(second.x);
+                        corners[1].y = first.y.max(second.y);
+                    }
+                }
+                Some(CallFault::BlitScale) => {
+                    to[1].x = to[0].x + from[1].x - from[0].x;
+                    to[1].y = to[0].y + from[1].y - from[0].y;
+                }
+                Some(CallFault::BlitPlace) => {
+                    (to[1].x, to[1].y) = (to[1].x - to[0].x, to[1].y - to[0].y);
+                    (to[0].x, to[0].y) = (0, 0);
+                }
+                _ => {}
             }
         }
     }

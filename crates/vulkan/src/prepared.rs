@@ -14,8 +14,8 @@ use crate::inputs::Inputs;
 use crate::path;
 use crate::pipeline::Way;
 use crate::plan::{
-    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, copy_key, image_key,
-    is_advanced, targets,
+    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, between_key, copy_key,
+    image_key, is_advanced, targets,
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
@@ -28,6 +28,7 @@ use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathPass, PathState, PathValue, Requirement,
 };
 use etalon_scene::{Contents, Draw, Pass, Pool, Scene};
+use std::cell::RefCell;
 use std::time::Instant;
 
 /// A scene with all objects that drawing it needs.
@@ -45,6 +46,8 @@ pub(crate) struct PreparedScene<'a> {
     images: Vec<Image>,
     plan: Plan,
     kind: PathCommands,
+    /// True if state that does not change is not set again.
+    keeps_state: bool,
     progress: Progress,
 }
 
@@ -75,6 +78,7 @@ impl<'a> PreparedScene<'a> {
             images: Vec::new(),
             plan: Plan::default(),
             kind: PathCommands::One,
+            keeps_state: scene.path.state == PathState::Kept,
             progress: Progress::NotDrawn,
         };
         prepared.kind = scene.path.commands;
@@ -116,6 +120,7 @@ impl<'a> PreparedScene<'a> {
                 place: image.place(),
                 end,
                 copy: None,
+                between: None,
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
@@ -129,8 +134,14 @@ impl<'a> PreparedScene<'a> {
         let mut sources: Vec<usize> = (0..self.images.len()).collect();
         let plans = self.plan.attachments.iter_mut().zip(&scene.attachments);
         for (source, (plan, attachment)) in sources.iter_mut().zip(plans) {
-            if plan.read && matches!(plan.end, PathEnd::Copy | PathEnd::Blit) {
-                let key = copy_key(self.images[*source].key, attachment);
+            if plan.read && path::is_copied(plan.end) {
+                let own = self.images[*source].key;
+                if let Some(key) = between_key(own, plan.end) {
+                    let image = pools.memory.image(device, key)?;
+                    plan.between = Some(image.raw);
+                    self.images.push(image);
+                }
+                let key = copy_key(own, attachment);
                 let image = pools.memory.image(device, key)?;
                 plan.copy = Some(image.raw);
                 *source = self.images.len();
@@ -292,7 +303,9 @@ impl Prepared for PreparedScene<'_> {
         record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         let kind = self.kind;
-        record::passes(device, &mut Recorder { slot, kind }, &self.plan, input.raw)?;
+        let kept = self.keeps_state.then(RefCell::default);
+        let mut recorder = Recorder { slot, kind, kept };
+        record::passes(device, &mut recorder, &self.plan, input.raw)?;
         slot.timestamp(device, 1);
         counting.end(device, slot.commands());
         let (cpu, wall) = slot.submit(device, start)?;
@@ -328,7 +341,11 @@ impl Prepared for PreparedScene<'_> {
                 .read(device, slot, self.counts.as_ref())?,
         };
         for read in &self.plan.reads {
-            frame.images.push(read.image(output, self.gpu.fault)?);
+            let attachment = self.plan.attachments.get(read.attachment);
+            let halved = attachment.is_some_and(|a| a.end == PathEnd::BlitLinear);
+            frame
+                .images
+                .push(read.image(output, halved, self.gpu.fault)?);
         }
         Ok(frame)
     }

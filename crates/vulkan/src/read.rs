@@ -13,7 +13,7 @@ use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, Fault, Form, Plane};
+use etalon_backend::{BackendError, Fault, Form, Plane, doubled};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
@@ -130,10 +130,12 @@ impl ReadPlan {
         self.bytes / texels.max(1)
     }
 
-    /// Returns the image, after the device wrote the output buffer.
+    /// Returns the image, after the device wrote the output buffer. `halved` tells that a filter has weighed its texels
+    /// with zeros.
     pub(crate) fn image(
         &self,
         output: &Buffer,
+        halved: bool,
         fault: Option<Fault>,
     ) -> Result<etalon_frame::Image, BackendError> {
         let length =
@@ -144,6 +146,11 @@ impl ReadPlan {
         } else {
             format::decode(&bytes, self.raw, self.aspect)
         };
+        if halved {
+            for (code, encoding) in codes.iter_mut().zip(self.channels.iter().cycle()) {
+                *code = doubled(*encoding, *code);
+            }
+        }
         if let Some(Fault::Read(fault)) = fault {
             fault.apply(&mut codes, self.size, self.samples, &self.channels);
         }

@@ -1,6 +1,7 @@
 //! Recording of commands: initial contents, passes, and copies for reading back.
 
 use crate::attached::DepthStencilPlan;
+use crate::blits;
 use crate::clear::Ends;
 use crate::device::Device;
 use crate::error::Check;
@@ -9,7 +10,7 @@ use crate::image_state::{
     COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
     ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
 };
-use crate::inputs::CallNumbers;
+use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers, MOST_COUNTED};
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role};
 use crate::read::ReadPlan;
@@ -20,6 +21,7 @@ use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathCommands, PathEnd};
+use std::cell::RefCell;
 
 impl Role {
     /// Returns the state of an attachment in this role.
@@ -60,7 +62,11 @@ impl AttachmentPlan {
         self.copy.map_or(self.place, |_| Place::default())
     }
 
-    fn barrier(&self, from: ImageState, to: ImageState) -> vk::ImageMemoryBarrier2<'static> {
+    pub(crate) fn barrier(
+        &self,
+        from: ImageState,
+        to: ImageState,
+    ) -> vk::ImageMemoryBarrier2<'static> {
         vk::ImageMemoryBarrier2::default()
             .src_stage_mask(from.stages)
             .src_access_mask(from.access)
@@ -245,13 +251,20 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
 pub(crate) struct Recorder<'a> {
     pub(crate) slot: &'a mut Slot,
     pub(crate) kind: PathCommands,
+    /// The state that is set, as text, if state that does not change is not set again.
+    pub(crate) kept: Option<RefCell<String>>,
 }
 
 impl Recorder<'_> {
     /// Returns the command buffer for the next pass, outside of a pass.
     fn next_pass(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         match self.kind {
-            PathCommands::Several => self.slot.next_primary(device),
+            PathCommands::Several => {
+                if let Some(kept) = &self.kept {
+                    kept.borrow_mut().clear();
+                }
+                self.slot.next_primary(device)
+            }
             PathCommands::One | PathCommands::Secondary => Ok(self.slot.commands()),
         }
     }
@@ -261,10 +274,10 @@ impl Recorder<'_> {
         &mut self,
         device: &Device,
         pass: &PassPlan,
-        record: impl Fn(vk::CommandBuffer),
+        record: impl Fn(vk::CommandBuffer, Option<&RefCell<String>>),
     ) -> Result<(), BackendError> {
         if self.kind != PathCommands::Secondary {
-            record(self.slot.commands());
+            record(self.slot.commands(), self.kept.as_ref());
             return Ok(());
         }
         let mut rendering = vk::CommandBufferInheritanceRenderingInfo::default()
@@ -281,7 +294,8 @@ impl Recorder<'_> {
             None => inheritance.push_next(&mut rendering),
         };
         let commands = self.slot.secondary(device, &inheritance)?;
-        record(commands);
+        // A secondary command buffer begins without state.
+        record(commands, None);
         // SAFETY: recording; the secondary commands are complete and executed once.
         unsafe {
             device
@@ -321,9 +335,9 @@ fn pass(
             None => begin_rendering(device, recorder, pass),
         }
     }
-    recorder.within(device, pass, |commands| {
+    recorder.within(device, pass, |commands, kept| {
         // SAFETY: recording, within the pass.
-        unsafe { draws(device, commands, pass, input) };
+        unsafe { draws(device, commands, pass, input, kept) };
     })?;
     // SAFETY: recording, within the pass.
     unsafe {
@@ -431,7 +445,13 @@ unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassP
 ///
 /// # Safety
 /// Within the pass, which `commands` is made for.
-unsafe fn draws(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk::Buffer) {
+unsafe fn draws(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    pass: &PassPlan,
+    input: vk::Buffer,
+    kept: Option<&RefCell<String>>,
+) {
     let api = &device.raw;
     // SAFETY: the caller's; pipelines live as long as the scene.
     unsafe {
@@ -452,7 +472,13 @@ unsafe fn draws(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, i
             if draw.overwritten {
                 draw.dynamic.opposite().set(device, commands);
             }
-            draw.dynamic.set(device, commands);
+            let text = kept.map(|_| draw.dynamic.text());
+            if kept.is_none_or(|kept| Some(&*kept.borrow()) != text.as_ref()) {
+                draw.dynamic.set(device, commands);
+            }
+            if let (Some(kept), Some(text)) = (kept, text) {
+                *kept.borrow_mut() = text;
+            }
             if let Some(extended) = &draw.extended {
                 extended.set(device, commands);
             }
@@ -501,10 +527,37 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             first_instance,
         } = draw.call;
         match (draw.indices, draw.arguments) {
-            (Some(_), Some(offset)) => {
-                api.cmd_draw_indexed_indirect(commands, input, offset, 1, 0);
+            (
+                indices,
+                Some(Arguments {
+                    offset,
+                    count: None,
+                }),
+            ) => match indices {
+                Some(_) => api.cmd_draw_indexed_indirect(commands, input, offset, 1, 0),
+                None => api.cmd_draw_indirect(commands, input, offset, 1, 0),
+            },
+            (
+                indices,
+                Some(Arguments {
+                    offset,
+                    count: Some(count),
+                }),
+            ) => {
+                let draw = match indices {
+                    Some(_) => api.fp_v1_2().cmd_draw_indexed_indirect_count,
+                    None => api.fp_v1_2().cmd_draw_indirect_count,
+                };
+                draw(
+                    commands,
+                    input,
+                    offset,
+                    input,
+                    count,
+                    MOST_COUNTED,
+                    ARGUMENTS_BYTES as u32,
+                );
             }
-            (None, Some(offset)) => api.cmd_draw_indirect(commands, input, offset, 1, 0),
             (Some(_), None) => {
                 api.cmd_draw_indexed(
                     commands,
@@ -548,6 +601,11 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
             height,
             depth: 1,
         };
+        if let Some(between) = attachment.between {
+            // SAFETY: recording; the images are in these layouts.
+            unsafe { blits::record(device, commands, attachment, between, copy) };
+            continue;
+        }
         // SAFETY: recording; the images are in these layouts, and both hold the rectangle.
         unsafe {
             if attachment.end == PathEnd::Blit {

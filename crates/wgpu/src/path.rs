@@ -21,8 +21,12 @@ pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BT
         PathValue::Commands(_) => true,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
+        PathValue::Draws(PathDraws::IndirectCount) => false,
         PathValue::Draws(_) => true,
-        PathValue::End(end) => end != PathEnd::Blit,
+        PathValue::End(end) => matches!(
+            end,
+            PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
+        ),
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
         // pipeline, everything else always is.
@@ -30,11 +34,13 @@ pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BT
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
-            | PathState::DynamicLogic,
+            | PathState::DynamicLogic
+            | PathState::Kept,
         )
         | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
         | PathValue::Pass(_)
         | PathValue::Area(_)
+        | PathValue::Clears(_)
         | PathValue::Clip(_)
         | PathValue::Viewport(_) => false,
     };
@@ -149,7 +155,12 @@ pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
             PathEnd::Copy => format.is_color() || reading.copies,
             PathEnd::Part => format.is_color(),
             PathEnd::ShaderRead => is_fetched_exactly(format, reading),
-            PathEnd::Blit => false,
+            PathEnd::Blit
+            | PathEnd::BlitMirrored
+            | PathEnd::BlitScaled
+            | PathEnd::BlitPart
+            | PathEnd::BlitLinear
+            | PathEnd::ReadBuffer => false,
         };
     if can { scene.path.end } else { PathEnd::Store }
 }

@@ -153,6 +153,40 @@ faults! {
     ClearFirstTarget = "clear-first-target" in "sequence/loads-by-target/*";
     /// Passes without draws resolve nothing.
     EmptyResolve = "empty-resolve" in "sequence/empty-resolve/*" of OpenGl;
+    /// As many draws as there may be take place, whatever their number in the buffer.
+    IndirectMost = "indirect-most" in "paths/indirect-count/*/draws=indirect-count/indexed=false/*" of Vulkan;
+    /// Of draws whose number is in a buffer, the last is lost.
+    IndirectFewer = "indirect-fewer" in "paths/indirect-count/*/draws=indirect-count/indexed=false/*";
+    /// Blits read the first color attachment.
+    BlitReadsFirst = "blit-reads-first" in "paths/blits/*" of OpenGl;
+    /// Blits mirror nothing.
+    BlitMirror = "blit-mirror" in "paths/blits*/end=blit-mirrored/*";
+    /// Blits scale nothing.
+    BlitScale = "blit-scale" in "paths/blits*/end=blit-scaled/*";
+    /// Blits filter nothing.
+    BlitFilter = "blit-filter" in "paths/blits/end=blit-linear/*";
+    /// Blits begin at the first texel of the destination.
+    BlitPlace = "blit-place" in "paths/blits/end=blit-part/*";
+    /// Blits of depth alone are skipped, and those of stencil alone.
+    BlitAspectAlone = "blit-aspect-alone" in "paths/blits-depth-stencil/end=blit-part/*" of OpenGl;
+    /// Of the regions of a blit, only the first is copied.
+    BlitFirstRegion = "blit-first-region" in "paths/blits/end=blit-part/*" of Vulkan;
+    /// What is read is the first color attachment.
+    ReadBufferFirst = "read-buffer-first" in "paths/blits/end=read-buffer/*" of OpenGl;
+    /// Of several rectangles, only the first is cleared.
+    ClearFirstRect = "clear-first-rect" in "paths/clears/clears=together/*" of Vulkan;
+    /// Of several aspects or attachments in one call, only the first is cleared.
+    ClearFirstOfCall = "clear-first-of-call" in "paths/clears/clears=together/*";
+    /// A clear of some draw buffers clears all of them.
+    ClearAllBuffers = "clear-all-buffers" in "paths/clears/clears=together/*" of OpenGl;
+    /// The first clear behind what leaves contents undefined is skipped.
+    ClearUndefinedSkipped = "clear-undefined-skipped" in "paths/clears/clears=undefined/*";
+    /// What leaves a part of an attachment undefined changes all of it.
+    InvalidateAll = "invalidate-all" in "paths/clears/clears=undefined/*" of OpenGl;
+    /// Other attachments come with open masks, and without culling.
+    StateForgotten = "state-forgotten" in "paths/state-kept/*";
+    /// The second scissor rectangle is the first.
+    ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
 }

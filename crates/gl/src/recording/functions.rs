@@ -84,7 +84,12 @@ functions! {
     );
     glCheckFramebufferStatus(target: Enum) -> Enum;
     glClampColor(target: Enum, clamp: Uint);
+    glClear(buffers: Buffers);
     glClearBufferfi(buffer: Enum, index: Int, depth: Float, stencil: Int);
+    glClearColor(r: Float, g: Float, b: Float, a: Float);
+    glClearDepth(depth: Double);
+    glClearDepthf(depth: Float);
+    glClearStencil(stencil: Int);
     glClipControl(origin: Enum, depth: Enum);
     glClipControlEXT(origin: Enum, depth: Enum);
     glColorMask(r: Bool, g: Bool, b: Bool, a: Bool);
@@ -143,6 +148,10 @@ functions! {
     glMinSampleShading(share: Float);
     glMinSampleShadingARB(share: Float);
     glMinSampleShadingOES(share: Float);
+    glMultiDrawArraysIndirectCount(mode: Mode, offset: Offset, count: Size, most: Int, stride: Int);
+    glMultiDrawArraysIndirectCountARB(mode: Mode, offset: Offset, count: Size, most: Int, stride: Int);
+    glMultiDrawElementsIndirectCount(mode: Mode, kind: Enum, offset: Offset, count: Size, most: Int, stride: Int);
+    glMultiDrawElementsIndirectCountARB(mode: Mode, kind: Enum, offset: Offset, count: Size, most: Int, stride: Int);
     glPatchParameteri(name: Enum, value: Int);
     glPixelStorei(name: Enum, value: Int);
     glPolygonMode(face: Enum, mode: Enum);
@@ -189,7 +198,8 @@ functions! {
     glBufferData glBufferSubData glClearBufferfv glClearBufferiv glClearBufferuiv glCopyImageSubData
     glDepthRangeArrayv glDrawBuffers glGenBuffers glGenFramebuffers glGenQueries glGenRenderbuffers glGenSamplers
     glGenTextures glGenVertexArrays glGetQueryObjectui64v glGetQueryObjectui64vEXT glGetQueryObjectuiv
-    glGetUniformBlockIndex glGetUniformLocation glInvalidateFramebuffer glMapBufferRange glReadPixels
+    glGetUniformBlockIndex glGetUniformLocation glInvalidateFramebuffer glInvalidateSubFramebuffer
+    glMapBufferRange glReadPixels
     glScissorArrayv glShaderSource glTexImage2D glTexImage3D glTexSubImage2D glTexSubImage3D glViewportArrayv
 }
 
@@ -297,6 +307,31 @@ mod special {
         glInvalidateFramebuffer(target: Enum, count: Int; Enum: count);
         glScissorArrayv(first: Uint, count: Int; Int: 4 * count);
         glViewportArrayv(first: Uint, count: Int; Float: 4 * count);
+    }
+
+    pub(super) unsafe extern "system" fn glInvalidateSubFramebuffer(
+        target: u32,
+        count: i32,
+        points: *const u32,
+        x: i32,
+        y: i32,
+        width: i32,
+        height: i32,
+    ) {
+        own!(glInvalidateSubFramebuffer(
+            target: u32, count: i32, points: *const u32, x: i32, y: i32, width: i32, height: i32
+        ));
+        if keeps() {
+            // SAFETY: the caller's points are so many.
+            let points = unsafe { values(points, count.max(0) as usize) };
+            let mut arguments = vec![
+                Enum::value(target),
+                Int::value(count),
+                Argument::Array(points.into_iter().map(Enum::value).collect()),
+            ];
+            arguments.extend([x, y, width, height].map(Int::value));
+            keep("glInvalidateSubFramebuffer", arguments, None);
+        }
     }
 
     pub(super) unsafe extern "system" fn glBufferData(

@@ -4,7 +4,7 @@
 
 use ash::vk;
 use etalon_backend::{Argument, Call, VulkanNeeds};
-use etalon_frame::{Feature, PathState, PathViewport, Requirement, TextureFormat};
+use etalon_frame::{Feature, PathDraws, PathState, PathViewport, Requirement, TextureFormat};
 use etalon_scene::Scene;
 
 /// The features and extensions that a scene's device needs.
@@ -23,7 +23,8 @@ impl Needed {
     pub(crate) fn of(scene: &Scene, native: impl Fn(TextureFormat) -> Option<vk::Format>) -> Self {
         let mut needed = Self {
             all: scene.path.state != PathState::default()
-                || scene.path.viewport != PathViewport::default(),
+                || scene.path.viewport != PathViewport::default()
+                || scene.path.draws == PathDraws::IndirectCount,
             ..Self::default()
         };
         for requirement in scene.requirements() {
@@ -96,6 +97,7 @@ impl Needed {
             "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT" => "VK_EXT_extended_dynamic_state3",
             "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" => "VK_EXT_extended_dynamic_state2",
             "VkPhysicalDeviceProvokingVertexFeaturesEXT" => "VK_EXT_provoking_vertex",
+            "VkPhysicalDeviceVulkan12Features" => "VK_KHR_draw_indirect_count",
             "VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT" => {
                 "VK_EXT_blend_operation_advanced"
             }

@@ -1,0 +1,225 @@
+//! Blits that move the texels of an attachment, and the copies that bring them back to their places.
+//!
+//! The copies move texels without scaling, so a blit that is executed in another way leaves another picture. Each
+//! aspect has copies of its own: a blit of one aspect that reaches another is seen too.
+
+use crate::halves;
+use etalon_frame::{Aspect, ChannelEncoding, PathEnd};
+
+/// One blit: corners of the source and the destination. Corners in reverse order mirror.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blit {
+    /// The aspects that the blit copies.
+    pub aspects: Vec<Aspect>,
+    /// Two opposite corners of the source.
+    pub from: [[u32; 2]; 2],
+    /// Two opposite corners of the destination.
+    pub to: [[u32; 2]; 2],
+}
+
+/// A copy of texels to their places in the attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The first texel after the blits.
+    pub from: [u32; 2],
+    /// Its place in the attachment.
+    pub to: [u32; 2],
+    /// The width and the height.
+    pub size: [u32; 2],
+}
+
+/// The blits of an attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blits {
+    end: PathEnd,
+    /// The size of the attachment.
+    size: [u32; 2],
+}
+
+/// The factors by which a blit scales.
+const SCALE: [u32; 2] = [2, 3];
+
+impl Blits {
+    /// Returns the blits of an attachment of this size; `None` if the way to the host moves no texels.
+    pub fn new(end: PathEnd, size: [u32; 2]) -> Option<Self> {
+        let moves = matches!(
+            end,
+            PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart
+        );
+        moves.then_some(Self { end, size })
+    }
+
+    /// Returns the size of the destination.
+    pub fn size(&self) -> [u32; 2] {
+        let [width, height] = self.size;
+        match self.end {
+            PathEnd::BlitScaled => [width * SCALE[0], height * SCALE[1]],
+            _ => self.size,
+        }
+    }
+
+    /// Returns the blits in their order.
+    pub fn blits(&self, aspects: &[Aspect]) -> Vec<Blit> {
+        let [width, height] = self.size;
+        let whole = [[0, 0], self.size];
+        let blit = |from, to| {
+            vec![Blit {
+                aspects: aspects.to_vec(),
+                from,
+                to,
+            }]
+        };
+        match self.end {
+            // One direction is mirrored by the source, the other by the destination.
+            PathEnd::BlitMirrored => blit([[0, height], [width, 0]], [[width, 0], [0, height]]),
+            PathEnd::BlitScaled => blit(whole, [[0, 0], self.size()]),
+            _ => self.parts(aspects),
+        }
+    }
+
+    /// Returns the blits of parts, each of one aspect. Neither aspect is always the later one.
+    fn parts(&self, aspects: &[Aspect]) -> Vec<Blit> {
+        let mut blits = Vec::new();
+        let each: Vec<Vec<Piece>> = aspects.iter().map(|aspect| self.pieces(*aspect)).collect();
+        for number in 0..each.first().map_or(0, Vec::len) {
+            let mut some: Vec<Blit> = aspects
+                .iter()
+                .zip(&each)
+                .map(|(aspect, pieces)| {
+                    let Piece { from, to, size } = pieces[number];
+                    let corners = |[x, y]: [u32; 2]| [[x, y], [x + size[0], y + size[1]]];
+                    Blit {
+                        aspects: vec![*aspect],
+                        from: corners(to),
+                        to: corners(from),
+                    }
+                })
+                .collect();
+            if number % 4 == 1 || number % 4 == 2 {
+                some.reverse();
+            }
+            blits.extend(some);
+        }
+        blits
+    }
+
+    /// Returns the copies that bring an aspect back.
+    pub fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
+        let [width, height] = self.size;
+        if self.end == PathEnd::BlitPart {
+            // Parts change places: columns, and rows unless the aspect is stencil.
+            let place = |side: u32, (start, length): (u32, u32)| side - start - length;
+            let rows = aspect != Aspect::Stencil;
+            let mut pieces = Vec::new();
+            for down in halves(height) {
+                for across in halves(width) {
+                    let top = if rows { place(height, down) } else { down.0 };
+                    pieces.push(Piece {
+                        from: [place(width, across), top],
+                        to: [across.0, down.0],
+                        size: [across.1, down.1],
+                    });
+                }
+            }
+            return pieces;
+        }
+        let texels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+        texels
+            .map(|[x, y]| Piece {
+                from: match self.end {
+                    PathEnd::BlitScaled => [
+                        x * SCALE[0] + (x + y) % SCALE[0],
+                        y * SCALE[1] + (x / SCALE[0] + y) % SCALE[1],
+                    ],
+                    _ => [width - 1 - x, height - 1 - y],
+                },
+                to: [x, y],
+                size: [1, 1],
+            })
+            .collect()
+    }
+}
+
+/// Returns the code of twice a code's value, and of the whole number that is at most a quarter away: a linear filter weighs
+/// texels by numbers of few bits. A value whose double has no code is no half, and stays no whole number.
+pub fn doubled(encoding: ChannelEncoding, code: u32) -> u32 {
+    let value = encoding.value_of_order(encoding.order_of_code(code));
+    let (twice, whole) = (2.0 * value, (2.0 * value).round());
+    let is_near = (twice - whole).abs() <= 0.25;
+    match encoding.normalized_range() {
+        Some((_, most)) if whole > f64::from(most) => encoding.nearest_code(0.5),
+        _ if is_near => encoding.nearest_code(whole),
+        _ => encoding.nearest_code(twice),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENDS: [PathEnd; 3] = [
+        PathEnd::BlitMirrored,
+        PathEnd::BlitScaled,
+        PathEnd::BlitPart,
+    ];
+
+    /// Returns the source texel that a blit stores at a texel.
+    fn source(blit: &Blit, texel: [u32; 2]) -> Option<[u32; 2]> {
+        let mut found = [0; 2];
+        for side in 0..2 {
+            let ends = |corners: [[u32; 2]; 2]| [corners[0][side], corners[1][side]].map(f64::from);
+            let ([from, from_end], [to, to_end]) = (ends(blit.from), ends(blit.to));
+            let share = (f64::from(texel[side]) + 0.5 - to) / (to_end - to);
+            if !(0.0..1.0).contains(&share) {
+                return None;
+            }
+            found[side] = (from + share * (from_end - from)).floor() as u32;
+        }
+        Some(found)
+    }
+
+    #[test]
+    fn copies_undo_blits() {
+        let aspects = [Aspect::Depth, Aspect::Stencil];
+        for (end, size) in ENDS.iter().flat_map(|end| [(*end, [5, 4]), (*end, [1, 7])]) {
+            let blits = Blits::new(end, size).expect("it moves texels");
+            for aspect in aspects {
+                let made = blits.blits(&aspects);
+                let made = || made.iter().filter(|blit| blit.aspects.contains(&aspect));
+                let mut reached = 0;
+                for Piece { from, to, size } in blits.pieces(aspect) {
+                    for [x, y] in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])) {
+                        let stored = made()
+                            .rev()
+                            .find_map(|blit| source(blit, [from[0] + x, from[1] + y]));
+                        assert_eq!(stored, Some([to[0] + x, to[1] + y]), "{end} {aspect:?}");
+                        reached += 1;
+                    }
+                }
+                assert_eq!(reached, size[0] * size[1], "{end}");
+            }
+        }
+    }
+
+    #[test]
+    fn halves_are_doubled() {
+        let unorm = ChannelEncoding::Unorm(8);
+        let found = [0, 127, 128, 64, 255].map(|code| doubled(unorm, code));
+        assert_eq!(found, [0, 255, 255, 128, 128]);
+        let float = ChannelEncoding::Float32;
+        let found = [0.0_f32, 0.498, 1.0].map(|value| doubled(float, value.to_bits()));
+        assert_eq!(found, [0.0_f32, 1.0, 2.0].map(f32::to_bits));
+    }
+
+    #[test]
+    fn each_way_moves_texels() {
+        for end in ENDS {
+            let blits = Blits::new(end, [5, 4]).expect("it moves texels");
+            let pieces = blits.pieces(Aspect::Depth);
+            assert!(pieces.iter().any(|piece| piece.from != piece.to), "{end}");
+        }
+        let parts = Blits::new(PathEnd::BlitPart, [5, 4]).expect("it moves texels");
+        assert_ne!(parts.pieces(Aspect::Depth), parts.pieces(Aspect::Stencil));
+        assert_eq!(Blits::new(PathEnd::Blit, [5, 4]), None);
+    }
+}

@@ -1,0 +1,163 @@
+//! Blits that move or filter the texels of an attachment on its way to the host, by way of another image.
+
+use crate::device::Device;
+use crate::format;
+use crate::image::Place;
+use crate::image_state::{ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED};
+use crate::plan::AttachmentPlan;
+use ash::vk;
+use etalon_backend::{Blit, Blits};
+use etalon_frame::{Aspect, PathEnd};
+
+/// Returns the size of the image between an attachment of this size and its copy; `None` if there is none.
+pub(crate) fn between(end: PathEnd, size: [u32; 2]) -> Option<[u32; 2]> {
+    match end {
+        PathEnd::BlitLinear => Some([2 * size[0], size[1]]),
+        _ => Blits::new(end, size).map(|blits| blits.size()),
+    }
+}
+
+/// Records the blits of an attachment to the image between, and from there the copies, or the filtered blit, to the copy.
+///
+/// # Safety
+/// Recording; the attachment's layout is that of a source, the copy's that of a destination, and nothing uses the image
+/// between.
+pub(crate) unsafe fn record(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    attachment: &AttachmentPlan,
+    between: vk::Image,
+    copy: vk::Image,
+) {
+    let api = &device.raw;
+    let size = attachment.size;
+    let aspects = attachment.aspects;
+    let change = |from: ImageState, to: ImageState| {
+        let barriers = [attachment
+            .barrier(from, to)
+            .image(between)
+            .subresource_range(Place::default().range(aspects))];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: the caller's.
+        unsafe { api.cmd_pipeline_barrier2(commands, &info) };
+    };
+    change(UNDEFINED, TRANSFER_DST);
+    // What a blit that is lost leaves behind is seen.
+    let ranges = [Place::default().range(aspects)];
+    // SAFETY: the caller's; the image between is in the layout of a destination.
+    unsafe {
+        if aspects == vk::ImageAspectFlags::COLOR {
+            let zeros = vk::ClearColorValue::default();
+            api.cmd_clear_color_image(commands, between, TRANSFER_DST.layout, &zeros, &ranges);
+        } else {
+            let value = vk::ClearDepthStencilValue {
+                depth: 0.3,
+                stencil: 77,
+            };
+            let layout = TRANSFER_DST.layout;
+            api.cmd_clear_depth_stencil_image(commands, between, layout, &value, &ranges);
+        }
+    }
+    change(TRANSFER_DST, TRANSFER_DST);
+    let named = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
+    let has = |aspect: &Aspect| aspects.contains(format::aspect_flag(*aspect));
+    let each: Vec<Aspect> = named.into_iter().filter(has).collect();
+    let moved = Blits::new(attachment.end, size);
+    let blits = match moved {
+        Some(blits) => blits.blits(&each),
+        None => columns(&each, size),
+    };
+    let regions = |blits: &[Blit], source: Place| -> Vec<vk::ImageBlit> {
+        blits.iter().map(|blit| region(blit, source)).collect()
+    };
+    let blit = |from, to, regions: &[vk::ImageBlit], filter| {
+        // SAFETY: the caller's; both images hold the rectangles.
+        unsafe {
+            api.cmd_blit_image(
+                commands,
+                from,
+                TRANSFER_SRC.layout,
+                to,
+                TRANSFER_DST.layout,
+                regions,
+                filter,
+            );
+        }
+    };
+    let first = regions(&blits, attachment.place);
+    blit(attachment.image, between, &first, vk::Filter::NEAREST);
+    change(TRANSFER_DST, TRANSFER_SRC);
+    let Some(moved) = moved else {
+        let narrowed = [Blit {
+            aspects: each,
+            from: [[0, 0], [2 * size[0], size[1]]],
+            to: [[0, 0], size],
+        }];
+        let narrowed = regions(&narrowed, Place::default());
+        return blit(between, copy, &narrowed, vk::Filter::LINEAR);
+    };
+    let place = Place::default();
+    let mut copies = Vec::new();
+    for aspect in each {
+        let layers = place.layers(format::aspect_flag(aspect));
+        copies.extend(moved.pieces(aspect).into_iter().map(|piece| vk::ImageCopy {
+            src_subresource: layers,
+            src_offset: place.offset(piece.from[0], piece.from[1]),
+            dst_subresource: layers,
+            dst_offset: place.offset(piece.to[0], piece.to[1]),
+            extent: vk::Extent3D {
+                width: piece.size[0],
+                height: piece.size[1],
+                depth: 1,
+            },
+        }));
+    }
+    // SAFETY: the caller's; both images hold the rectangles.
+    unsafe {
+        api.cmd_copy_image(
+            commands,
+            between,
+            TRANSFER_SRC.layout,
+            copy,
+            TRANSFER_DST.layout,
+            &copies,
+        );
+    }
+}
+
+/// Returns the blits of every column to every second one of an image twice as wide.
+fn columns(aspects: &[Aspect], [width, height]: [u32; 2]) -> Vec<Blit> {
+    let column = |x: u32| [[x, 0], [x + 1, height]];
+    (0..width)
+        .map(|x| Blit {
+            aspects: aspects.to_vec(),
+            from: column(x),
+            to: column(2 * x),
+        })
+        .collect()
+}
+
+/// Returns a blit from a place to the first level and layer of another image.
+fn region(blit: &Blit, source: Place) -> vk::ImageBlit {
+    let aspects = blit.aspects.iter();
+    let mask = aspects.fold(vk::ImageAspectFlags::empty(), |mask, aspect| {
+        mask | format::aspect_flag(*aspect)
+    });
+    let corners = |place: Place, [from, to]: [[u32; 2]; 2]| {
+        let end = place.offset(to[0], to[1]);
+        [
+            place.offset(from[0], from[1]),
+            vk::Offset3D {
+                z: end.z + 1,
+                ..end
+            },
+        ]
+    };
+    let target = Place::default();
+    vk::ImageBlit {
+        src_subresource: source.layers(mask),
+        src_offsets: corners(source, blit.from),
+        dst_subresource: target.layers(mask),
+        dst_offsets: corners(target, blit.to),
+    }
+}
