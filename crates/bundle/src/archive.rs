@@ -49,6 +49,9 @@ pub enum WriteError {
     /// There is one of the same name.
     #[error("{path} exists; replace it with --force, or choose another folder with --out", path = .0.display())]
     Exists(PathBuf),
+    /// There is a folder of the same name that holds something else.
+    #[error("{path} holds no bundle of etalon; name another folder with --out", path = .0.display())]
+    Foreign(PathBuf),
     /// The system refused.
     #[error("cannot write {path}: {source}", path = .path.display())]
     Io {
@@ -59,18 +62,61 @@ pub enum WriteError {
     },
 }
 
+/// The files that a bundle may have.
+const NAMES: [&str; 10] = [
+    "report.md",
+    "repro.c",
+    "repro.html",
+    "main.rs",
+    "Cargo.toml",
+    "Cargo.lock",
+    "expected.png",
+    "actual.png",
+    "difference.png",
+    CASE,
+];
+/// The file by which a bundle is known: a case file.
+const CASE: &str = "case.json";
+
 /// Checks that nothing is lost by writing a bundle of a name.
 ///
 /// # Errors
-/// If there is one, unless it may be replaced.
+/// If there is one, unless it may be replaced, or something else.
 pub fn free(out: &Path, name: &str, replace: bool) -> Result<(), WriteError> {
     let Written { folder, archive } = places(out, name);
+    if folder.exists() && !is_bundle(&folder) {
+        return Err(WriteError::Foreign(folder));
+    }
     for path in [folder, archive] {
         if !replace && path.exists() {
             return Err(WriteError::Exists(path));
         }
     }
     Ok(())
+}
+
+/// True if a folder is empty or holds the case file of a bundle.
+fn is_bundle(folder: &Path) -> bool {
+    let case = fs::read_to_string(folder.join(CASE)).unwrap_or_default();
+    let empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+    let has = |key: &str| case.contains(&format!("\"{key}\":"));
+    empty || has("about") && has("scene")
+}
+
+/// Puts the files of a folder into another one, without those of an earlier bundle there. Other files stay.
+fn put(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir_all(to)?;
+    for name in NAMES {
+        let path = to.join(name);
+        if path.exists() {
+            fs::remove_file(path)?;
+        }
+    }
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        fs::rename(entry.path(), to.join(entry.file_name()))?;
+    }
+    fs::remove_dir(from)
 }
 
 /// Writes a bundle. It is complete or not there: what is unfinished has another name.
@@ -93,9 +139,11 @@ pub fn write(out: &Path, name: &str, files: &[File], replace: bool) -> Result<Wr
         }
         let packed = packed(name, files).map_err(io(&written.archive))?;
         if written.folder.exists() {
-            fs::remove_dir_all(&written.folder).map_err(io(&written.folder))?;
+            put(&unfinished, &written.folder)
+        } else {
+            fs::rename(&unfinished, &written.folder)
         }
-        fs::rename(&unfinished, &written.folder).map_err(io(&written.folder))?;
+        .map_err(io(&written.folder))?;
         fs::write(&written.archive, packed).map_err(io(&written.archive))
     };
     let result = done();
@@ -165,15 +213,26 @@ mod tests {
     }
 
     #[test]
-    fn a_bundle_replaces_another_only_when_told() {
+    fn a_bundle_replaces_another_only_when_told_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
-        let files = [File::text("a.txt", "a", "one".to_owned())];
-        write(folder.path(), "x", &files, false).unwrap();
-        let again = write(folder.path(), "x", &files, false).unwrap_err();
+        let case = r#"{ "about": "a", "scene": {} }"#;
+        let files = |name: &str| {
+            let more = File::text(name, "a", "one".to_owned());
+            [File::text(CASE, "a", case.to_owned()), more]
+        };
+        let written = write(folder.path(), "x", &files("repro.c"), false).unwrap();
+        let again = write(folder.path(), "x", &files("repro.c"), false).unwrap_err();
         assert!(again.to_string().contains("--force"), "{again}");
-        let files = [File::text("b.txt", "b", "two".to_owned())];
-        let written = write(folder.path(), "x", &files, true).unwrap();
-        assert!(!written.folder.join("a.txt").exists());
-        assert_eq!(fs::read(written.folder.join("b.txt")).unwrap(), b"two");
+        fs::write(written.folder.join("notes.txt"), "mine").unwrap();
+        write(folder.path(), "x", &files("main.rs"), true).unwrap();
+        assert!(!written.folder.join("repro.c").exists());
+        assert_eq!(fs::read(written.folder.join("main.rs")).unwrap(), b"one");
+        assert_eq!(fs::read(written.folder.join("notes.txt")).unwrap(), b"mine");
+        for text in ["{}", "mine"] {
+            fs::write(written.folder.join(CASE), text).unwrap();
+            let foreign = write(folder.path(), "x", &files("repro.c"), true).unwrap_err();
+            assert!(matches!(foreign, WriteError::Foreign(_)), "{foreign}");
+            assert!(written.folder.join("main.rs").exists());
+        }
     }
 }

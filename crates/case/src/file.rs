@@ -2,9 +2,11 @@
 
 use crate::each::unroll;
 use crate::error::{At, CaseError};
+use crate::json::parse_json;
 use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
 use crate::wire::{AxisValue, FileWire, QuickWire};
+use etalon_frame::without_mark;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 
@@ -52,8 +54,9 @@ impl CaseFile {
     /// With file, line and key, when the text is not JSON, a key is unknown or an axis is unusable.
     /// Scenes are checked by [`CaseRef::build`].
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let text = without_mark(text);
         let fail = |at: At| at.locate(name, text);
-        let mut value: Value = serde_json::from_str(text).map_err(|e| CaseError {
+        let mut value: Value = parse_json(text).map_err(|e| CaseError {
             file: name.to_owned(),
             line: e.line(),
             key: String::new(),

@@ -3,7 +3,8 @@
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
 use std::fs;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/case_files.rs"));
@@ -45,12 +46,12 @@ impl Library {
     /// All files ending in `.json` below a folder, each with its own error.
     pub fn read_each(folder: &Path) -> Vec<Result<CaseFile, CaseError>> {
         let mut names = Vec::new();
-        if let Err(error) = collect(folder, "", &mut names) {
+        if let Err(error) = collect(folder, "", &mut Vec::new(), &mut names) {
             return vec![Err(error)];
         }
         names.sort();
         let read = |name: String| {
-            let text = fs::read_to_string(folder.join(&name)).map_err(|e| unreadable(&name, &e))?;
+            let text = text_of(&folder.join(&name)).map_err(|e| unreadable(&name, &e))?;
             CaseFile::parse(&name, &text)
         };
         names.into_iter().map(read).collect()
@@ -67,6 +68,14 @@ impl Library {
     }
 }
 
+/// Reads a file. A pipe would be waited for.
+fn text_of(path: &Path) -> io::Result<String> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is no file"));
+    }
+    fs::read_to_string(path)
+}
+
 fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     CaseError {
         file: name.to_owned(),
@@ -76,19 +85,32 @@ fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     }
 }
 
-fn collect(folder: &Path, prefix: &str, names: &mut Vec<String>) -> Result<(), CaseError> {
+/// Collects the names of the files below a folder. `above` are the folders around it, without links.
+fn collect(
+    folder: &Path,
+    prefix: &str,
+    above: &mut Vec<PathBuf>,
+    names: &mut Vec<String>,
+) -> Result<(), CaseError> {
     let label = folder.display().to_string();
+    let real = fs::canonicalize(folder).map_err(|e| unreadable(&label, &e))?;
+    if above.contains(&real) {
+        let back = "it is a link to a folder that it lies in; remove it";
+        return Err(unreadable(&label, &io::Error::other(back)));
+    }
+    above.push(real);
     let entries = fs::read_dir(folder).map_err(|e| unreadable(&label, &e))?;
     for entry in entries {
         let entry = entry.map_err(|e| unreadable(&label, &e))?;
         let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
         let path = entry.path();
         if path.is_dir() {
-            collect(&path, &format!("{name}/"), names)?;
+            collect(&path, &format!("{name}/"), above, names)?;
         } else if name.ends_with(".json") {
             names.push(name);
         }
     }
+    above.pop();
     Ok(())
 }
 

@@ -11,8 +11,11 @@ use std::collections::BTreeSet;
 /// The most cases of a file whose draws are looked at.
 const LOOKED_AT: usize = 256;
 
+/// The most warnings of a file, each of which is looked for in the whole text.
+const MOST: usize = 64;
+
 impl CaseFile {
-    /// Returns the warnings, in no case an error: axes and derived values that nothing uses, and draws whose shader
+    /// Returns the first warnings, in no case an error: axes and derived values that nothing uses, and draws whose shader
     /// reads a parameter that the file does not give.
     pub fn warnings(&self) -> Vec<CaseError> {
         let mut all = self.unused();
@@ -21,6 +24,7 @@ impl CaseFile {
         let mut seen = BTreeSet::new();
         located
             .filter(|warning| seen.insert(warning.to_string()))
+            .take(MOST)
             .collect()
     }
 

@@ -14,6 +14,9 @@ use serde_json::Value;
 /// The most counters of a scene.
 const MAX_COUNTERS: usize = 64;
 
+/// The most draws of a scene as a file has them, `tiles` apart.
+const MAX_DRAWS: usize = 1 << 16;
+
 /// Parses and checks a scene.
 pub(crate) fn parse_scene(value: &Value) -> Result<Scene, At> {
     scene(&typed::<SceneWire>(value)?)
@@ -39,6 +42,11 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
         })
         .collect();
     check_pool(wire).map_err(|e| e.key("pool"))?;
+    let draws: usize = wire.passes.iter().map(|pass| pass.draws.len()).sum();
+    if draws > MAX_DRAWS {
+        let message = format!("a scene has {MAX_DRAWS} draws at most, and this has {draws}");
+        return Err(At::new(message).key("passes"));
+    }
     let mut passes = Vec::new();
     for (i, p) in wire.passes.iter().enumerate() {
         passes.push(

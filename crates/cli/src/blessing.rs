@@ -16,7 +16,7 @@ const DEFAULT: &str = "ci/findings";
 ///
 /// # Errors
 /// In CI, where expectations are never written, and if no path is named or found.
-pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
+pub(crate) fn to_bless(named: &[PathBuf]) -> Result<PathBuf, Failure> {
     let ci = std::env::var("CI").unwrap_or_default();
     if !matches!(ci.to_lowercase().as_str(), "" | "0" | "false" | "no") {
         return Err(Failure::usage(
@@ -25,9 +25,12 @@ pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
         ));
     }
     match named {
-        Some(path) => Ok(path.to_owned()),
-        None if Path::new(DEFAULT).is_dir() => Ok(PathBuf::from(DEFAULT)),
-        None => Err(Failure::usage(format!(
+        [path] => Ok(path.clone()),
+        [_, ..] => Err(Failure::usage(
+            "--bless writes one list or folder; name it with one --expect",
+        )),
+        [] if Path::new(DEFAULT).is_dir() => Ok(PathBuf::from(DEFAULT)),
+        [] => Err(Failure::usage(format!(
             "there is no {DEFAULT} here; name the list or folder to write with --expect"
         ))),
     }

@@ -7,10 +7,9 @@ use crate::near::did_you_mean;
 use crate::output::say;
 use crate::processors::processors;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Library, Profile};
+use etalon_frame::threads::each;
 use std::collections::{BTreeSet, HashSet};
-use std::panic::resume_unwind;
 use std::path::PathBuf;
-use std::thread;
 
 /// Returns the selected cases, built, so that errors of case files show before anything is drawn. Warnings on files of
 /// a user's own are printed.
@@ -100,7 +99,11 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
     }
     let library = library(arguments.cases.as_ref())?;
     let full = etalon_runner::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
-    let globs_shown = globs.join(" ");
+    let shown = |glob: &String| match glob.as_str() {
+        "" => "''".to_owned(),
+        glob => glob.to_owned(),
+    };
+    let globs_shown = globs.iter().map(shown).collect::<Vec<_>>().join(" ");
     Err(Failure::nothing(match full.cases.len() {
         0 => format!(
             "no case matches {globs_shown}{}; `etalon list` lists all",
@@ -181,14 +184,9 @@ pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<
 /// Builds cases on all cores, since a full run would wait a second for it.
 fn build_each(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, Failure> {
     let share = cases.len().div_ceil(processors()).max(1);
-    let parts: Vec<Result<Vec<Case>, CaseError>> = thread::scope(|scope| {
-        let parts = cases.chunks(share);
-        let started: Vec<_> = parts
-            .map(|cases| scope.spawn(|| cases.iter().map(CaseRef::build).collect()))
-            .collect();
-        let done = started.into_iter();
-        done.map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
-            .collect()
+    let parts: Vec<&[CaseRef<'_>]> = cases.chunks(share).collect();
+    let parts: Vec<Result<Vec<Case>, CaseError>> = each(parts.len(), &parts, |cases| {
+        cases.iter().map(CaseRef::build).collect()
     });
     let mut cases = Vec::new();
     for part in parts {

@@ -6,11 +6,10 @@ use etalon_backend::Backend;
 use etalon_case::{Case, CaseRef, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
+use etalon_frame::threads::each;
 use etalon_report::{Catalogue, CatalogueCase, reference_picture};
 use std::collections::{BTreeSet, HashMap};
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The most texels of the pictures that are drawn.
 const TEXELS: u64 = 1 << 20;
@@ -31,25 +30,7 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
         }
     }
     // Large pictures lie together, so each thread takes the next case and not a part of them.
-    let next = AtomicUsize::new(0);
-    let some = || {
-        let taken = std::iter::from_fn(|| {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            cases.get(place).map(|case| (place, case))
-        });
-        taken
-            .map(|(place, case)| (place, entry(case, &files)))
-            .collect::<Vec<_>>()
-    };
-    let threads = processors();
-    let mut entries: Vec<(usize, CatalogueCase)> = thread::scope(|scope| {
-        let parts: Vec<_> = (0..threads).map(|_| scope.spawn(some)).collect();
-        let done = parts.into_iter();
-        done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
-            .collect()
-    });
-    entries.sort_by_key(|(place, _)| *place);
-    catalogue.cases = entries.into_iter().map(|(_, case)| case).collect();
+    catalogue.cases = each(processors(), cases, |case| entry(case, &files));
     for case in cases {
         for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
             catalogue

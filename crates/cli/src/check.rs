@@ -11,12 +11,11 @@ use edges::{Near, nearest};
 use etalon_backend::Backend;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Profile};
 use etalon_cpu::CpuBackend;
+use etalon_frame::threads::each;
 use etalon_frame::{Api, ApiVersion, Aspect, CodeInterval, LegalSet, Limits};
 use etalon_record::Assertion;
 use etalon_reference::{Judgement, Rules, judgements};
 use std::collections::BTreeMap;
-use std::panic::resume_unwind;
-use std::thread;
 
 /// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
 const SUB_PIXEL_BITS: u8 = 4;
@@ -58,7 +57,7 @@ pub(crate) struct CheckedFile {
 /// Checks files: all of their cases are built, those of the profile are judged.
 pub(crate) fn check(files: &[CaseFile], profile: Profile) -> Vec<CheckedFile> {
     let mut checked: Vec<CheckedFile> = Vec::new();
-    for (file, built) in files.iter().zip(in_parallel(files, build_all)) {
+    for (file, built) in files.iter().zip(each(processors(), files, build_all)) {
         checked.push(CheckedFile {
             name: file.name().to_owned(),
             errors: built,
@@ -72,7 +71,7 @@ pub(crate) fn check(files: &[CaseFile], profile: Profile) -> Vec<CheckedFile> {
     let cases: Vec<(usize, CaseRef<'_>)> = sound
         .flat_map(|(number, (file, _))| file.cases(profile).map(move |case| (number, case)))
         .collect();
-    let judged = in_parallel(&cases, |(number, case)| {
+    let judged = each(processors(), &cases, |(number, case)| {
         (*number, case.build().map(|c| check_case(&c)))
     });
     for (number, case) in judged {
@@ -102,32 +101,6 @@ fn build_all(file: &CaseFile) -> Vec<CaseError> {
         }
     }
     errors
-}
-
-/// Applies a function to all of a list, on all cores; the results stand in the order of the list.
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = processors();
-    let share = items.len().div_ceil(4 * threads).max(1);
-    let parts: Vec<&[T]> = items.chunks(share).collect();
-    let next = std::sync::atomic::AtomicUsize::new(0);
-    let (one, parts, next) = (&work, &parts, &next);
-    let mut done: Vec<(usize, Vec<R>)> = thread::scope(|scope| {
-        let work = || {
-            let mut mine = Vec::new();
-            while let index = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
-                && let Some(part) = parts.get(index)
-            {
-                mine.push((index, part.iter().map(one).collect()));
-            }
-            mine
-        };
-        let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        let done = started.into_iter();
-        done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
-            .collect()
-    });
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().flat_map(|(_, part)| part).collect()
 }
 
 fn limits(api: Api) -> Limits {

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::provenance;
+use clap::Args;
 use etalon_record::{Entry, Expectations, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,13 +10,51 @@ use std::path::{Path, PathBuf};
 /// The files of `ci/findings`: paths and texts.
 const FINDINGS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/findings.rs"));
 
-/// Returns the expectations of a file or folder, or the built-in findings.
-pub(crate) fn read(path: Option<&Path>) -> Result<Expectations, Failure> {
-    match path {
-        Some(path) => Expectations::read(path),
-        None => Expectations::of_findings(FINDINGS),
+/// Expectations of a user's own.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct ExpectArguments {
+    /// Add these expectations to the built-in findings: a list, a finding, or a folder of findings; may be repeated
+    #[arg(long, value_name = "PATH")]
+    pub(crate) expect: Vec<PathBuf>,
+    /// Leave the built-in findings out: only what --expect names is expected
+    #[arg(long)]
+    pub(crate) expect_only: bool,
+}
+
+impl ExpectArguments {
+    /// Returns the expectations as they count today, in a run with these labels on this machine. What a user names
+    /// goes before the findings.
+    pub(crate) fn read(&self, labels: &[String]) -> Result<Expectations, Failure> {
+        let mut expectations = Expectations::default();
+        for path in &self.expect {
+            let more = Expectations::read(path).map_err(Failure::usage)?;
+            expectations = expectations.and(more);
+        }
+        if !self.expect_only {
+            expectations = expectations.and(findings()?);
+        }
+        Ok(counting(expectations, labels))
     }
-    .map_err(Failure::usage)
+}
+
+/// Returns the built-in findings as they count today on this machine.
+pub(crate) fn built_in() -> Result<Expectations, Failure> {
+    Ok(counting(findings()?, &[]))
+}
+
+fn findings() -> Result<Expectations, Failure> {
+    Expectations::of_findings(FINDINGS).map_err(Failure::usage)
+}
+
+/// Returns expectations as they count today, in a run with these labels on this machine.
+pub(crate) fn counting(expectations: Expectations, labels: &[String]) -> Expectations {
+    let machine = provenance::machine();
+    expectations.of_run(&machine.cpu, labels).on(&today())
+}
+
+/// True for the place of a built-in finding.
+pub(crate) fn is_built_in(place: &str) -> bool {
+    FINDINGS.iter().any(|(path, _)| *path == place)
 }
 
 /// Returns the current day in UTC, such as `2027-01-31`.

@@ -6,6 +6,7 @@ use crate::reduction::{Reducer, confirm, file_name};
 use etalon_case::Case;
 use etalon_diagnose::{Groups, Key, KnownBugs, Symptom};
 use etalon_explore::{Candidate, Oracle, RandomScene, keys, states};
+use etalon_frame::threads::share;
 use etalon_record::Record;
 use etalon_report::ReducedCase;
 use serde_json::{Value, json};
@@ -13,7 +14,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 /// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
 /// was drawn before.
@@ -51,6 +51,13 @@ pub(crate) struct Folders {
     pub(crate) found: PathBuf,
     /// Of the others.
     pub(crate) known: PathBuf,
+}
+
+impl Folders {
+    /// The name of the first.
+    pub(crate) const FOUND: &str = "found";
+    /// The name of the second.
+    pub(crate) const KNOWN: &str = "known";
 }
 
 /// A scene that was looked at, before it is known to be new.
@@ -96,16 +103,12 @@ impl<'a> FailingScenes<'a> {
             stop,
             ..
         } = reducer;
-        thread::scope(|scope| {
-            for _ in 0..jobs {
-                scope.spawn(|| {
-                    while !stop.load(Ordering::Relaxed)
-                        && let Some((group, case)) = next()
-                    {
-                        let confirmed = confirm(launch, &case, &group.symptom, *timeout);
-                        group.steady = confirmed.is_ok();
-                    }
-                });
+        share(jobs, || {
+            while !stop.load(Ordering::Relaxed)
+                && let Some((group, case)) = next()
+            {
+                let confirmed = confirm(launch, &case, &group.symptom, *timeout);
+                group.steady = confirmed.is_ok();
             }
         });
     }

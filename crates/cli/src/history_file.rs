@@ -44,6 +44,11 @@ impl LabelArguments {
         parse_labels(&self.texts).map_err(Failure::usage)
     }
 
+    /// The labels as they were given, `key=value`.
+    pub(crate) fn given(&self) -> &[String] {
+        &self.texts
+    }
+
     /// The words that give the same labels again.
     pub(crate) fn words(&self) -> impl Iterator<Item = &str> {
         let each = self.texts.iter();

@@ -1,8 +1,8 @@
-//! The folder of `--out`: nothing that somebody recorded there is lost without `--force`.
+//! The folder of `--out`: nothing that somebody recorded there is lost without `--force`, and nothing else at all.
 
 use crate::failure::Failure;
 use crate::report_files;
-use etalon_record::{Bench, FolderKind, FolderLock, RecordError, Run, clear};
+use etalon_record::{Bench, Content, FolderKind, FolderLock, RecordError, Run, clear, overlap};
 use std::path::Path;
 
 /// The treatment of the present content of a command's folder.
@@ -11,8 +11,10 @@ pub(crate) struct Out<'a> {
     pub(crate) folder: &'a Path,
     /// The kind that is to be written.
     pub(crate) kind: FolderKind,
-    /// The default folder, which is replaced by its own kind without being asked.
-    pub(crate) latest: &'a str,
+    /// The default folder if it is replaced by its own kind without being asked.
+    pub(crate) latest: Option<&'a str>,
+    /// The folder of `--cases`, whose files must not be mixed with what is written.
+    pub(crate) cases: Option<&'a Path>,
     pub(crate) resume: bool,
     pub(crate) force: bool,
 }
@@ -27,14 +29,38 @@ pub(crate) struct Claim<'a> {
 }
 
 impl Claim<'_> {
-    /// Makes and locks the folder, and removes what it holds of the other kind.
+    /// Makes and locks the folder, and removes what it holds of another kind, and the reports of its own.
     ///
     /// # Errors
     /// When a file cannot be removed, or another process has the folder.
     pub(crate) fn take(self) -> Result<FolderLock, Failure> {
         let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
-        self.out.clear_other()?;
+        let Out { folder, kind, .. } = self.out;
+        match Content::writable(folder).map_err(Failure::usage)? {
+            Content::Recorded(other) if other != kind => {
+                clear(folder, other, report_files::of(other)).map_err(Failure::usage)?;
+            }
+            // A run or bench that goes on keeps its reports, and one that is replaced loses them with its records.
+            Content::Recorded(FolderKind::Fuzz | FolderKind::Versions | FolderKind::Hunt) => {
+                report_files::of(kind)
+                    .remove(folder)
+                    .map_err(Failure::usage)?;
+            }
+            _ => {}
+        }
         Ok(lock)
+    }
+}
+
+/// Refuses a folder to write to in which `--cases` lies, or which lies in it.
+pub(crate) fn apart(folder: &Path, cases: Option<&Path>) -> Result<(), Failure> {
+    match cases {
+        Some(cases) if overlap(folder, cases) => Err(Failure::usage(format!(
+            "--out {} and --cases {} must not lie one in the other; name another folder with --out",
+            folder.display(),
+            cases.display()
+        ))),
+        _ => Ok(()),
     }
 }
 
@@ -44,6 +70,8 @@ impl<'a> Out<'a> {
     /// # Errors
     /// When the folder holds what may not be replaced, or another process has it. Nothing has been changed then.
     pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
+        apart(self.folder, self.cases)?;
+        Content::writable(self.folder).map_err(Failure::usage)?;
         let lock = self.folder.exists().then(|| self.lock()).transpose()?;
         Ok(Claim {
             out: self,
@@ -59,17 +87,21 @@ impl<'a> Out<'a> {
     /// Returns true if what the folder holds is continued.
     fn resumes(self) -> Result<bool, Failure> {
         let path = self.folder.to_owned();
-        match FolderKind::of(self.folder) {
-            None => Ok(false),
-            Some(kind) if kind != self.kind => {
+        match Content::writable(self.folder).map_err(Failure::usage)? {
+            Content::Empty | Content::Other => Ok(false),
+            Content::Recorded(kind) if kind != self.kind => {
                 if self.force {
                     return Ok(false);
                 }
                 Err(Failure::usage(RecordError::Holds { path, kind }))
             }
-            Some(_) if self.resume => Ok(true),
-            Some(_) if self.force || self.folder == Path::new(self.latest) => Ok(false),
-            Some(kind) => {
+            Content::Recorded(_) if self.resume => Ok(true),
+            Content::Recorded(_)
+                if self.force || self.latest.is_some_and(|l| self.folder == Path::new(l)) =>
+            {
+                Ok(false)
+            }
+            Content::Recorded(kind) => {
                 let damaged = |e: RecordError| {
                     Failure::usage(format!(
                         "{e}; or replace the {} in {} by --force",
@@ -90,22 +122,9 @@ impl<'a> Out<'a> {
                         path,
                         missing: Bench::read(self.folder).map_err(damaged)?.missing(),
                     },
+                    kind => RecordError::Holds { path, kind },
                 }))
             }
-        }
-    }
-
-    /// Removes what the folder holds of the other kind, once [`Out::resumes`] has allowed it.
-    fn clear_other(self) -> Result<(), Failure> {
-        let reports = match self.kind {
-            FolderKind::Run => report_files::BENCH,
-            FolderKind::Bench => report_files::RUN,
-        };
-        match FolderKind::of(self.folder) {
-            Some(kind) if kind != self.kind && self.force => {
-                clear(self.folder, kind, reports).map_err(Failure::usage)
-            }
-            _ => Ok(()),
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A reader that goes away, as `head` does, never changes an exit code: it has what it wanted. Nothing here panics, as
 //! `println!` and `eprintln!` do. [`print()`] is for commands whose product is what they print, so that any other failed
-//! write is an error; [`summarize`] for those whose product is a folder, where none is.
+//! write is an error; [`summarize`] for people, of those whose product is a folder, where none is. JSON is read by programs,
+//! which must not take a part for the whole.
 
 use crate::failure::Failure;
 use etalon_report::TableOptions;
@@ -38,15 +39,6 @@ pub(crate) fn summarize(text: &str) {
         }
         _ => {}
     }
-}
-
-/// Writes a summary as indented JSON.
-///
-/// # Errors
-/// If the value has no JSON form.
-pub(crate) fn summarize_json(value: &impl Serialize) -> Result<(), Failure> {
-    summarize(&json(value)?);
-    Ok(())
 }
 
 fn json(value: &impl Serialize) -> Result<String, Failure> {

@@ -14,7 +14,13 @@ pub(crate) fn commit() -> Option<String> {
 
 /// Returns the current time in UTC, such as `2027-01-31T12:00:00Z`.
 pub(crate) fn now() -> String {
-    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+    written(SystemTime::now())
+}
+
+/// Writes a time; one before 1970, as a machine without a battery has it, is the beginning of that year.
+fn written(time: SystemTime) -> String {
+    let time = time.max(SystemTime::UNIX_EPOCH);
+    humantime::format_rfc3339_seconds(time).to_string()
 }
 
 /// Returns the words of the command line, with the name of the program instead of its path.
@@ -41,5 +47,22 @@ pub(crate) fn machine() -> Machine {
         cpu: field("/proc/cpuinfo", "model name", ':')
             .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
         cores: processors() as u32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_clock_before_1970_is_no_panic() {
+        let day = Duration::from_secs(86_400);
+        let before = SystemTime::UNIX_EPOCH - day;
+        assert_eq!(written(before), "1970-01-01T00:00:00Z");
+        assert_eq!(
+            written(SystemTime::UNIX_EPOCH + day),
+            "1970-01-02T00:00:00Z"
+        );
     }
 }

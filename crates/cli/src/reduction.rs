@@ -47,14 +47,25 @@ pub(crate) fn confirm(
 ) -> Result<(), String> {
     let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
     let (record, _) = worker.record(case, timeout);
-    if symptom.covers(&Symptom::of(&record)) {
+    let alone = Symptom::of(&record);
+    if symptom.covers(&alone) {
         Ok(())
     } else {
-        Err(format!(
-            "fails only after others in the same process: drawn alone it is {}",
-            record.verdict
-        ))
+        Err(unconfirmed(symptom, &alone))
     }
+}
+
+/// Returns the sentence on a case that fails in another way, or not at all, when it is drawn alone.
+fn unconfirmed(before: &Symptom, alone: &Symptom) -> String {
+    if alone.verdict.is_bad() {
+        return format!(
+            "is unsteady: it failed by {before}, and drawn alone in a new process it fails by {alone}"
+        );
+    }
+    format!(
+        "fails only after others in the same process: drawn alone it is {}",
+        alone.verdict
+    )
 }
 
 /// The judge as oracle, with a driver's frames; of a case that ends its worker, the way in which it does.
@@ -267,5 +278,21 @@ impl<'a> Driver for Reducer<'a> {
 
     fn is_steady(&self, case: &Candidate, symptom: &Symptom) -> bool {
         confirm(&self.launch, &case.case, symptom, self.timeout).is_ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crash_alone_is_no_success_alone() {
+        let symptom = |verdict| Symptom::of(&Record::new("a", "gl:x", verdict));
+        let (fail, crash, pass) = (Verdict::Fail, Verdict::Crash, Verdict::Pass);
+        let unsteady = unconfirmed(&symptom(fail), &symptom(crash));
+        assert!(unsteady.starts_with("is unsteady"), "{unsteady}");
+        assert!(!unsteady.contains("only after"), "{unsteady}");
+        let after = unconfirmed(&symptom(fail), &symptom(pass));
+        assert!(after.ends_with("drawn alone it is pass"), "{after}");
     }
 }

@@ -67,7 +67,7 @@ pub fn bless(
             blessing.unblessed += 1;
         } else if !follows
             && !matches!(
-                expectations.look_up(adapter, &record.case, record.verdict),
+                expectations.look_up_record(adapter, record),
                 Expectation::Agrees(_)
             )
         {
@@ -129,6 +129,9 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
         grade: Some(Grade::Unread),
         link: None,
         expires: None,
+        symptom: None,
+        processor: None,
+        labels: Vec::new(),
     }
 }
 
@@ -206,6 +209,9 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
                 read: None,
                 link: None,
                 expires: None,
+                symptom: None,
+                processor: None,
+                labels: Vec::new(),
             },
         ));
     }

@@ -35,6 +35,7 @@ mod property;
 mod samples;
 mod split_mix;
 mod story;
+pub mod threads;
 mod version;
 mod work;
 
@@ -60,7 +61,7 @@ pub use legal::{
     WorldBox,
 };
 pub use limits::{FormatSupport, Limits, Requirement};
-pub use message::shortened;
+pub use message::{shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
     PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart,

@@ -15,6 +15,11 @@ pub fn shortened(text: &str) -> String {
     format!("{head} […] {tail}")
 }
 
+/// Returns a text without the byte order mark that some editors begin one with.
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

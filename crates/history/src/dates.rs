@@ -2,7 +2,7 @@
 
 use crate::error::HistoryError;
 use crate::time::parse_time;
-use etalon_frame::shortened;
+use etalon_frame::{shortened, without_mark};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -22,7 +22,8 @@ impl ReleaseDates {
             message,
         };
         let lines: BTreeMap<String, BTreeMap<String, String>> =
-            serde_json::from_str(text).map_err(|e| wrong(shortened(&e.to_string())))?;
+            serde_json::from_str(without_mark(text))
+                .map_err(|e| wrong(shortened(&e.to_string())))?;
         let mut dates = BTreeMap::new();
         for (line, versions) in lines {
             let releases: &mut BTreeMap<String, i64> = dates.entry(line.clone()).or_default();

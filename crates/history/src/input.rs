@@ -58,6 +58,9 @@ enum What {
     Versions,
 }
 
+/// The byte order mark that some editors begin a text with.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
 impl What {
     /// Tells by the header, since files are renamed.
     fn of(path: &Path) -> Result<Self, HistoryError> {
@@ -68,7 +71,8 @@ impl What {
         BufReader::new(open(path)?.take(MAX_HEADER))
             .read_until(b'\n', &mut line)
             .map_err(HistoryError::io("read", path))?;
-        let header: Map<String, Value> = serde_json::from_slice(&line).map_err(|_| none())?;
+        let header: Map<String, Value> =
+            serde_json::from_slice(line.strip_prefix(MARK).unwrap_or(&line)).map_err(|_| none())?;
         let has = |keys: &[&str]| keys.iter().all(|key| header.contains_key(*key));
         if !has(&["format"]) {
             Err(none())

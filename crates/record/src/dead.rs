@@ -26,6 +26,8 @@ state_enum! {
         Covered = "covered",
         /// All its cases were drawn on all its adapters, and none had its verdict.
         NeverMatched = "never-matched",
+        /// Its last day is over.
+        Expired = "expired",
     }
 }
 
@@ -95,7 +97,7 @@ impl Expectations {
         let mut ids = Names::new(ids);
         let mut dead = Vec::new();
         let mut reaches = Vec::new();
-        for known in self.all() {
+        for (number, known) in self.all().iter().enumerate() {
             let mut part = |kind, glob: String| {
                 dead.push(Dead {
                     kind,
@@ -113,6 +115,15 @@ impl Expectations {
                     .parts_without(glob)
                     .into_iter()
                     .for_each(|glob| part(DeadKind::NoAdapter, glob));
+            }
+            if self.expired(known) {
+                let last = known.expires.as_deref().unwrap_or_default();
+                part(DeadKind::Expired, format!("{last}: {}", known.reason));
+            }
+            if !self.applies(number) {
+                // Another machine or run may have what it names.
+                reaches.push(Reach::default());
+                continue;
             }
             reaches.push(Reach {
                 cases: ids.reach(&known.cases),
@@ -181,7 +192,7 @@ impl Expectations {
             if !self.names(number, &record.case) {
                 continue;
             }
-            if self.excuses(number, record.verdict) {
+            if self.excuses(number, record) {
                 return false;
             }
             drawn |= !matches!(
@@ -198,6 +209,7 @@ impl Expectations {
 }
 
 /// The indices of the cases and adapters that an expectation names.
+#[derive(Default)]
 struct Reach {
     cases: BTreeSet<usize>,
     adapters: BTreeSet<usize>,
@@ -223,7 +235,10 @@ fn covers(by: &Known, known: &Known) -> bool {
         (Some(_), None) => false,
         (Some(by), Some(known)) => by >= known,
     };
-    verdict && driver && version && day
+    let symptom = by.symptom.is_none() || by.symptom == known.symptom;
+    let machine = by.processor.is_none() || by.processor == known.processor;
+    let labels = by.labels.iter().all(|label| known.labels.contains(label));
+    verdict && driver && version && day && symptom && machine && labels
 }
 
 fn is_pattern(glob: &str) -> bool {

@@ -47,6 +47,14 @@ pub enum RecordError {
         /// Its content.
         kind: FolderKind,
     },
+    /// The folder holds what no command recorded.
+    #[error("{}; name another folder", foreign(path, *damaged))]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// The kind of the file in it whose header does not parse.
+        damaged: Option<FolderKind>,
+    },
     /// A bench is in the folder already.
     #[error(
         "{} already holds a bench, of which {missing} rounds are missing: choose another folder with --out, --resume \
@@ -161,6 +169,17 @@ pub enum RecordError {
         /// The reason.
         source: serde_json::Error,
     },
+}
+
+fn foreign(path: &Path, damaged: Option<FolderKind>) -> String {
+    let path = path.display();
+    match damaged {
+        None => format!("{path} is not empty, and etalon did not record what it holds"),
+        Some(kind) => format!(
+            "{path} holds a {} without a header of etalon, so that nobody knows whose files these are",
+            kind.file()
+        ),
+    }
 }
 
 impl RecordError {

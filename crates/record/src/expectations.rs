@@ -6,11 +6,13 @@ use crate::adapter::AdapterRecord;
 use crate::date::check_date;
 use crate::driver_version::version_of;
 use crate::error::RecordError;
+use crate::expected_symptom::ExpectedSymptom;
 use crate::findings::{self, Finding};
 use crate::grade::Grade;
 use crate::json::without_position;
+use crate::record::Record;
 use crate::verdict::Verdict;
-use etalon_frame::shortened;
+use etalon_frame::{shortened, without_mark};
 use globset::{GlobBuilder, GlobMatcher};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
@@ -36,6 +38,15 @@ pub struct Entry {
     /// The expected verdict, which excuses no other one. `flaky` excuses every bad verdict, `skipped` keeps the
     /// case from being drawn.
     pub verdict: Verdict,
+    /// What the failure shows; another wrong value of the same case is not excused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symptom: Option<ExpectedSymptom>,
+    /// A glob over the processor of the machine; any where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub processor: Option<String>,
+    /// Labels that the run must have, as `key=value`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<String>,
     /// The reason why the verdict is accepted.
     pub reason: String,
     /// The evidence: a bug report, a section of a specification.
@@ -84,6 +95,12 @@ pub struct Known {
     pub reason: String,
     /// The last day on which it counts.
     pub expires: Option<String>,
+    /// What the failure shows.
+    pub symptom: Option<ExpectedSymptom>,
+    /// A glob over the processor of the machine.
+    pub processor: Option<String>,
+    /// Labels that the run must have.
+    pub labels: Vec<String>,
     /// The file.
     pub path: PathBuf,
     /// The number in a list, from 1; `None` for a finding.
@@ -102,6 +119,9 @@ impl Known {
             verdict: entry.verdict,
             reason: entry.reason.clone(),
             expires: entry.expires.clone(),
+            symptom: entry.symptom.clone(),
+            processor: entry.processor.clone(),
+            labels: entry.labels.clone(),
             path: path.to_owned(),
             number: Some(number),
             source: Source::Entry(entry),
@@ -117,6 +137,9 @@ impl Known {
             verdict: finding.expected(),
             reason: finding.title.clone(),
             expires: finding.expires.clone(),
+            symptom: finding.symptom.clone(),
+            processor: finding.processor.clone(),
+            labels: finding.labels.clone(),
             path: path.to_owned(),
             number: None,
             source: Source::Finding(finding),
@@ -151,6 +174,14 @@ impl Known {
                 && verdict.is_violation()
                 && verdict.severity() < self.verdict.severity()
     }
+
+    /// True if it excuses a record: its verdict, and of a violation what it shows.
+    pub fn excuses_record(&self, record: &Record) -> bool {
+        let shown = |symptom: &ExpectedSymptom| {
+            !record.verdict.is_violation() || symptom.is_shown_by(record)
+        };
+        self.excuses(record.verdict) && self.symptom.as_ref().is_none_or(shown)
+    }
 }
 
 /// Known verdicts, with compiled globs.
@@ -167,6 +198,9 @@ struct Globs {
     adapters: Vec<GlobMatcher>,
     driver: GlobMatcher,
     version: Option<VersionReq>,
+    processor: Option<GlobMatcher>,
+    /// False if the machine has another processor, or the run lacks a label.
+    applies: bool,
     /// Whole ids, which most findings name.
     ids: HashSet<String>,
     cases: Vec<CaseGlob>,
@@ -207,7 +241,8 @@ fn is_plain(glob: &str) -> bool {
 impl Globs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
         let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
-        (named(&adapter.name) || named(adapter.without_release()))
+        self.applies
+            && (named(&adapter.name) || named(adapter.without_release()))
             && self.driver.is_match(adapter.driver_text())
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
@@ -234,6 +269,8 @@ pub enum Expectation<'a> {
     Better(&'a Known),
     /// The verdict was excused until the expectation expired.
     Expired(&'a Known),
+    /// The verdict is the expected one, and what the failure shows is not.
+    Differs(&'a Known),
 }
 
 /// The most bytes of a file; the rest of a longer one does not parse.
@@ -259,7 +296,8 @@ impl Expectations {
         let mut files = Vec::new();
         for entry in fs::read_dir(path).map_err(RecordError::io("read", path))? {
             let file = entry.map_err(RecordError::io("read", path))?.path();
-            if file.extension().is_some_and(|e| e == "json") {
+            // A pipe would be waited for.
+            if file.extension().is_some_and(|e| e == "json") && file.is_file() {
                 files.push(file);
             }
         }
@@ -292,6 +330,7 @@ impl Expectations {
     /// When the text does not parse or holds a glob that does not.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
         let mut expectations = Self::default();
+        let text = without_mark(text);
         if text.trim().is_empty() {
             return Ok(expectations);
         }
@@ -367,8 +406,33 @@ impl Expectations {
         };
         let (plain, globs): (Vec<_>, Vec<_>) =
             known.cases.iter().cloned().partition(|g| is_plain(g));
+        if let Some(symptom) = &known.symptom {
+            let wrong = if symptom.is_empty() {
+                Some("names nothing; it takes attachment, aspect, codes, side or counter")
+            } else if !known.verdict.is_violation() && known.verdict != Verdict::Flaky {
+                Some("is of a wrong value, which this verdict has none of")
+            } else {
+                None
+            };
+            if let Some(wrong) = wrong {
+                return Err(fail("symptom", format!("\"symptom\" {wrong}")));
+            }
+        }
+        for label in &known.labels {
+            if label.split_once('=').is_none_or(|(key, _)| key.is_empty()) {
+                return Err(fail(
+                    label,
+                    "\"labels\" are written as \"key=value\"".to_owned(),
+                ));
+            }
+        }
         let globs = Globs {
             version,
+            processor: match &known.processor {
+                Some(glob) => Some(build("processor", glob)?),
+                None => None,
+            },
+            applies: true,
             adapters: each(keys[0], &known.adapters)?,
             driver: build("driver", &known.driver)?,
             ids: plain.into_iter().collect(),
@@ -404,6 +468,30 @@ impl Expectations {
             today: Some(today.to_owned()),
             ..self
         }
+    }
+
+    /// The same, as they count in a run with these labels, as `key=value`, on a machine with this processor.
+    #[must_use]
+    pub fn of_run(mut self, processor: &str, labels: &[String]) -> Self {
+        for (known, globs) in self.all.iter().zip(&mut self.globs) {
+            let machine = globs.processor.as_ref();
+            globs.applies = machine.is_none_or(|glob| glob.is_match(processor))
+                && known.labels.iter().all(|label| labels.contains(label));
+        }
+        self
+    }
+
+    /// The same, with others behind them.
+    #[must_use]
+    pub fn and(mut self, others: Self) -> Self {
+        self.all.extend(others.all);
+        self.globs.extend(others.globs);
+        self
+    }
+
+    /// True if an expectation counts on this machine and in this run.
+    pub(crate) fn applies(&self, number: usize) -> bool {
+        self.globs.get(number).is_some_and(|globs| globs.applies)
     }
 
     /// The expectation that keeps a case from being drawn on an adapter.
@@ -456,9 +544,11 @@ impl Expectations {
         globs.is_some_and(|g| g.match_adapter(adapter))
     }
 
-    /// True if an expectation excuses a verdict of the cases and adapters that it names.
-    pub(crate) fn excuses(&self, number: usize, verdict: Verdict) -> bool {
-        self.all.get(number).is_some_and(|k| k.excuses(verdict))
+    /// True if an expectation excuses a record of the cases and adapters that it names.
+    pub(crate) fn excuses(&self, number: usize, record: &Record) -> bool {
+        self.all
+            .get(number)
+            .is_some_and(|k| k.excuses_record(record))
     }
 
     /// The expectations that count and name a bad verdict of a case on an adapter.
@@ -504,22 +594,40 @@ impl Expectations {
         entries.collect()
     }
 
-    /// Looks up a verdict. An expectation that agrees goes before one that names another verdict;
-    /// otherwise the first counts.
+    /// Looks up a verdict, whatever the failure shows. An expectation that agrees goes before one that names another
+    /// verdict; otherwise the first counts.
     pub fn look_up(
         &self,
         adapter: &AdapterRecord,
         case: &str,
         verdict: Verdict,
     ) -> Expectation<'_> {
-        let agrees = |known: &&Known| known.excuses(verdict);
+        self.find(adapter, case, verdict, |known| known.excuses(verdict))
+    }
+
+    /// Looks up a record, as [`Expectations::look_up`] does a verdict.
+    pub fn look_up_record(&self, adapter: &AdapterRecord, record: &Record) -> Expectation<'_> {
+        let agrees = |known: &Known| known.excuses_record(record);
+        self.find(adapter, &record.case, record.verdict, agrees)
+    }
+
+    fn find(
+        &self,
+        adapter: &AdapterRecord,
+        case: &str,
+        verdict: Verdict,
+        agrees: impl Fn(&Known) -> bool,
+    ) -> Expectation<'_> {
         let matching: Vec<&Known> = self.matching(adapter, case).collect();
         let entries = || matching.iter().copied();
         if let Some(known) = entries().find(|k| agrees(k) && !self.expired(k)) {
             return Expectation::Agrees(known);
         }
-        if let Some(known) = entries().find(agrees) {
+        if let Some(known) = entries().find(|k| agrees(k)) {
             return Expectation::Expired(known);
+        }
+        if let Some(known) = entries().find(|k| k.excuses(verdict) && !self.expired(k)) {
+            return Expectation::Differs(known);
         }
         // A case that is not supported any more has not become better, and one that is flaky may pass.
         let good =
@@ -537,7 +645,7 @@ fn text_of(path: &Path) -> Result<String, RecordError> {
     File::open(path)
         .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
         .map_err(RecordError::io("read", path))?;
-    Ok(text)
+    Ok(without_mark(&text).to_owned())
 }
 
 /// The line that first holds a string value, as near as a message needs it.

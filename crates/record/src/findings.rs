@@ -6,6 +6,7 @@
 
 use crate::date::check_date;
 use crate::error::RecordError;
+use crate::expected_symptom::ExpectedSymptom;
 use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
@@ -35,6 +36,15 @@ pub struct Finding {
     /// The expected verdict, where it is not the grade's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// What the failure shows; another wrong value of the same case is not excused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symptom: Option<ExpectedSymptom>,
+    /// A glob over the processor of the machine; any where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub processor: Option<String>,
+    /// Labels that the run must have, as `key=value`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<String>,
     /// The grade of the accusation.
     pub grade: Grade,
     /// The document, version and section that the driver breaks; empty only while the finding is unread.

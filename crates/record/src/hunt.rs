@@ -1,13 +1,14 @@
 //! The result of a hunt for planted bugs.
 
 use crate::error::RecordError;
+use crate::folder::HUNT_FILE;
 use crate::json::json_line;
+use crate::json_lines::begin;
 use crate::machine::Machine;
 use crate::verdict::Verdict;
 use etalon_frame::{WrongTexel, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format of `mutants.json` that this crate writes.
@@ -186,10 +187,8 @@ impl Hunt {
     /// # Errors
     /// When the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
-        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-        let path = folder.join("mutants.json");
-        fs::write(&path, json_line("a hunt", self)?).map_err(RecordError::io("write", &path))?;
-        Ok(path)
+        begin(folder, HUNT_FILE, &json_line("a hunt", self)?)?;
+        Ok(folder.join(HUNT_FILE))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::json::without_position;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -25,12 +25,29 @@ pub(crate) struct JsonLines<'a> {
     pub(crate) remedy: &'static str,
 }
 
+/// The remedy for a damaged header: no line can be read without it.
+const HEADER_REMEDY: &str = "the file cannot be read without its header; take it from a copy, or record again into another folder";
+
 /// The end of the readable part of a file.
 pub(crate) struct Extent {
     /// Bytes of the header and the whole lines.
     pub(crate) bytes: u64,
     /// True if the last line was cut off.
     pub(crate) truncated: bool,
+}
+
+/// Begins a file in a folder, which is made when it does not exist. The file is renamed into place, so that none ever
+/// has half a header.
+pub(crate) fn begin(folder: &Path, name: &str, header: &[u8]) -> Result<File, RecordError> {
+    fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+    let path = folder.join(name);
+    let beside = folder.join(format!(".{name}.{}", std::process::id()));
+    let mut file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
+    file.write_all(header)
+        .and_then(|()| file.sync_data())
+        .and_then(|()| fs::rename(&beside, &path))
+        .map_err(RecordError::io("write", &path))?;
+    Ok(file)
 }
 
 /// Opens a file to append lines to `whole` bytes of whole ones; what follows them is cut off.
@@ -85,9 +102,19 @@ impl JsonLines<'_> {
         let mut result = begin(self.header(&line)?);
         let mut number = 2;
         let mut bytes = line.len() as u64;
+        // Lines that an editor leaves at the end hold nothing; whoever appends cuts them off.
+        let mut blank: Option<usize> = None;
         // A damaged line is an error as soon as another line follows it.
         let mut damaged: Option<RecordError> = None;
         while next(&mut line, self.max_line)? > 0 {
+            if line.trim_ascii().is_empty() {
+                blank.get_or_insert(number);
+                number += 1;
+                continue;
+            }
+            if let Some(blank) = blank {
+                return Err(self.error(blank, "the line is empty".to_owned()));
+            }
             if let Some(error) = damaged {
                 return Err(error);
             }
@@ -116,7 +143,13 @@ impl JsonLines<'_> {
     }
 
     fn header<H: DeserializeOwned>(&self, line: &[u8]) -> Result<H, RecordError> {
-        let wrong = |e: serde_json::Error| self.error(1, without_position(&e));
+        let wrong = |e: serde_json::Error| RecordError::Parse {
+            path: self.path.to_owned(),
+            line: 1,
+            message: without_position(&e),
+            remedy: HEADER_REMEDY,
+        };
+        let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
         // The format goes first, since another one may have other fields.
         let Format { format } = serde_json::from_slice(line).map_err(wrong)?;
         if format == 0 || format > self.format {

@@ -20,6 +20,7 @@ mod dead;
 mod driver_version;
 mod error;
 mod expectations;
+mod expected_symptom;
 mod findings;
 mod folder;
 mod frame_file;
@@ -56,8 +57,12 @@ pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source, compile_glob};
+pub use expected_symptom::{ExpectedSymptom, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
-pub use folder::{BENCH_FILE, CASES_FILE, DEAD_FILE, FolderKind, MISSING_FILE, RUN_FILE};
+pub use folder::{
+    BENCH_FILE, CASES_FILE, Content, DEAD_FILE, FUZZ_FILE, FolderKind, MISSING_FILE, RUN_FILE,
+    is_marked, overlap,
+};
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;
 pub use grade::Grade;

@@ -7,6 +7,7 @@
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Entry, Expectations};
 use crate::verdict::Verdict;
+use etalon_frame::without_mark;
 use regex::{Regex, RegexBuilder};
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -90,7 +91,7 @@ impl Imported {
         about: &About,
     ) -> Result<(), ListError> {
         let known: BTreeSet<&str> = ids.iter().map(String::as_str).collect();
-        for (number, line) in text.lines().enumerate() {
+        for (number, line) in without_mark(text).lines().enumerate() {
             let line = line.trim();
             if line.is_empty() || line.starts_with('#') {
                 continue;
@@ -103,7 +104,7 @@ impl Imported {
             let matched: Vec<(&str, Verdict)> = match kind {
                 ListKind::Fails => {
                     let mut fields = line.split(',');
-                    let case = fields.next().unwrap_or_default();
+                    let case = fields.next().unwrap_or_default().trim();
                     let status = fields.next().unwrap_or("Fail");
                     let Some(verdict) = known_status(status).map_err(fail)? else {
                         continue;
@@ -151,8 +152,14 @@ fn known_status(status: &str) -> Result<Option<Verdict>, String> {
         "Crash" => Verdict::Crash,
         "Timeout" => Verdict::Timeout,
         "Flake" | "KnownFlake" => Verdict::Flaky,
-        "Pass" | "Skip" | "Warn" | "Missing" => return Ok(None),
-        other if other.starts_with("UnexpectedImprovement") => return Ok(None),
+        "Pass" | "Skip" | "Warn" | "Missing" | "UnexpectedPass" | "UnexpectedImprovement" => {
+            return Ok(None);
+        }
+        // Better than the list said, and perhaps still bad: the result stands in parentheses.
+        other if other.starts_with("UnexpectedImprovement(") => {
+            let result = other.trim_start_matches("UnexpectedImprovement(");
+            return known_status(result.trim_end_matches(')'));
+        }
         other => {
             return Err(format!(
                 "`{other}` is no status of deqp-runner; those with a verdict are Fail, Crash, Timeout, \
@@ -174,6 +181,9 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
         grade: None,
         link: about.link.clone(),
         expires: about.expires.clone(),
+        symptom: None,
+        processor: None,
+        labels: Vec::new(),
     }
 }
 
@@ -273,6 +283,26 @@ mod tests {
             entries
         };
         assert_eq!(sorted(again.entries), sorted(imported.entries));
+    }
+
+    #[test]
+    fn a_results_file_of_any_age_and_editor_is_read() {
+        let mut imported = Imported::default();
+        let text = "\u{feff}depth/a/x=1,UnexpectedImprovement(Fail),1.5\r\n\
+                    depth/a/x=2,UnexpectedImprovement(Pass)\r\nblend/b , UnexpectedPass\r\n\
+                    blend/b.c , Fail \r\n";
+        let add = imported.add(ListKind::Fails, "results.csv", text, &ids(), &about());
+        add.unwrap();
+        let found: Vec<_> = imported
+            .entries
+            .iter()
+            .map(|e| (e.case.as_str(), e.verdict))
+            .collect();
+        assert_eq!(
+            found,
+            [("depth/a/x=1", Verdict::Fail), ("blend/b.c", Verdict::Fail)]
+        );
+        assert_eq!(imported.unmatched, []);
     }
 
     #[test]

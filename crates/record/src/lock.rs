@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// The file that is locked; it is empty and stays behind.
-const LOCK_FILE: &str = ".lock";
+pub(crate) const LOCK_FILE: &str = ".lock";
 
 /// The time for which a held lock is tried again.
 const RETRY_TIME: Duration = Duration::from_secs(1);

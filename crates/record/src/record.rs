@@ -149,26 +149,35 @@ impl Record {
 
     /// Notes what the expectations say of the verdict.
     pub fn expect(&mut self, expectations: &Expectations, adapter: &AdapterRecord) {
-        (self.expected, self.improves) =
-            match expectations.look_up(adapter, &self.case, self.verdict) {
-                Expectation::None => (None, None),
-                Expectation::Agrees(entry) => (
-                    Some(Expected {
-                        reason: entry.reason.clone(),
-                    }),
-                    None,
-                ),
-                Expectation::Better(entry) => (None, Some(entry.verdict)),
-                Expectation::Expired(entry) => {
-                    let day = entry.expires.as_deref().unwrap_or_default();
-                    let note = format!("the expectation expired on {day}: {}", entry.reason);
-                    self.message = match self.message.as_str() {
-                        "" => note,
-                        before => format!("{before}; {note}"),
-                    };
-                    (None, None)
-                }
-            };
+        (self.expected, self.improves) = match expectations.look_up_record(adapter, self) {
+            Expectation::None => (None, None),
+            Expectation::Agrees(entry) => (
+                Some(Expected {
+                    reason: entry.reason.clone(),
+                }),
+                None,
+            ),
+            Expectation::Better(entry) => (None, Some(entry.verdict)),
+            Expectation::Expired(entry) => {
+                let day = entry.expires.as_deref().unwrap_or_default();
+                let note = format!("the expectation expired on {day}: {}", entry.reason);
+                self.note(note);
+                (None, None)
+            }
+            Expectation::Differs(entry) => {
+                let note = format!("not the expected symptom: {}", entry.reason);
+                self.note(note);
+                (None, None)
+            }
+        };
+    }
+
+    /// Adds to the message.
+    fn note(&mut self, note: String) {
+        self.message = match self.message.as_str() {
+            "" => note,
+            before => format!("{before}; {note}"),
+        };
     }
 
     /// True if the record counts against the run: a bad verdict that no expectation names, or a selftest

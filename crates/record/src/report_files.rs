@@ -13,8 +13,8 @@ use std::path::Path;
 pub struct ReportFiles {
     /// Names of files.
     pub files: &'static [&'static str],
-    /// Names of folders.
-    pub folders: &'static [&'static str],
+    /// Names of folders, each with the extension of the files in it.
+    pub folders: &'static [(&'static str, &'static str)],
 }
 
 impl ReportFiles {
@@ -24,19 +24,45 @@ impl ReportFiles {
         folders: &[],
     };
 
-    /// Removes them; what does not exist needs no removing.
+    /// Removes them; what does not exist needs no removing. Other files in the folders stay.
     ///
     /// # Errors
     /// When one cannot be removed.
     pub fn remove(self, folder: &Path) -> Result<(), RecordError> {
-        for name in self.folders {
-            removed(fs::remove_dir_all(folder.join(name)), folder, name)?;
+        for (name, extension) in self.folders {
+            removed(remove_below(&folder.join(name), extension), folder, name)?;
         }
         for name in self.files {
-            removed(fs::remove_file(folder.join(name)), folder, name)?;
+            remove_file(folder, name)?;
         }
         Ok(())
     }
+}
+
+/// Removes the files of an extension below a folder, and the folders that are empty then. A link stays, with what it
+/// leads to.
+fn remove_below(folder: &Path, extension: &str) -> io::Result<()> {
+    if !fs::symlink_metadata(folder)?.is_dir() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let (kind, path) = (entry.file_type()?, entry.path());
+        if kind.is_dir() {
+            remove_below(&path, extension)?;
+        } else if kind.is_file() && path.extension().is_some_and(|e| e == extension) {
+            fs::remove_file(&path)?;
+        }
+    }
+    match fs::remove_dir(folder) {
+        Err(e) if e.kind() == ErrorKind::DirectoryNotEmpty => Ok(()),
+        result => result,
+    }
+}
+
+/// Removes a file of a folder if it exists.
+pub(crate) fn remove_file(folder: &Path, name: &str) -> Result<(), RecordError> {
+    removed(fs::remove_file(folder.join(name)), folder, name)
 }
 
 fn removed(result: io::Result<()>, folder: &Path, name: &str) -> Result<(), RecordError> {

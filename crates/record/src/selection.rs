@@ -6,6 +6,7 @@ use crate::error::RecordError;
 use crate::folder::CASES_FILE;
 use crate::hash::fnv;
 use crate::header::Header;
+use etalon_frame::without_mark;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
@@ -49,7 +50,7 @@ pub fn read_cases(folder: &Path, header: &Header) -> Result<Option<Vec<String>>,
     file.take(MAX_BYTES)
         .read_to_string(&mut text)
         .map_err(RecordError::io("read", &path))?;
-    let ids: Vec<String> = text.lines().map(str::to_owned).collect();
+    let ids: Vec<String> = without_mark(&text).lines().map(str::to_owned).collect();
     if selection_digest(ids.iter().map(String::as_str)) != header.settings.selection {
         return Err(RecordError::Parse {
             path,

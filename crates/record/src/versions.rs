@@ -170,7 +170,7 @@ impl Versions {
         for case in &self.cases {
             bytes.append(&mut json_line("a case", case)?);
         }
-        let new = folder.join(format!("{VERSIONS_FILE}.{}", std::process::id()));
+        let new = folder.join(format!(".{VERSIONS_FILE}.{}", std::process::id()));
         fs::write(&new, bytes).map_err(RecordError::io("write", &new))?;
         fs::rename(&new, &path).map_err(RecordError::io("write", &path))?;
         Ok(path)

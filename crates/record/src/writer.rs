@@ -2,17 +2,19 @@
 
 use crate::conflict::resume_conflict;
 use crate::error::RecordError;
-use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE};
+use crate::folder::{
+    CASES_FILE, Content, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE,
+};
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::json_lines::reopen;
+use crate::json_lines::{begin, reopen};
 use crate::record::Record;
 use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::write_cases;
 use crate::shorten::fit;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -28,19 +30,19 @@ pub struct RunWriter {
 
 /// The interval between two syncs: the most of a run that a power cut takes.
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// The files of a run beside its reports, in the order of removal. The records go last: while they are
-/// there, the rest is known to belong to a run.
-pub(crate) const OWN: ReportFiles = ReportFiles {
-    folders: &[FRAMES, PICTURES],
-    files: &[MISSING_FILE, DEAD_FILE, CASES_FILE, RUN_FILE],
+/// The files of a run beside its reports and records. The records go last: while they are there, the rest is known to
+/// belong to a run.
+pub(crate) const BESIDE: ReportFiles = ReportFiles {
+    folders: &[(FRAMES, "json"), (PICTURES, "png")],
+    files: &[MISSING_FILE, DEAD_FILE, CASES_FILE],
 };
 
 impl RunWriter {
     /// Begins a run in a folder, which is made when it does not exist. A run that the folder already
-    /// holds is replaced, and its reports stay; a folder without a run loses nothing.
+    /// holds is replaced, and its reports stay; any other content is refused.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds a bench, whose report would be overwritten.
+    /// When the folder cannot be written to, or holds something else than a run.
     pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
         Self::replace(folder, header, ReportFiles::NONE)
     }
@@ -48,33 +50,27 @@ impl RunWriter {
     /// [`RunWriter::create`], which also removes the reports of the run before.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds a bench, whose report would be overwritten.
+    /// When the folder cannot be written to, or holds something else than a run.
     pub fn replace(
         folder: &Path,
         header: &Header,
         reports: ReportFiles,
     ) -> Result<Self, RecordError> {
-        let path = folder.join(RUN_FILE);
-        if let Some(kind @ FolderKind::Bench) = FolderKind::of(folder) {
-            return Err(RecordError::Holds {
-                path: folder.to_owned(),
-                kind,
-            });
+        match Content::writable(folder)? {
+            Content::Recorded(FolderKind::Run) => {
+                reports.remove(folder)?;
+                BESIDE.remove(folder)?;
+            }
+            Content::Recorded(kind) => {
+                return Err(RecordError::Holds {
+                    path: folder.to_owned(),
+                    kind,
+                });
+            }
+            Content::Empty | Content::Other => {}
         }
-        if path.is_file() {
-            reports.remove(folder)?;
-            OWN.remove(folder)?;
-        }
-        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-        // Renamed into place, so that no run ever has half a header.
-        let beside = folder.join(format!(".{RUN_FILE}.{}", std::process::id()));
-        let mut file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
-        let line = json_line("the header", header)?;
-        file.write_all(&line)
-            .and_then(|()| file.sync_data())
-            .and_then(|()| fs::rename(&beside, &path))
-            .map_err(RecordError::io("write", &path))?;
-        Ok(Self::new(folder, path, file))
+        let file = begin(folder, RUN_FILE, &json_line("the header", header)?)?;
+        Ok(Self::new(folder, folder.join(RUN_FILE), file))
     }
 
     /// Resumes the run that a folder holds, and returns what it holds. A last record that was cut off is

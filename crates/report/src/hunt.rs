@@ -12,6 +12,9 @@ use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
+/// The page of a hunt.
+pub const HUNT_PAGE: &str = "mutants.html";
+
 /// The files that [`write_hunt`] made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenHunt {
@@ -27,7 +30,7 @@ pub struct WrittenHunt {
 /// Returns an error if the folder cannot be written to.
 pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError> {
     let json = hunt.write(folder)?;
-    let html = replace(folder, "mutants.html", page(hunt).as_bytes())?;
+    let html = replace(folder, HUNT_PAGE, page(hunt).as_bytes())?;
     Ok(WrittenHunt { html, json })
 }
 

@@ -46,7 +46,7 @@ pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_t
 pub use diff::runs;
 pub use error::ReportError;
 pub use history::{HISTORY_PAGE_FILE, WrittenHistory, write_history};
-pub use hunt::{WrittenHunt, hunt_table, write_hunt};
+pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
@@ -55,7 +55,7 @@ pub use run::{
 };
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;
-pub use versions::{versions_table, write_versions};
+pub use versions::{VERSIONS_PAGE, versions_table, write_versions};
 pub use words::{
     EventLine, ReducedCase, judged_by, operations, operations_text, plain, sentence, story_text,
 };

@@ -1,6 +1,9 @@
 //! Folders of pages: written beside their place, and renamed into it when they are whole.
 
 use crate::error::ReportError;
+use etalon_record::is_marked;
+use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,7 +21,8 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// Looks at a place for a folder, which is known by its file `mark` and has only `top` at its top.
+    /// Looks at a place for a folder, which is known by its file `mark`. That file lists the files of the folder; of
+    /// earlier folders, whose mark lists none, `top` is all that is at the top.
     ///
     /// # Errors
     /// Returns an error if the place cannot be read.
@@ -27,28 +31,63 @@ impl Content {
             path: to.to_owned(),
             source,
         };
-        let entries = match fs::read_dir(to) {
-            Ok(entries) => entries,
+        match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
+            Ok(true) => return Ok(Self::Empty),
+            Ok(false) => {}
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Empty),
             Err(error) => return Err(unread(error)),
+        }
+        let file = to.join(mark);
+        if !is_marked(&file) {
+            return Ok(Self::Other);
+        }
+        let text = fs::read(&file).map_err(unread)?;
+        let value: Value = serde_json::from_slice(&text).unwrap_or_default();
+        let listed = value["files"].as_array();
+        let listed: Option<HashSet<&str>> =
+            listed.map(|files| files.iter().filter_map(Value::as_str).collect());
+        let of_it = |path: &Path| {
+            let name = path.to_string_lossy();
+            name == mark
+                || match &listed {
+                    Some(files) => files.contains(&*name),
+                    None => path
+                        .iter()
+                        .next()
+                        .is_some_and(|f| top.iter().any(|t| f == *t)),
+                }
         };
-        let names = entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
-        let mut names = names.collect::<io::Result<Vec<String>>>().map_err(unread)?;
-        names.sort_unstable();
-        let foreign = names.iter().find(|name| !top.contains(&name.as_str()));
-        Ok(match (names.iter().any(|name| name == mark), foreign) {
-            _ if names.is_empty() => Self::Empty,
-            (true, None) => Self::Earlier,
-            (true, Some(foreign)) => Self::Foreign(to.join(foreign)),
-            (false, _) => Self::Other,
-        })
+        let mut paths = Vec::new();
+        files(to, Path::new(""), &mut paths).map_err(unread)?;
+        paths.sort_unstable();
+        let foreign = paths.into_iter().find(|path| !of_it(path));
+        Ok(foreign.map_or(Self::Earlier, |path| Self::Foreign(to.join(path))))
     }
+}
+
+/// Collects the files below a folder, and the folders without any.
+fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()> {
+    let before = paths.len();
+    for entry in fs::read_dir(folder.join(below))? {
+        let entry = entry?;
+        let path = below.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            files(folder, &path, paths)?;
+        } else {
+            paths.push(path);
+        }
+    }
+    if paths.len() == before && below != Path::new("") {
+        paths.push(below.to_owned());
+    }
+    Ok(())
 }
 
 /// A folder in the making.
 pub(crate) struct Staged {
     to: PathBuf,
     beside: PathBuf,
+    names: Vec<String>,
     /// The number of files that were written.
     pub(crate) files: u64,
     /// Their bytes.
@@ -70,6 +109,7 @@ impl Staged {
         let staged = Self {
             to: to.to_owned(),
             beside: to.with_file_name(hidden),
+            names: Vec::new(),
             files: 0,
             bytes: 0,
         };
@@ -90,16 +130,21 @@ impl Staged {
         let folder = path.parent().unwrap_or(&self.beside);
         let written = fs::create_dir_all(folder).and_then(|()| fs::write(&path, bytes));
         written.map_err(|source| wrong(&self.to.join(&name), source))?;
+        self.names
+            .push(name.as_ref().to_string_lossy().into_owned());
         self.files += 1;
         self.bytes += bytes.len() as u64;
         Ok(())
     }
 
-    /// Puts the folder into its place.
+    /// Writes the file by which the folder is known, with the files that it lists, and puts the folder into its place.
+    /// `about` is the rest of its content, which has the key `etalon`.
     ///
     /// # Errors
     /// Returns an error if the system refuses; what was there before is back then.
-    pub(crate) fn finish(self) -> Result<(), ReportError> {
+    pub(crate) fn finish(&mut self, mark: &str, mut about: Value) -> Result<(), ReportError> {
+        about["files"] = json!(self.names);
+        self.write(mark, about.to_string().as_bytes())?;
         let old = self.beside.with_extension("old");
         let replaces = self.to.exists();
         if replaces {

@@ -15,13 +15,16 @@ use groups::{Course, Group, groups};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
+/// The page of a search over releases.
+pub const VERSIONS_PAGE: &str = "versions.html";
+
 /// Writes `versions.jsonl` and `versions.html` into a folder and returns the path of the page.
 ///
 /// # Errors
 /// Returns an error if the folder cannot be written to.
 pub fn write_versions(folder: &Path, versions: &Versions) -> Result<PathBuf, ReportError> {
     versions.write(folder)?;
-    replace(folder, "versions.html", page(versions).as_bytes())
+    replace(folder, VERSIONS_PAGE, page(versions).as_bytes())
 }
 
 /// A table with a row per finding and span of releases, and the totals. Always ends in a newline.

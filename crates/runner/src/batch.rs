@@ -12,12 +12,11 @@ use crate::process::Wait;
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_case::Case;
-use etalon_frame::Limits;
+use etalon_frame::{Limits, threads};
 use etalon_record::Record;
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
 
 /// The requests in flight on a worker.
@@ -68,18 +67,18 @@ impl Batches {
             found: &found,
             stop,
         };
-        thread::scope(|scope| {
-            let lanes: Vec<_> = self
-                .workers
-                .iter_mut()
-                .map(|worker| scope.spawn(|| share.draw(worker)))
-                .collect();
-            let mut ended = lanes.into_iter().map(|lane| match lane.join() {
-                Ok(ended) => ended,
-                Err(panic) => std::panic::resume_unwind(panic),
-            });
-            ended.find(Result::is_err).unwrap_or(Ok(()))
-        })?;
+        let count = self.workers.len();
+        let workers = Mutex::new(self.workers.iter_mut());
+        let ended = threads::share(count, || {
+            // Without a thread of its own, a worker has its turn when no case is left.
+            while share.is_left()
+                && let Some(worker) = { lock(&workers).next() }
+            {
+                share.draw(worker)?;
+            }
+            Ok(())
+        });
+        ended.into_iter().find(Result::is_err).unwrap_or(Ok(()))?;
         let records = std::mem::take(&mut *lock(&found));
         Ok(records)
     }
@@ -97,6 +96,11 @@ struct Share<'a> {
 }
 
 impl Share<'_> {
+    /// True if a case is left to draw.
+    fn is_left(&self) -> bool {
+        self.next.load(Ordering::Relaxed) < self.cases.len()
+    }
+
     /// Draws on one worker until no case is left.
     fn draw(&self, slot: &mut Option<Worker>) -> Result<(), StartError> {
         let mut worker = match slot.take() {

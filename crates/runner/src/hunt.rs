@@ -3,12 +3,11 @@
 use crate::drawing::draw_frames;
 use etalon_backend::Backend;
 use etalon_case::Case;
+use etalon_frame::threads::each;
 use etalon_frame::{Frame, WrongTexel};
 use etalon_judge::Judge;
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::channel;
-use std::thread;
 
 /// The planted bugs of a hunt, and the cases that must catch them.
 #[derive(Clone, Copy, Debug)]
@@ -35,34 +34,27 @@ pub fn hunt(
 ) -> Vec<MutantRecord> {
     let judge = Judge::default();
     let jobs = plan.jobs.clamp(1, plan.mutants.len().max(1));
-    let (sender, receiver) = channel();
-    thread::scope(|scope| {
-        for job in 0..jobs {
-            let (sender, judge) = (sender.clone(), &judge);
-            scope.spawn(move || {
-                let mut share: Vec<Mutant> = plan
-                    .mutants
-                    .iter()
-                    .enumerate()
-                    .skip(job)
-                    .step_by(jobs)
-                    .map(|(at, info)| Mutant::new(at, info, open(&info.name)))
-                    .collect();
-                for (number, case) in plan.cases.iter().enumerate() {
-                    if case.judged_as.is_none() {
-                        try_case(judge, number, case, &mut share, plan.full);
-                    }
-                    drawn();
-                }
-                for mutant in share {
-                    // The receiver lives until all threads have ended.
-                    let _ = sender.send((mutant.at, mutant.finish()));
-                }
-            });
+    let numbers: Vec<usize> = (0..jobs).collect();
+    let found = each(jobs, &numbers, |job| {
+        let mut share: Vec<Mutant> = plan
+            .mutants
+            .iter()
+            .enumerate()
+            .skip(*job)
+            .step_by(jobs)
+            .map(|(at, info)| Mutant::new(at, info, open(&info.name)))
+            .collect();
+        for (number, case) in plan.cases.iter().enumerate() {
+            if case.judged_as.is_none() {
+                try_case(&judge, number, case, &mut share, plan.full);
+            }
+            drawn();
         }
+        let done = share.into_iter();
+        done.map(|mutant| (mutant.at, mutant.finish()))
+            .collect::<Vec<_>>()
     });
-    drop(sender);
-    let mut found: Vec<(usize, MutantRecord)> = receiver.iter().collect();
+    let mut found: Vec<(usize, MutantRecord)> = found.into_iter().flatten().collect();
     found.sort_by_key(|(number, _)| *number);
     found.into_iter().map(|(_, record)| record).collect()
 }

@@ -5,6 +5,7 @@
 
 use crate::sync::lock;
 use std::fs;
+use std::io;
 use std::process::Child;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
@@ -26,11 +27,18 @@ pub(crate) struct MemoryLimit {
 impl MemoryLimit {
     /// Watches a process until `ended` is set. Where the system does not report what a process holds,
     /// nothing happens.
-    pub(crate) fn watch(child: Arc<Mutex<Child>>, limit: u64, ended: Arc<AtomicBool>) -> Self {
+    ///
+    /// # Errors
+    /// When the system refuses a thread.
+    pub(crate) fn watch(
+        child: Arc<Mutex<Child>>,
+        limit: u64,
+        ended: Arc<AtomicBool>,
+    ) -> io::Result<Self> {
         let held = Arc::<AtomicU64>::default();
         let exceeded = Arc::clone(&held);
         let id = lock(&child).id();
-        thread::spawn(move || {
+        thread::Builder::new().spawn(move || {
             while !ended.load(Ordering::Relaxed) {
                 let Some(now) = held_by(id) else { return };
                 if now > limit {
@@ -41,8 +49,8 @@ impl MemoryLimit {
                 }
                 thread::sleep(INTERVAL);
             }
-        });
-        Self { limit, held }
+        })?;
+        Ok(Self { limit, held })
     }
 
     /// The MiB held and the limit, if the process was killed for it.

@@ -110,12 +110,12 @@ impl WorkerProcess {
             // A broken pipe shows when the greeting is awaited.
             let _ = requests.send(bytes);
         }
-        thread::spawn(move || write_all(input, &to_write));
+        let writing = thread::Builder::new().spawn(move || write_all(input, &to_write));
         let (sender, responses) = channel();
         let launched = launch.launcher.is_some();
         let greeted = Arc::<AtomicBool>::default();
         let greets = Arc::clone(&greeted);
-        thread::spawn(move || {
+        let reading = thread::Builder::new().spawn(move || {
             let mut output = BufReader::new(output);
             let mut answers = Vec::new();
             match greeting::check(&mut output, launched) {
@@ -140,6 +140,13 @@ impl WorkerProcess {
                 }
             }
         });
+        let stderr = StderrTail::of(errors);
+        let stderr = writing.and(reading).and_then(|_| stderr).map_err(|e| {
+            // It may have ended by itself; then there is nothing to kill.
+            let _ = child.kill();
+            let _ = child.wait();
+            no_thread(&e)
+        })?;
         Ok(Self {
             child: Arc::new(Mutex::new(child)),
             launched,
@@ -147,7 +154,7 @@ impl WorkerProcess {
             requests: Some(requests),
             responses,
             came: VecDeque::new(),
-            stderr: StderrTail::of(errors),
+            stderr,
             memory: None,
             answered: Instant::now(),
             ended: Arc::default(),
@@ -155,12 +162,16 @@ impl WorkerProcess {
     }
 
     /// Kills the worker as soon as it holds more than `limit` MiB of memory, unless a launcher hides it.
-    pub(crate) fn limit_memory(&mut self, limit: u64) {
-        if self.launched {
-            return;
+    ///
+    /// # Errors
+    /// When the system refuses the thread that watches it.
+    pub(crate) fn limit_memory(&mut self, limit: u64) -> Result<(), StartError> {
+        if !self.launched {
+            let (child, ended) = (Arc::clone(&self.child), Arc::clone(&self.ended));
+            let watched = MemoryLimit::watch(child, limit, ended);
+            self.memory = Some(watched.map_err(|e| no_thread(&e))?);
         }
-        let (child, ended) = (Arc::clone(&self.child), Arc::clone(&self.ended));
-        self.memory = Some(MemoryLimit::watch(child, limit, ended));
+        Ok(())
     }
 
     /// True if a worker has greeted.
@@ -289,6 +300,13 @@ fn cannot_start(launch: &Launch, error: &Error) -> StartError {
         )),
         None => StartError::Broken(format!("the worker cannot be started: {error}")),
     }
+}
+
+/// Returns the error for a worker that cannot be served, since the system refuses a thread.
+fn no_thread(error: &Error) -> StartError {
+    StartError::Broken(format!(
+        "no thread can be started for the worker: {error}; raise the limit of processes"
+    ))
 }
 
 /// Writes requests until there are no more or the worker does not take them.

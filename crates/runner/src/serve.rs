@@ -36,7 +36,7 @@ pub fn serve(
     send(output, &Response::Hello(Ok(Box::new(hello))))?;
     let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
     let (sender, requests) = channel();
-    thread::spawn(move || read(input, sender));
+    thread::Builder::new().spawn(move || read(input, sender))?;
     let mut next = requests.recv().ok();
     while let Some(request) = next {
         let request: Request<'_> = request?;

@@ -2,7 +2,7 @@
 
 use crate::sync::lock;
 use std::collections::VecDeque;
-use std::io::Read;
+use std::io::{self, Read};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -29,10 +29,13 @@ struct Kept {
 
 impl StderrTail {
     /// Reads a stream until its end.
-    pub(crate) fn of(mut stream: impl Read + Send + 'static) -> Self {
+    ///
+    /// # Errors
+    /// When the system refuses a thread.
+    pub(crate) fn of(mut stream: impl Read + Send + 'static) -> io::Result<Self> {
         let tail = Self(Arc::default());
         let shared = Arc::clone(&tail.0);
-        thread::spawn(move || {
+        thread::Builder::new().spawn(move || {
             let mut buffer = [0; 1024];
             while let Ok(n) = stream.read(&mut buffer) {
                 if n == 0 {
@@ -45,8 +48,8 @@ impl StderrTail {
             }
             lock(&shared.kept).ended = true;
             shared.end.notify_all();
-        });
-        tail
+        })?;
+        Ok(tail)
     }
 
     /// Returns the end of the stream; after a time, the end of what was read. A child of the process may hold the
@@ -68,7 +71,7 @@ mod tests {
     #[test]
     fn what_is_written_late_is_read_and_a_stream_without_an_end_is_not_waited_for() {
         let (reader, mut writer) = io::pipe().expect("a pipe");
-        let tail = StderrTail::of(reader);
+        let tail = StderrTail::of(reader).expect("a thread");
         assert_eq!(tail.text(Duration::from_millis(1)), "");
         let late = thread::spawn(move || {
             thread::sleep(Duration::from_millis(50));

@@ -40,18 +40,19 @@ pub(crate) struct Supervisor {
 
 /// Starts a worker once.
 pub(crate) fn start(launch: &Launch, memory: Option<u64>) -> Result<WorkerProcess, StartError> {
-    Worker::start(launch).map(|worker| limited(worker.process, memory))
+    limited(Worker::start(launch)?.process, memory)
 }
 
-fn limited(mut process: WorkerProcess, memory: Option<u64>) -> WorkerProcess {
+fn limited(mut process: WorkerProcess, memory: Option<u64>) -> Result<WorkerProcess, StartError> {
     if let Some(limit) = memory {
-        process.limit_memory(limit);
+        process.limit_memory(limit)?;
     }
-    process
+    Ok(process)
 }
 
 impl Supervisor {
-    /// A supervisor of workers started by `launch`, the first of which may be running already.
+    /// A supervisor of workers started by `launch`, the first of which may be running already. One whose memory cannot
+    /// be watched is ended.
     pub(crate) fn new(
         launch: Launch,
         memory: Option<u64>,
@@ -62,14 +63,14 @@ impl Supervisor {
             launch,
             memory,
             failed_starts,
-            worker: running.map(|worker| limited(worker.process, memory)),
+            worker: running.and_then(|worker| limited(worker.process, memory).ok()),
             generation: 0,
         }
     }
 
     /// Makes a running worker the supervisor's first one.
     pub(crate) fn take_over(&mut self, running: Option<Worker>) {
-        self.worker = running.map(|worker| limited(worker.process, self.memory));
+        self.worker = running.and_then(|worker| limited(worker.process, self.memory).ok());
     }
 
     /// The worker, started if there is none.

@@ -5,10 +5,10 @@ use super::cell::{Cell, Point};
 use super::order::{self, Members};
 use super::picture::TruthPicture;
 use super::surface::{Overlap, PreparedSurface};
+use etalon_frame::threads::share;
 use etalon_methods::{Coverage, Truth};
-use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread::{available_parallelism, scope};
+use std::thread::available_parallelism;
 
 /// Returns the true picture of a scene.
 ///
@@ -50,16 +50,7 @@ pub fn truth(scene: &Truth) -> TruthPicture {
         (renderer.picture, done)
     };
     let threads = available_parallelism().map_or(1, usize::from);
-    let parts: Vec<(TruthPicture, Vec<[[u32; 2]; 2]>)> = scope(|scope| {
-        let others: Vec<_> = (1..threads.min(blocks.len()))
-            .map(|_| scope.spawn(work))
-            .collect();
-        let own = work();
-        let others = others
-            .into_iter()
-            .map(|o| o.join().unwrap_or_else(|cause| resume_unwind(cause)));
-        [own].into_iter().chain(others).collect()
-    });
+    let parts = share(threads.min(blocks.len()), work);
     let mut picture = empty(scene);
     for (part, done) in parts {
         picture.error = picture.error.max(part.error);

@@ -4,6 +4,8 @@ use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
 use etalon_backend::Fault;
+use etalon_case::parse_json;
+use etalon_frame::without_mark;
 use etalon_record::Release;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,11 +193,15 @@ pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
 
 /// Parses the entries of a text; `what` is its name in messages.
 fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
-    let entries: Vec<Description> = serde_json::from_str(text).map_err(|e| {
+    let text = without_mark(text);
+    let wrong = |e: serde_json::Error| {
         Failure::usage(format!(
             "{what}: {e}; a file of adapters is a JSON array of objects with name and backend"
         ))
-    })?;
+    };
+    let entries: Vec<Description> = serde_json::from_str(text).map_err(wrong)?;
+    // A variable that stands twice would have its last value.
+    parse_json(text).map_err(wrong)?;
     if entries.len() > MAX_ENTRIES {
         return Err(Failure::usage(format!(
             "{what}: {} entries, at most {MAX_ENTRIES} are allowed; split the file",

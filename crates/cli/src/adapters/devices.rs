@@ -50,7 +50,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
         .map_err(|e| format!("listing devices cannot be started: {e}"))?;
     let mut pipe = child.stdout.take();
     let (sender, receiver) = channel();
-    thread::spawn(move || {
+    let reading = thread::Builder::new().spawn(move || {
         let mut bytes = Vec::new();
         if let Some(pipe) = &mut pipe {
             // A broken pipe leaves a text that does not parse.
@@ -59,10 +59,17 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
         // After the time limit there is no receiver.
         let _ = sender.send(bytes);
     });
-    let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
+    let mut end = || {
         // Fails if the process has ended by itself.
         let _ = child.kill();
         let _ = child.wait();
+    };
+    if let Err(e) = reading {
+        end();
+        return Err(format!("listing devices cannot be read: {e}"));
+    }
+    let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
+        end();
         return Err(format!(
             "listing devices took more than {} s",
             LIMIT.as_secs()

@@ -11,11 +11,11 @@ use crate::failure::Failure;
 use crate::near::did_you_mean;
 use crate::output::say;
 use etalon_backend::Fault;
+use etalon_frame::threads::each;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::thread;
 
 /// The adapters that were found.
 pub(crate) struct Adapters {
@@ -45,16 +45,8 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     };
     let chosen = chosen(query, &mut adapters.absent)?;
     // In parallel: most of the time goes into loading drivers.
-    let started: Vec<Result<Started, NoStart>> = thread::scope(|scope| {
-        let handles: Vec<_> = chosen
-            .iter()
-            .map(|candidate| scope.spawn(|| candidate.start(query)))
-            .collect();
-        handles
-            .into_iter()
-            .filter_map(|handle| handle.join().ok())
-            .collect()
-    });
+    let started: Vec<Result<Started, NoStart>> =
+        each(chosen.len(), &chosen, |candidate| candidate.start(query));
     for result in started {
         match result {
             Ok(started) => {
@@ -141,16 +133,8 @@ fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
 
 /// Returns the devices that backends enumerate, and adds the backends that fail to `absent`.
 fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Candidate> {
-    let found: Vec<Result<Vec<HardwareDevice>, String>> = thread::scope(|scope| {
-        let handles: Vec<_> = BACKENDS
-            .iter()
-            .map(|(word, ..)| scope.spawn(|| enumerate(word)))
-            .collect();
-        handles
-            .into_iter()
-            .map(|handle| handle.join().unwrap_or_else(|_| Ok(Vec::new())))
-            .collect()
-    });
+    let found: Vec<Result<Vec<HardwareDevice>, String>> =
+        each(BACKENDS.len(), &BACKENDS, |(word, ..)| enumerate(word));
     let mut taken = taken.clone();
     let mut ready = Vec::new();
     for ((_, prefix, backend), found) in BACKENDS.into_iter().zip(found) {

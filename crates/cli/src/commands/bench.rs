@@ -5,7 +5,7 @@ use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::out_folder::Out;
-use crate::output::{say, summarize, summarize_json, table_options};
+use crate::output::{print_json, say, summarize, table_options};
 use crate::progress::progress;
 use crate::{expectations, provenance, report_files, shard};
 use clap::Args;
@@ -83,12 +83,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Bench,
-        latest: LATEST,
+        latest: Some(LATEST),
+        cases: arguments.selection.cases.as_deref(),
         resume: arguments.resume,
         force: arguments.force,
     }
     .claim()?;
-    let expectations = expectations::read(None)?;
+    let expectations = expectations::built_in()?;
     let adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
@@ -241,7 +242,7 @@ fn print(
     written: &WrittenBench,
 ) -> Result<(), Failure> {
     if arguments.format == Format::Json {
-        return summarize_json(&json!({
+        return print_json(&json!({
             "pictures": summary.pictures,
             "timed": summary.timed,
             "unexpected": summary.unexpected,

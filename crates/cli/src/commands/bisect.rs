@@ -5,16 +5,17 @@ use crate::cases::{chosen, round_trips};
 use crate::failure::{Failure, INCOMPLETE};
 use crate::flags::{CaseArguments, CaseProfile, Format};
 use crate::interruption::listen;
-use crate::output::{say, summarize, summarize_json, table_options};
+use crate::out_folder::Out;
+use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::{expectations, provenance, report_files};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
-    AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, FolderLock,
-    Header, Release, ReleaseRecord, Run, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Verdict,
-    Versions, VersionsHeader,
+    AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, Header,
+    Release, ReleaseRecord, Run, Standing, VERSIONS_FORMAT, Verdict, Versions, VersionsHeader,
+    clear,
 };
 use etalon_runner::{
     Event, Launch, Options, Plan, RunError, Worker, releases_to_draw, run as draw,
@@ -82,8 +83,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut releases = releases_of(arguments.adapter_file.as_deref(), &arguments.line)?;
     let names: Vec<String> = releases.iter().map(|(name, _)| name.clone()).collect();
     let cases = selected(arguments)?;
-    let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
-    free(arguments)?;
+    let claim = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Versions,
+        latest: None,
+        cases: arguments.cases.as_deref(),
+        resume: false,
+        force: arguments.force,
+    }
+    .claim()?;
     let stop = listen()?;
     let mut adapters = discover(&Query {
         names: &names,
@@ -99,6 +107,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|case| undrawn(case, drawn.len()))
             .collect(),
     };
+    let _lock = claim.take()?;
+    versions
+        .write(&arguments.out)
+        .map_err(Failure::incomplete)?;
     let search = Search {
         folder: &arguments.out.join(WORK),
         cases: &cases,
@@ -106,15 +118,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         jobs: arguments.jobs.map_or_else(processors, usize::from),
         stop,
     };
-    let findings = expectations::read(None)?.on(&expectations::today());
+    let findings = expectations::built_in()?;
     let outcome = search.run(&mut versions, &mut drawn, &findings, &arguments.out);
     // What is left of an interrupted run says nothing that the file does not.
-    let _ = std::fs::remove_dir_all(search.folder);
+    let _ = clear(search.folder, FolderKind::Run, report_files::RUN);
+    let _ = std::fs::remove_file(search.folder.join(".lock"));
+    let _ = std::fs::remove_dir(search.folder);
     outcome?;
     let written =
         etalon_report::write_versions(&arguments.out, &versions).map_err(Failure::incomplete)?;
     match arguments.format {
-        Format::Json => summarize_json(&json!({
+        Format::Json => print_json(&json!({
             "line": versions.header.line,
             "releases": versions.header.releases,
             "cases": versions.cases.len(),
@@ -186,24 +200,6 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
         cases: arguments.cases.clone(),
         profile: arguments.profile,
     })
-}
-
-/// Refuses to replace what a folder holds without `--force`.
-fn free(arguments: &Arguments) -> Result<(), Failure> {
-    let folder = &arguments.out;
-    if FolderKind::of(folder).is_some() {
-        return Err(Failure::usage(format!(
-            "{} holds a run or a bench; choose another folder with --out",
-            folder.display()
-        )));
-    }
-    if folder.join(VERSIONS_FILE).exists() && !arguments.force {
-        return Err(Failure::usage(format!(
-            "{} holds the results of an earlier search; replace them with --force, or choose another folder with --out",
-            folder.display()
-        )));
-    }
-    Ok(())
 }
 
 /// Returns the adapters that were found, in the order of the releases.

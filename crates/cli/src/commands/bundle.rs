@@ -5,7 +5,8 @@ use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::Format;
-use crate::output::{say, summarize, summarize_json};
+use crate::out_folder::apart;
+use crate::output::{print_json, say, summarize};
 use crate::provenance;
 use crate::reducing::{Failing, FailingArguments, smallest, started};
 use clap::Args;
@@ -51,6 +52,7 @@ pub(crate) struct Arguments {
 /// Reduces a failing case, and writes a program that shows the bug without the suite, and a report.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let failing = &arguments.failing;
+    apart(&arguments.out, failing.cases.as_deref())?;
     let Failing {
         name,
         candidate,
@@ -100,7 +102,7 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
             written.folder.display(),
             written.archive.display(),
         )),
-        Format::Json => summarize_json(&json!({
+        Format::Json => print_json(&json!({
             "case": case,
             "adapter": adapter,
             "title": report.title,
@@ -496,7 +498,7 @@ fn pictures(judged: &Judged) -> Vec<File> {
 
 /// Returns the finding that names a case on an adapter.
 fn finding(adapter: &AdapterRecord, case: &str) -> Result<Option<Finding>, Failure> {
-    let findings = expectations::read(None)?.on(&expectations::today());
+    let findings = expectations::built_in()?;
     Ok(findings
         .first_bad(adapter, case)
         .and_then(|known| match &known.source {

@@ -2,7 +2,7 @@
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::ids;
-use crate::expectations::{read, replace, today, write};
+use crate::expectations::{ExpectArguments, replace, write};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
 use crate::output::{say, summarize};
@@ -70,9 +70,8 @@ pub(crate) struct ExportArguments {
     pub(crate) adapter: String,
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Export the expectations of this list, finding or folder of findings instead of the built-in ones
-    #[arg(long, value_name = "PATH")]
-    pub(crate) expect: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) expected: ExpectArguments,
     /// Folder for the lists
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
@@ -166,7 +165,7 @@ fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
 }
 
 fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
-    let expected = read(arguments.expect.as_deref())?.on(&today());
+    let expected = arguments.expected.read(&[])?;
     let ids = ids(arguments.cases.as_ref())?;
     let name = std::slice::from_ref(&arguments.adapter);
     let adapters = discover(&Query {

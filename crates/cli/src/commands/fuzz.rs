@@ -6,14 +6,15 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::library;
 use crate::counted::counted;
-use crate::expectations::{self, today};
+use crate::expectations::{self, ExpectArguments};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
 use crate::failure_groups::{FailingScenes, Folders, Group};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::group_text;
 use crate::interruption::listen;
 use crate::match_text::why;
-use crate::output::{say, summarize, summarize_json};
+use crate::out_folder::Out;
+use crate::output::{print_json, say, summarize};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
@@ -23,14 +24,14 @@ use etalon_case::{Case, Library, Profile};
 use etalon_diagnose::{KnownBugs, Match};
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
-use etalon_record::{AdapterRecord, Expectations, FolderLock, Record, Verdict};
+use etalon_frame::threads::join;
+use etalon_record::{AdapterRecord, Expectations, FUZZ_FILE, FolderKind, Record, Verdict};
 use etalon_runner::{Batches, Launch, Worker};
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
@@ -40,15 +41,9 @@ const BATCH: usize = 128;
 const WAITING: usize = 8;
 /// The scenes of each adapter where neither their number nor a time is given.
 const COUNT: u64 = 1000;
-/// The file of groups.
-const GROUPS: &str = "fuzz.jsonl";
 /// The most groups that the terminal tells: new ones, and those like one finding.
 const MOST_NEW: usize = 20;
 const MOST_ALIKE: usize = 3;
-/// The folder of the scenes that fail.
-const FOUND: &str = "found";
-/// The folder of those that a finding explains.
-const KNOWN: &str = "known";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -61,7 +56,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Number of scenes for each adapter [default: 1000, without --time]
-    #[arg(long, value_name = "N", conflicts_with = "time")]
+    #[arg(long, value_name = "N", conflicts_with = "time", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
     /// Time for each adapter, in seconds or as `10m` or `2h`; drawing what was found in processes of its own and comparing
     /// it with the findings comes on top
@@ -73,9 +68,8 @@ pub(crate) struct Arguments {
     /// Replace the results in the folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Compare with these expectations instead of the built-in findings: a list, a finding, or a folder of findings
-    #[arg(long, value_name = "PATH")]
-    pub(crate) expect: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) expected: ExpectArguments,
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
@@ -129,12 +123,17 @@ impl Tally {
 
 /// Draws random scenes and keeps one of each way to fail.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let expectations = expectations::read(arguments.expect.as_deref())?.on(&today());
+    let expectations = arguments.expected.read(&[])?;
     let library = library(None)?;
-    fs::create_dir_all(&arguments.out)
-        .map_err(|e| Failure::usage(format!("cannot make {}: {e}", arguments.out.display())))?;
-    let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
-    free(arguments)?;
+    let claim = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Fuzz,
+        latest: None,
+        cases: None,
+        resume: false,
+        force: arguments.force,
+    }
+    .claim()?;
     let adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
@@ -144,6 +143,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if adapters.ready.is_empty() {
         return Err(Failure::nothing("no adapter can be used"));
     }
+    let _lock = claim.take()?;
+    // The scenes that are found lie in a folder that is known to be ours.
+    write(arguments, &[], true)?;
     let search = Search {
         arguments,
         expectations: &expectations,
@@ -180,9 +182,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 fn print(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
-    let report = arguments.out.join(GROUPS);
+    let report = arguments.out.join(FUZZ_FILE);
     match arguments.format {
-        Format::Json => summarize_json(&json!({
+        Format::Json => print_json(&json!({
             "interrupted": interrupted,
             "adapters": tallies.iter().map(Tally::json).collect::<Vec<_>>(),
             "groups": tallies.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
@@ -194,32 +196,6 @@ fn print(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
             }
             summarize(&format!("Report: {}\n", report.display()));
         }
-    }
-    Ok(())
-}
-
-/// Refuses to replace what a folder holds without `--force`, with which it is removed.
-fn free(arguments: &Arguments) -> Result<(), Failure> {
-    let file = arguments.out.join(GROUPS);
-    let folders = [FOUND, KNOWN].map(|name| arguments.out.join(name));
-    if !file.exists() && !folders.iter().any(|f| f.exists()) {
-        return Ok(());
-    }
-    if !arguments.force {
-        return Err(Failure::usage(format!(
-            "{} holds the results of an earlier search; replace them with --force, or choose another folder with --out",
-            arguments.out.display()
-        )));
-    }
-    let failed = |path: &Path| {
-        let path = path.display().to_string();
-        move |e| Failure::incomplete(format!("cannot remove {path}: {e}"))
-    };
-    if file.exists() {
-        fs::remove_file(&file).map_err(failed(&file))?;
-    }
-    for folder in folders.iter().filter(|f| f.exists()) {
-        fs::remove_dir_all(folder).map_err(failed(folder))?;
     }
     Ok(())
 }
@@ -246,8 +222,8 @@ impl Search<'_> {
         let limits = &worker.hello.limits;
         let reducer = || Reducer::new(launch.clone(), limits.clone(), self.timeout, self.stop);
         let folders = Folders {
-            found: out.join(FOUND),
-            known: out.join(KNOWN),
+            found: out.join(Folders::FOUND),
+            known: out.join(Folders::KNOWN),
         };
         let mut failing = FailingScenes::new(reducer(), folders);
         let bug_reducer = reducer();
@@ -292,25 +268,28 @@ impl Search<'_> {
         let mut next = maker.batch();
         thread::scope(|scope| {
             // What failed is reduced one after the other, in the order of the scenes, while others are drawn.
-            let added = scope.spawn(|| {
+            let added = thread::Builder::new().spawn_scoped(scope, || {
                 for scenes in receiver {
                     failing.add(scenes)?;
                     groups.store(failing.groups(), Ordering::Relaxed);
                 }
                 Ok::<_, Failure>(())
             });
+            let added = added
+                .map_err(|e| Failure::incomplete(format!("a thread cannot be started: {e}")))?;
             let mut drawn = Ok(());
             while !next.is_empty() && !self.is_stopped() {
                 let scenes = std::mem::take(&mut next);
                 let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
                 (tally.pairs, tally.states) = (maker.fuzzer.pairs(), maker.fuzzer.states());
                 // While these are drawn, the next scenes are made.
-                let records = thread::scope(|scope| {
-                    let made = scope.spawn(|| maker.batch());
-                    let records = batches.draw(&cases, self.stop);
-                    next = joined(made);
-                    records
-                });
+                let maker = Mutex::new(&mut *maker);
+                let make = || {
+                    let mut maker = maker.lock().unwrap_or_else(PoisonError::into_inner);
+                    maker.batch()
+                };
+                let (made, records) = join(make, || batches.draw(&cases, self.stop));
+                next = made;
                 let records = match records {
                     Ok(records) => records,
                     Err(error) => {
@@ -401,9 +380,8 @@ fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
             .flat_map(|t| t.groups.iter().map(group_text::json)),
     );
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
-    let path = arguments.out.join(GROUPS);
-    fs::write(&path, text)
-        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))
+    let path = arguments.out.join(FUZZ_FILE);
+    expectations::replace(&path, &text)
 }
 
 impl Tally {
@@ -524,7 +502,7 @@ impl Tally {
 /// Returns the line on groups that are not told.
 fn others(groups: &[&Group]) -> String {
     format!(
-        "and {} of {}, in {GROUPS}",
+        "and {} of {}, in {FUZZ_FILE}",
         counted(groups.len() as u64, "more group"),
         counted(scenes(groups), "scene")
     )

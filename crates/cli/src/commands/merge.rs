@@ -5,10 +5,11 @@ use crate::catalogue::catalogue;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
-use crate::output::{say, summarize, summarize_json, table_options};
+use crate::out_folder::Out;
+use crate::output::{print_json, say, summarize, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
-use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run, clear};
+use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::News;
 use serde_json::json;
 use std::collections::HashSet;
@@ -46,8 +47,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
     let built_in = !merge.header_mut().command.iter().any(of_folder);
     merge.header_mut().command = provenance::command();
-    let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
-    free(out, arguments.force)?;
+    let claim = Out {
+        folder: out,
+        kind: FolderKind::Run,
+        latest: None,
+        cases: None,
+        resume: false,
+        force: arguments.force,
+    }
+    .claim()
+    // A merge starts from its parts each time.
+    .map_err(|failure| Failure {
+        message: failure
+            .message
+            .replace("--resume draws what is missing, ", ""),
+        ..failure
+    })?;
+    let _lock = claim.take()?;
     let merged = merge
         .write(out, report_files::RUN)
         .map_err(Failure::incomplete)?;
@@ -84,21 +100,6 @@ fn refuse_part(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses to replace what a folder holds without `--force`, with which a bench is removed.
-fn free(out: &Path, force: bool) -> Result<(), Failure> {
-    match FolderKind::of(out) {
-        Some(FolderKind::Run) if !force => Err(Failure::usage(occupied(out))),
-        Some(kind @ FolderKind::Bench) if !force => {
-            let path = out.to_owned();
-            Err(Failure::usage(RecordError::Holds { path, kind }))
-        }
-        Some(kind @ FolderKind::Bench) => {
-            clear(out, kind, report_files::BENCH).map_err(Failure::usage)
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Writes the pages of a merged run, and prints it.
 fn print(
     arguments: &Arguments,
@@ -112,7 +113,7 @@ fn print(
         etalon_report::write_run_with_news(out, &shown, news).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
-        return summarize_json(&json!({
+        return print_json(&json!({
             "records": merged.records,
             "missing": merged.missing.iter().map(pair).collect::<Vec<_>>(),
             "empty": merged.empty,
@@ -147,22 +148,6 @@ fn same(folder: &Path, other: &Path) -> bool {
         (Ok(folder), Ok(other)) => folder == other,
         _ => folder == other,
     }
-}
-
-fn occupied(out: &Path) -> String {
-    let (records, expected) = match Run::read(out) {
-        Ok(run) => (run.records.len() as u64, run.header.expected_records()),
-        Err(_) => (0, 0),
-    };
-    let error = RecordError::Occupied {
-        path: out.to_owned(),
-        records,
-        expected,
-    };
-    // A merge starts from its parts each time and cannot be resumed.
-    error
-        .to_string()
-        .replace("--resume draws what is missing, ", "")
 }
 
 fn print_overlap(merged: &Merged) {

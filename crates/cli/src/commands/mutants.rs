@@ -3,19 +3,22 @@
 use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
-use crate::output::{print, print_json, summarize, summarize_json, table_options};
+use crate::out_folder::{Claim, Out};
+use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
+use crate::report_files::RECALL;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_cpu::CpuBackend;
 use etalon_explore::{Fuzzer, Space};
 use etalon_frame::Limits;
+use etalon_frame::threads::each;
 use etalon_judge::Judge;
 use etalon_mutants::{MutantBackend, mutants};
-use etalon_record::{Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord};
+use etalon_record::{Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord};
 use etalon_runner::{Globs, HuntPlan};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -61,8 +64,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.list {
         return list(&chosen, arguments.format);
     }
+    let claim = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Hunt,
+        latest: None,
+        cases: arguments.cases.as_deref(),
+        resume: false,
+        // A hunt is made again in minutes.
+        force: true,
+    }
+    .claim()?;
     if let Some(scenes) = arguments.fuzz {
-        return fuzz(arguments, scenes, &chosen);
+        return fuzz(arguments, scenes, &chosen, claim);
     }
     let library = library(arguments.cases.as_ref())?;
     let named = !arguments.case_globs.is_empty();
@@ -78,9 +91,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     let hunt = hunt(arguments, &cases, &chosen);
+    let _lock = claim.take()?;
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
-        summarize_json(&hunt)?;
+        print_json(&hunt)?;
     } else {
         let options = table_options();
         summarize(&etalon_report::hunt_table(&hunt, options));
@@ -176,10 +190,16 @@ const CHUNK: u64 = 500;
 
 /// Hunts with random scenes. Exits with 1 if a legal bug fails, or the rasterizer without a bug; how many of the
 /// others are caught is what is measured.
-fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8, Failure> {
+fn fuzz(
+    arguments: &Arguments,
+    scenes: u64,
+    chosen: &[MutantInfo],
+    claim: Claim<'_>,
+) -> Result<u8, Failure> {
     let (started, start) = (provenance::now(), Instant::now());
     let (found, failing) = fuzzed(arguments.seed, scenes, chosen);
     let hunt = hunted(arguments, scenes, started, start, found);
+    let _lock = claim.take()?;
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     let mut table = recall(&hunt);
     for case in &failing {
@@ -187,11 +207,11 @@ fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8,
             "\nWrong: {case} fails without a bug, and was left out\n"
         ));
     }
-    let path = arguments.out.join("recall.txt");
+    let path = arguments.out.join(RECALL);
     std::fs::write(&path, &table)
         .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
     match arguments.format {
-        Format::Json => summarize_json(&hunt)?,
+        Format::Json => print_json(&hunt)?,
         Format::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
     }
     let wrong = |m: &MutantRecord| m.outcome == Catch::Caught && m.mutant.legal.is_some();
@@ -270,18 +290,7 @@ fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<St
             judged.record.verdict.is_violation()
         })
     };
-    let (jobs, fails) = (processors(), &fails);
-    let wrong: Vec<bool> = std::thread::scope(|scope| {
-        let parts = cases.chunks(cases.len().div_ceil(jobs).max(1));
-        let lanes: Vec<_> = parts
-            .map(|part| scope.spawn(move || part.iter().map(fails).collect::<Vec<bool>>()))
-            .collect();
-        let ended = lanes.into_iter().map(|lane| match lane.join() {
-            Ok(wrong) => wrong,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        ended.flatten().collect()
-    });
+    let wrong = each(processors(), &cases, fails);
     let (kept, left): (Vec<_>, Vec<_>) = cases.into_iter().zip(wrong).partition(|(_, w)| !w);
     let kept = kept.into_iter().map(|(case, _)| case).collect();
     (kept, left.into_iter().map(|(case, _)| case.id).collect())

@@ -2,7 +2,8 @@
 
 use crate::failure::Failure;
 use crate::flags::Format;
-use crate::output::{summarize, summarize_json};
+use crate::out_folder::apart;
+use crate::output::{print_json, summarize};
 use crate::reducing::{Failing, FailingArguments, smallest};
 use clap::Args;
 use etalon_diagnose::Symptom;
@@ -11,7 +12,7 @@ use etalon_record::Record;
 use etalon_report::ReducedCase;
 use serde_json::{Value, json};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -25,12 +26,15 @@ pub(crate) struct Arguments {
 /// Reduces a case that fails on an adapter, and writes what is left as a case file.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let failing = &arguments.failing;
+    apart(&arguments.out, failing.cases.as_deref())?;
     let Failing {
         name,
         candidate,
         launch,
         worker,
     } = Failing::find(failing)?;
+    let path = arguments.out.join(format!("{name}.json"));
+    refuse_foreign(&path)?;
     let document = candidate.document.clone();
     let timeout = failing.timeout();
     let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
@@ -43,7 +47,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         symptom: &smallest.symptom,
         seconds: smallest.seconds,
     };
-    let path = arguments.out.join(format!("{name}.json"));
     let text = serde_json::to_string_pretty(&report.document())
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
     fs::create_dir_all(&arguments.out)
@@ -51,9 +54,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
     match arguments.failing.format {
         Format::Text => summarize(&report.text(&path.display().to_string())),
-        Format::Json => summarize_json(&report.json(&path.display().to_string()))?,
+        Format::Json => print_json(&report.json(&path.display().to_string()))?,
     }
     Ok(0)
+}
+
+/// Refuses to replace a file that is no case file.
+fn refuse_foreign(path: &Path) -> Result<(), Failure> {
+    let text = fs::read(path).unwrap_or_default();
+    let document: Value = serde_json::from_slice(&text).unwrap_or_default();
+    if path.exists() && !document["scene"].is_object() {
+        return Err(Failure::usage(format!(
+            "{} exists and is no case file; name another folder with --out",
+            path.display()
+        )));
+    }
+    Ok(())
 }
 
 /// A reduction, for people and programs.

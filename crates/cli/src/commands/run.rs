@@ -6,13 +6,13 @@ use crate::adapters::{
 use crate::blessing::{bless, to_bless};
 use crate::cases::{all_ids, chosen, left_out, library, round_trips};
 use crate::catalogue::catalogue;
-use crate::expectations::{self, today};
+use crate::expectations::{ExpectArguments, counting, is_built_in};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
-use crate::output::{say, summarize, summarize_json, table_options};
+use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::{provenance, report_files, shard};
@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, Dead, DeadKind, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
 use etalon_report::News;
@@ -62,9 +62,8 @@ pub(crate) struct Arguments {
     /// Replace the run or bench in the folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Use these expectations instead of the built-in findings: a list, a finding, or a folder of findings
-    #[arg(long, value_name = "PATH")]
-    pub(crate) expect: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) expected: ExpectArguments,
     /// Exit with 1 if expectations are dead: a glob matches no case or no adapter, another one covers them, or
     /// all their cases were drawn and none had the verdict
     #[arg(long)]
@@ -153,16 +152,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let selected = Selected::new(arguments)?;
     let to_bless = if arguments.bless {
-        Some(to_bless(arguments.expect.as_deref())?)
+        Some(to_bless(&arguments.expected.expect)?)
     } else {
         None
     };
     let expectations = expectations(arguments, to_bless.as_deref())?;
+    // Of a list that is updated, the rest of what is expected is no part.
+    let blessed = match &to_bless {
+        Some(path) if path.exists() => {
+            let read = Expectations::read(path).map_err(Failure::usage)?;
+            counting(read, &labels(arguments))
+        }
+        _ => Expectations::default(),
+    };
     // The records of a concurrent or an earlier run must not be lost.
     let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Run,
-        latest: LATEST,
+        latest: Some(LATEST),
+        cases: arguments.selection.cases.as_deref(),
         resume: arguments.resume,
         force: arguments.force,
     }
@@ -197,7 +205,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if let Some(path) = &to_bless {
         let all_adapters = arguments.adapters.is_empty();
         let cases = arguments.selection.cases.as_ref();
-        bless(path, run, &expectations, cases, all_adapters)?;
+        bless(path, run, &blessed, cases, all_adapters)?;
         return Ok(0);
     }
     Ok(results.exit_code())
@@ -242,12 +250,22 @@ impl Selected {
 
 /// Returns the expectations of a run; `to_bless` is the file to update, which need not exist yet.
 fn expectations(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectations, Failure> {
-    let expectations = match to_bless {
-        Some(path) if !path.exists() => Expectations::default(),
-        Some(path) => Expectations::read(path).map_err(Failure::usage)?,
-        None => expectations::read(arguments.expect.as_deref())?,
-    };
-    Ok(expectations.on(&today()))
+    let mut expected = arguments.expected.clone();
+    if let Some(path) = to_bless {
+        // The folder of findings itself is what the built-in ones were made of.
+        expected.expect_only |= expected.expect.is_empty();
+        expected.expect = if path.exists() {
+            vec![path.to_owned()]
+        } else {
+            Vec::new()
+        };
+    }
+    expected.read(&labels(arguments))
+}
+
+/// The labels of a run, as `key=value`.
+fn labels(arguments: &Arguments) -> Vec<String> {
+    arguments.news.labels.given().to_vec()
 }
 
 /// Starts the adapters. Returns those too that are installed and do not start, with the reason: each of their cases has a
@@ -265,6 +283,11 @@ fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)
         say!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
+    if adapters.ready.is_empty() && dead.is_empty() {
+        return Err(Failure::nothing(
+            "no adapter can be used; `etalon adapters` says why",
+        ));
+    }
     Ok((adapters, dead))
 }
 
@@ -334,7 +357,7 @@ impl<'a> Results<'a> {
 
     fn print(&self) -> Result<(), Failure> {
         if self.arguments.format == Format::Json {
-            return summarize_json(&json!({
+            return print_json(&json!({
                 "records": self.summary.records,
                 "missing": self.run.missing(),
                 "unexpected": self.summary.unexpected,
@@ -391,8 +414,13 @@ impl<'a> Results<'a> {
 /// The error of a run that lacks records.
 fn incomplete(run: &Run, interrupted: bool) -> Failure {
     let interrupted = if interrupted { "interrupted: " } else { "" };
+    let names = run.header.adapters.iter().map(|a| a.name.as_str());
+    let undrawn = names.filter(|name| run.records.iter().all(|r| r.adapter != *name));
+    let undrawn: String = undrawn
+        .map(|name| format!("{name} has no record; "))
+        .collect();
     Failure::incomplete(format!(
-        "{interrupted}{} of {} records are missing; {}",
+        "{interrupted}{undrawn}{} of {} records are missing; {}",
         run.missing(),
         run.header.expected_records(),
         how_to_resume()
@@ -407,13 +435,18 @@ fn dead_expectations(
     run: &Run,
 ) -> Result<Vec<Dead>, Failure> {
     let cases = arguments.selection.cases.as_ref();
-    let built_in_alone = arguments.expect.is_none() && cases.is_some();
-    if built_in_alone || expectations.all().is_empty() {
+    if expectations.all().is_empty() {
         return Ok(Vec::new());
     }
     let ids = all_ids(cases)?;
     let described = described_names(arguments.file.adapter_file.as_deref())?;
-    Ok(expectations.dead(run, &ids, &described))
+    let mut dead = expectations.dead(run, &ids, &described);
+    // A list of a user's own may cover a finding, and does not make it one to remove.
+    dead.retain(|entry| {
+        let covered = entry.kind == DeadKind::Covered && !is_built_in(&entry.about);
+        !is_built_in(&entry.place) || cases.is_none() && !covered
+    });
+    Ok(dead)
 }
 
 /// Returns a line on the bad verdicts that were checked again; nothing where there were none.

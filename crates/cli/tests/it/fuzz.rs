@@ -61,9 +61,8 @@ fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
     let [one, other] = ["one", "three"].map(|name| folder.path().join(name));
     let adapter = "gl:softpipe";
     // Without findings, all groups are new.
-    let none = nothing_known(folder.path());
     let search = |out: &Path, jobs: &str| {
-        let more = ["--count", "120", "--jobs", jobs, "--expect", &none];
+        let more = ["--count", "120", "--jobs", jobs, "--expect-only"];
         fuzz(adapter, out, &more)
     };
     let (code, summary, error) = search(&one, "1");
@@ -107,13 +106,6 @@ fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
         checked += 1;
     }
     assert!(checked > 2, "{groups:#?}");
-}
-
-/// Writes expectations that expect nothing.
-fn nothing_known(folder: &Path) -> String {
-    let path = folder.join("none.json");
-    fs::write(&path, "[]").unwrap();
-    path.to_str().unwrap().to_owned()
 }
 
 #[test]
@@ -163,13 +155,13 @@ fn known_bugs_are_named_by_their_findings() {
     assert!(fs::read_to_string(file).unwrap().contains("Looks like: "));
 
     // Without findings both are new, and with a finding on other cases too.
-    let none = nothing_known(folder.path());
     let finding = folder.path().join("other.json");
     let text = r#"{ "title": "t", "adapters": ["*"], "driver": "*", "cases": ["depth/compare/*"],
         "grade": "proven", "clause": "c", "evidence": "e" }"#;
     fs::write(&finding, text).unwrap();
-    for expect in [&none, finding.to_str().unwrap()] {
-        let (code, summary, error) = search("8", &["--expect", expect]);
+    let finding = ["--expect-only", "--expect", finding.to_str().unwrap()];
+    for expected in [&finding[..1], &finding] {
+        let (code, summary, error) = search("8", expected);
         assert_eq!(
             (code, counts(&summary)),
             (1, [2, 0, 0]),
@@ -215,8 +207,7 @@ fn the_commonest_groups_are_told_and_the_others_counted() {
         "7",
         "--count",
         "1000",
-        "--expect",
-        &nothing_known(folder.path()),
+        "--expect-only",
         "--out",
         out,
         "--force",

@@ -5,11 +5,11 @@ use super::line::BenchLine;
 use super::read::Bench;
 use crate::conflict::bench_conflict;
 use crate::error::RecordError;
-use crate::folder::{BENCH_FILE, FolderKind};
+use crate::folder::{BENCH_FILE, Content, FolderKind};
 use crate::json::json_line;
-use crate::json_lines::reopen;
+use crate::json_lines::{begin, reopen};
 use crate::report_files::ReportFiles;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -25,7 +25,7 @@ impl BenchWriter {
     /// already holds is replaced, and its reports stay.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds a run, whose report would be overwritten.
+    /// When the folder cannot be written to, or holds something else than a bench.
     pub fn create(folder: &Path, header: &BenchHeader) -> Result<Self, RecordError> {
         Self::replace(folder, header, ReportFiles::NONE)
     }
@@ -33,28 +33,25 @@ impl BenchWriter {
     /// [`BenchWriter::create`], which also removes the reports of the bench before.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds a run, whose report would be overwritten.
+    /// When the folder cannot be written to, or holds something else than a bench.
     pub fn replace(
         folder: &Path,
         header: &BenchHeader,
         reports: ReportFiles,
     ) -> Result<Self, RecordError> {
-        let path = folder.join(BENCH_FILE);
-        match FolderKind::of(folder) {
-            Some(kind @ FolderKind::Run) => {
+        match Content::writable(folder)? {
+            Content::Recorded(FolderKind::Bench) => reports.remove(folder)?,
+            Content::Recorded(kind) => {
                 return Err(RecordError::Holds {
                     path: folder.to_owned(),
                     kind,
                 });
             }
-            Some(FolderKind::Bench) => reports.remove(folder)?,
-            None => {}
+            Content::Empty | Content::Other => {}
         }
-        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-        let file = File::create(&path).map_err(RecordError::io("create", &path))?;
-        let mut writer = Self { path, file };
-        writer.write(&json_line("the header", header)?)?;
-        Ok(writer)
+        let file = begin(folder, BENCH_FILE, &json_line("the header", header)?)?;
+        let path = folder.join(BENCH_FILE);
+        Ok(Self { path, file })
     }
 
     /// Resumes the bench that a folder holds, and returns what it holds. A last line that was cut off is

@@ -253,7 +253,7 @@ fn a_bench_replaces_a_bench_and_no_run() {
     );
 
     let run = tempfile::tempdir().unwrap();
-    fs::write(run.path().join("run.jsonl"), "").unwrap();
+    fs::write(run.path().join("run.jsonl"), "{\"etalon\":\"0\"}\n").unwrap();
     assert_eq!(FolderKind::of(run.path()), Some(FolderKind::Run));
     let error = BenchWriter::create(run.path(), &header()).unwrap_err();
     assert!(matches!(error, RecordError::Holds { .. }), "{error}");

@@ -425,11 +425,17 @@ fn a_new_run_replaces_the_old_one_and_nothing_else() {
     let frames = folder.path().join("frames");
     fs::create_dir(&frames).unwrap();
     fs::write(frames.join("mine"), "").unwrap();
+    let refused = RunWriter::create(folder.path(), &header()).unwrap_err();
+    assert!(matches!(refused, RecordError::Foreign { .. }), "{refused}");
+    assert!(frames.join("mine").exists(), "not a run folder before");
+    fs::remove_dir_all(&frames).unwrap();
+    written(folder.path(), &[Verdict::Pass]);
+    fs::create_dir_all(frames.join("gl/a")).unwrap();
+    fs::write(frames.join("gl/a/b.json"), "").unwrap();
+    fs::write(frames.join("mine"), "").unwrap();
     fs::write(folder.path().join("notes.txt"), "").unwrap();
     written(folder.path(), &[Verdict::Pass]);
-    assert!(frames.join("mine").exists(), "not a run folder before");
-    written(folder.path(), &[Verdict::Pass]);
-    assert!(!frames.exists());
+    assert!(!frames.join("gl").exists() && frames.join("mine").exists());
     assert!(folder.path().join("notes.txt").exists());
 }
 
@@ -439,7 +445,7 @@ fn reports_go_with_the_run_that_they_are_about() {
     let path = |name: &str| folder.path().join(name);
     let reports = ReportFiles {
         files: &["index.html", "never-written"],
-        folders: &["results"],
+        folders: &[("results", "csv")],
     };
     let put = || {
         fs::create_dir_all(path("results")).unwrap();
@@ -447,9 +453,8 @@ fn reports_go_with_the_run_that_they_are_about() {
             fs::write(path(name), "").unwrap();
         }
     };
-    put();
     RunWriter::replace(folder.path(), &header(), reports).unwrap();
-    assert!(path("index.html").exists(), "no run was there before");
+    put();
     RunWriter::replace(folder.path(), &header(), reports).unwrap();
     assert!(!path("index.html").exists() && !path("results").exists());
     assert!(path("notes.txt").exists());
@@ -570,4 +575,43 @@ fn pictures_are_read_below_the_folder_alone() {
         read("pictures/none.png", 9).unwrap_err(),
         RecordError::Io { .. }
     ));
+}
+
+#[test]
+fn blank_lines_and_a_byte_order_mark_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path(), &[Verdict::Pass, Verdict::Fail]);
+    let path = folder.path().join("run.jsonl");
+    let plain = Run::read(folder.path()).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, format!("\u{feff}{text}\n \r\n\n")).unwrap();
+    assert_eq!(Run::read(folder.path()).unwrap(), plain);
+    let (mut writer, resumed) = RunWriter::resume(folder.path(), &plain.header).unwrap();
+    assert_eq!(resumed, plain);
+    let more = Record::new("depth/more", "gl:es:soft", Verdict::Pass);
+    writer.append(&more).unwrap();
+    let read = Run::read(folder.path()).unwrap();
+    assert_eq!(read.records.len(), plain.records.len() + 1);
+    assert_eq!(read.records.last(), Some(&more));
+}
+
+#[test]
+fn a_broken_header_is_no_line_to_remove() {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path(), &[Verdict::Pass]);
+    let path = folder.path().join("run.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &text[5..]).unwrap();
+    let error = Run::read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("run.jsonl:1: ") && error.contains("header"),
+        "{error}"
+    );
+    assert!(!error.contains("remove the line"), "{error}");
+    fs::write(&path, text.replacen("\"verdict\"", "\"verdct\"", 1)).unwrap();
+    let error = Run::read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("run.jsonl:2: ") && error.contains("remove the line"),
+        "{error}"
+    );
 }

@@ -122,15 +122,14 @@ pub fn write_history(
         index: &index.to_string(),
     });
     folder.write("index.html", html.as_bytes())?;
-    let about = json!({ "format": 1, "runs": places.runs.len(), "cases": cases.len() });
-    folder.write(HISTORY_PAGE_FILE, format!("{about}\n").as_bytes())?;
-    let (files, bytes) = (folder.files, folder.bytes);
-    folder.finish()?;
+    let (runs, cases) = (places.runs.len(), cases.len());
+    let about = json!({ "etalon": "history", "format": 1, "runs": runs, "cases": cases });
+    folder.finish(HISTORY_PAGE_FILE, about)?;
     Ok(WrittenHistory {
         html: to.join("index.html"),
         start: html.len() as u64,
-        files,
-        bytes,
+        files: folder.files,
+        bytes: folder.bytes,
     })
 }
 

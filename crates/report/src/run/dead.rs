@@ -14,6 +14,7 @@ pub(crate) fn meaning(kind: DeadKind) -> &'static str {
         DeadKind::NoAdapter => "no adapter matches",
         DeadKind::Covered => "covered by another",
         DeadKind::NeverMatched => "all cases drawn, never matched",
+        DeadKind::Expired => "expired",
     }
 }
 

@@ -8,16 +8,15 @@ use crate::export::{ctrf, deqp, junit, markdown};
 use crate::files::replace;
 use crate::methods::{self, Methods};
 use crate::news::News;
+use etalon_frame::threads::join;
 use etalon_record::{Dead, Run};
 use std::fs;
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
-use std::thread;
 
 /// The files that [`write()`] may write into a run folder.
 pub const RUN_FILES: [&str; 5] = [HTML, methods::PAGE, JUNIT, CTRF, SUMMARY];
-/// The folders that [`write()`] writes into a run folder.
-pub const RUN_FOLDERS: [&str; 2] = [deqp::FOLDER, CATALOGUE];
+/// The folders that [`write()`] writes into a run folder, each with the extension of its files.
+pub const RUN_FOLDERS: [(&str, &str); 2] = [(deqp::FOLDER, "csv"), (CATALOGUE, "js")];
 const HTML: &str = "index.html";
 const JUNIT: &str = "junit.xml";
 const CTRF: &str = "ctrf.json";
@@ -87,15 +86,13 @@ pub fn write_run_with_news(
     let found = Methods::of(run);
     let dead = Dead::read(folder)?;
     // The page reads frames and takes as long as all others together.
-    let (html, others) = thread::scope(|scope| {
-        let html = scope.spawn(|| {
+    let (html, others) = join(
+        || {
             let page = index::page(folder, run, &dead, found.as_ref());
             replace(folder, HTML, page.as_bytes())
-        });
-        let others = others(folder, run, found.as_ref(), news);
-        let html = html.join().unwrap_or_else(|panic| resume_unwind(panic));
-        (html, others)
-    });
+        },
+        || others(folder, run, found.as_ref(), news),
+    );
     Ok(RunReports {
         html: html?,
         ..others?

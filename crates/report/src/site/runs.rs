@@ -124,7 +124,7 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
             let adapters = header.adapters.iter().map(|a| a.name.clone()).collect();
             Facts::Bench(header.started, header.cases, adapters)
         }
-        None => Facts::Other,
+        _ => Facts::Other,
     })
 }
 

@@ -4,6 +4,8 @@ use super::runs::{self, Recorded};
 use super::start;
 use crate::error::ReportError;
 use crate::staged::{Content, Staged};
+use etalon_record::overlap;
+use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -49,21 +51,21 @@ pub fn write_site(
     let runs = runs::collect(folders)?;
     let mut site = Staged::begin(to)?;
     fill(&mut site, &runs)?;
-    let (files, bytes) = (site.files, site.bytes);
-    site.finish()?;
+    site.finish(SITE_FILE, json!({ "etalon": "site", "format": 1 }))?;
     Ok(WrittenSite {
         html: to.join("index.html"),
-        files,
-        bytes,
+        files: site.files,
+        bytes: site.bytes,
     })
 }
 
 /// A site that holds what it is made from would lose it when it is replaced.
 fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
-    let whole = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let (site, folder) = (whole(to), whole(folder));
-    if folder.starts_with(&site) || site.starts_with(&folder) {
-        return Err(ReportError::Within { site, folder });
+    if overlap(to, folder) {
+        return Err(ReportError::Within {
+            site: to.to_owned(),
+            folder: folder.to_owned(),
+        });
     }
     Ok(())
 }
@@ -75,9 +77,7 @@ fn fill(site: &mut Staged, runs: &[Recorded]) -> Result<(), ReportError> {
             site.write(to, &read(&run.folder.join(file))?)?;
         }
     }
-    site.write("index.html", start::page(runs).as_bytes())?;
-    let kind = serde_json::json!({ "etalon": "site", "format": 1 });
-    site.write(SITE_FILE, kind.to_string().as_bytes())
+    site.write("index.html", start::page(runs).as_bytes())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {

@@ -9,11 +9,11 @@ use crate::event::Event;
 use crate::measure::Truths;
 use crate::sync::lock;
 use etalon_case::Case;
+use etalon_frame::threads::share;
 use etalon_judge::Judge;
 use etalon_record::{LossKind, Record, RunWriter, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
-use std::thread;
 
 /// Runs every case on every adapter. Events come from several threads.
 ///
@@ -90,16 +90,12 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     let dead = dead
         .map(|(adapter, error)| AdapterQueue::not_started(missing(&adapter.name), adapter, error));
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
-    thread::scope(|scope| {
-        for _ in 0..plan.options.jobs.max(1) {
-            scope.spawn(|| {
-                while !shared.stopped()
-                    && let Some(queue) = adapter_queue::next(&queues)
-                {
-                    WorkerLoop::new(&shared, queue).run();
-                    queue.leave();
-                }
-            });
+    share(plan.options.jobs, || {
+        while !shared.stopped()
+            && let Some(queue) = adapter_queue::next(&queues)
+        {
+            WorkerLoop::new(&shared, queue).run();
+            queue.leave();
         }
     });
     if let Some(error) = lock(&shared.error).take() {

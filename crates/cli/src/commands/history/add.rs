@@ -4,7 +4,7 @@ use crate::counted::counted;
 use crate::failure::{Failure, INCOMPLETE, USAGE};
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, LabelArguments, failure};
-use crate::output::{say, summarize, summarize_json};
+use crate::output::{print_json, say, summarize};
 use clap::Args;
 use etalon_history::{
     Added, HistoryError, Kind, Labels, NewRun, ReleaseDates, RunId, Writer, read_runs,
@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     }
     if arguments.format == Format::Json {
-        summarize_json(&added)?;
+        print_json(&added)?;
     }
     Ok([USAGE, INCOMPLETE]
         .into_iter()

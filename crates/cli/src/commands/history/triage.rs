@@ -8,7 +8,7 @@ use crate::counted::counted;
 use crate::failure::Failure;
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
-use crate::output::{print, print_json, summarize, summarize_json};
+use crate::output::{print, print_json, summarize};
 use clap::{Args, ValueEnum};
 use etalon_history::{
     History, Labels, MachineId, RunId, Step, Subject, TriageEntry, TriageState, Writer, format_time,
@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             let lines = entries.iter().map(|entry| line(entry) + "\n");
             summarize(&lines.collect::<String>());
         }
-        Format::Json => summarize_json(&entries.iter().map(entry_json).collect::<Vec<_>>())?,
+        Format::Json => print_json(&entries.iter().map(entry_json).collect::<Vec<_>>())?,
     }
     Ok(0)
 }

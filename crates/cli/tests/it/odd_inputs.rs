@@ -1,0 +1,366 @@
+//! Inputs that no program writes and people have: marks of editors, links, pipes, keys that stand twice, huge scenes; and
+//! machines that refuse what a run needs.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::etalon::{BINARY, REMOVED, etalon};
+use etalon_record::{Expectations, Record, Run, Verdict};
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const POINTS: &str = include_str!("../../../../cases/cull/points.json");
+
+/// A folder with one case file in `cases`.
+fn cases(text: &str) -> (TempDir, PathBuf) {
+    let work = tempfile::tempdir().unwrap();
+    let cases = work.path().join("cases");
+    fs::create_dir(&cases).unwrap();
+    fs::write(cases.join("a.json"), text).unwrap();
+    (work, cases)
+}
+
+fn list(cases: &Path) -> assert_cmd::assert::Assert {
+    let mut command = etalon(&["list", "--cases"]);
+    command.arg(cases).timeout(Duration::from_secs(60)).assert()
+}
+
+fn lines(assert: &assert_cmd::assert::Assert) -> usize {
+    let out = &assert.get_output().stdout;
+    out.iter().filter(|byte| **byte == b'\n').count()
+}
+
+#[test]
+fn a_byte_order_mark_changes_nothing() {
+    let mark = '\u{feff}';
+    let (plain, marked) = (cases(POINTS), cases(&format!("{mark}{POINTS}")));
+    let listed = lines(&list(&plain.1).success());
+    assert!(listed > 1);
+    assert_eq!(lines(&list(&marked.1).success()), listed);
+    etalon(&["check"])
+        .arg(marked.1.join("a.json"))
+        .assert()
+        .success();
+    let work = marked.0.path();
+    let adapters = work.join("adapters.json");
+    fs::write(
+        &adapters,
+        format!("{mark}[{{\"name\":\"mine\",\"backend\":\"cpu\"}}]"),
+    )
+    .unwrap();
+    let expect = work.join("expect.json");
+    fs::write(&expect, format!("{mark}[]")).unwrap();
+    etalon(&["run", "--adapter", "mine", "--adapters"])
+        .arg(&adapters)
+        .arg("--expect")
+        .arg(&expect)
+        .arg("--cases")
+        .arg(&marked.1)
+        .arg("--out")
+        .arg(work.join("run"))
+        .assert()
+        .success();
+}
+
+#[test]
+fn links_and_pipes_among_case_files_are_named() {
+    let (work, folder) = cases(POINTS);
+    let listed = lines(&list(&folder).success());
+    symlink(&folder, folder.join("again")).unwrap();
+    list(&folder)
+        .code(64)
+        .stderr(contains("again").and(contains("link")));
+    fs::remove_file(folder.join("again")).unwrap();
+    // A link to another folder is as good as the folder.
+    let other = cases(POINTS);
+    symlink(&other.1, folder.join("other")).unwrap();
+    assert_eq!(lines(&list(&folder).success()), 2 * listed);
+    let pipe = folder.join("x.json");
+    let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    list(&folder)
+        .code(64)
+        .stderr(contains("x.json").and(contains("no file")));
+    drop(work);
+}
+
+#[test]
+fn what_json_leaves_open_is_refused() {
+    for (from, to, words) in [
+        (
+            "\"about\":",
+            "\"about\": \"twice\", \"about\":",
+            "the key `about` stands twice",
+        ),
+        (
+            "\"clear\": [",
+            "\"clear\": [1e39, ",
+            "overflows a 32-bit float",
+        ),
+    ] {
+        let text = POINTS.replacen(from, to, 1);
+        assert_ne!(text, POINTS, "{from}");
+        let (_work, folder) = cases(&text);
+        list(&folder)
+            .code(64)
+            .stderr(contains("a.json:").and(contains(words)));
+    }
+}
+
+#[test]
+fn a_scene_of_very_many_draws_is_refused_and_one_of_many_is_listed() {
+    let scene = |draws: usize| {
+        let draw = json!({ "mesh": { "kind": "full" }, "shader": "uniform_color" });
+        json!({
+            "about": "t", "spec": ["t"],
+            "scene": {
+                "attachments": { "color": { "format": "rgba8unorm", "size": [16, 16], "clear": [0, 0, 0, 0] } },
+                "passes": [{ "color": ["color"], "draws": vec![draw; draws] }],
+                "read": ["color"]
+            }
+        })
+        .to_string()
+    };
+    let (_work, folder) = cases(&scene(200_000));
+    let begun = Instant::now();
+    list(&folder)
+        .code(64)
+        .stderr(contains("65536 draws at most"));
+    let (_work, folder) = cases(&scene(60_000));
+    assert_eq!(lines(&list(&folder).success()), 1);
+    assert!(
+        begun.elapsed() < Duration::from_secs(40),
+        "{:?}",
+        begun.elapsed()
+    );
+}
+
+#[test]
+fn messages_say_what_was_given() {
+    etalon(&["fuzz", "--adapter", "cpu", "--count", "0"])
+        .assert()
+        .code(64)
+        .stderr(contains("--count"));
+    etalon(&["list", ""])
+        .assert()
+        .code(4)
+        .stderr(contains("no case matches ''"));
+}
+
+#[test]
+fn json_that_is_not_written_is_no_success() {
+    let work = tempfile::tempdir().unwrap();
+    for command in [
+        &["run", "cull/points", "--adapter", "cpu", "--format", "json"][..],
+        &[
+            "fuzz",
+            "--adapter",
+            "cpu",
+            "--count",
+            "1",
+            "--format",
+            "json",
+        ],
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut child = Command::new(BINARY);
+        for name in REMOVED {
+            child.env_remove(name);
+        }
+        let out = work.path().join(command[0]);
+        let status = child
+            .args(command)
+            .arg("--out")
+            .arg(out)
+            .stdout(full)
+            .status();
+        assert_eq!(status.unwrap().code(), Some(3), "{command:?}");
+    }
+}
+
+/// Runs on `cpu` as a user with no more than this many processes and threads; `None` if the machine cannot limit them.
+fn limited(processes: u32, out: &Path) -> Option<(Option<i32>, String)> {
+    let mut command = Command::new("setpriv");
+    let limit = format!("--nproc={processes}");
+    command.args(["--reuid=64999", "--clear-groups", "prlimit", &limit, BINARY]);
+    command.args([
+        "run",
+        "cull/points",
+        "--adapter",
+        "cpu",
+        "--jobs",
+        "1",
+        "--out",
+    ]);
+    for name in REMOVED {
+        command.env_remove(name);
+    }
+    let output = command.arg(out).stdin(Stdio::null()).output().ok()?;
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let refused = said.contains("setpriv:") || said.contains("prlimit:");
+    (!refused && output.status.code() != Some(126)).then(|| (output.status.code(), said))
+}
+
+#[test]
+fn without_processes_nothing_is_drawn_and_nothing_passes() {
+    use std::os::unix::fs::PermissionsExt;
+    let work = tempfile::tempdir().unwrap();
+    fs::set_permissions(work.path(), fs::Permissions::from_mode(0o777)).unwrap();
+    let Some((code, said)) = limited(500, &work.path().join("free")) else {
+        eprintln!("this machine does not limit processes of another user");
+        return;
+    };
+    assert_eq!(code, Some(0), "{said}");
+    for processes in 1..12 {
+        let out = work.path().join(format!("{processes}"));
+        let Some((code, said)) = limited(processes, &out) else {
+            continue;
+        };
+        assert!(!said.contains("panicked"), "{processes}: {said}");
+        let records = Run::read(&out).map_or(0, |run| {
+            run.records
+                .iter()
+                .filter(|r| r.verdict == Verdict::Pass)
+                .count()
+        });
+        assert!(
+            code != Some(0) || records > 0,
+            "{processes}: {code:?}: {said}"
+        );
+        assert_ne!(code, Some(101), "{processes}: {said}");
+        assert_ne!(code, None, "{processes}: {said}");
+    }
+}
+
+/// A case whose picture comes back wrong with each fault, by other values.
+const TRIP: &str = "capabilities/round-trip/format=rgba8unorm";
+
+fn with_fault(fault: &str, more: &[&str], out: &Path, code: i32) -> Record {
+    let adapter = format!("gl:llvmpipe:read-fault={fault}");
+    let mut command = etalon(&[
+        "run",
+        TRIP,
+        "--recheck",
+        "off",
+        "--adapter",
+        &adapter,
+        "--force",
+    ]);
+    command.args(more).arg("--out").arg(out).assert().code(code);
+    Run::read(out).unwrap().records.remove(0)
+}
+
+fn entry(more: Value) -> Value {
+    let mut entry = json!({
+        "adapter": "gl:llvmpipe*", "driver": "*", "case": TRIP, "verdict": "fail",
+        "reason": "red is lost", "evidence": "none"
+    });
+    let more = more.as_object().unwrap().clone();
+    entry.as_object_mut().unwrap().extend(more);
+    entry
+}
+
+#[test]
+fn another_wrong_value_of_an_expected_case_is_news() {
+    let work = tempfile::tempdir().unwrap();
+    let (out, file) = (work.path().join("run"), work.path().join("expect.json"));
+    let expect = ["--expect", file.to_str().unwrap()];
+    let record = with_fault("zero-channel", &[], &out, 1);
+    let channel = &record.wrong[0].channels[0];
+    let symptom = json!({
+        "attachment": channel.attachment, "aspect": channel.aspect, "codes": [channel.actual]
+    });
+    let write = |more: Value| fs::write(&file, json!([entry(more)]).to_string()).unwrap();
+    write(json!({ "symptom": symptom }));
+    let known = with_fault("zero-channel", &expect, &out, 0);
+    assert_eq!(known.expected.unwrap().reason, "red is lost");
+    let other = with_fault("off-by-one", &expect, &out, 1);
+    assert_eq!((other.verdict, other.expected), (Verdict::Fail, None));
+    assert!(
+        other.message.contains("not the expected symptom"),
+        "{}",
+        other.message
+    );
+    // Without a symptom the entry is about the verdict alone.
+    write(json!({}));
+    with_fault("off-by-one", &expect, &out, 0);
+    // A processor and labels limit an entry, too.
+    write(json!({ "labels": ["branch=main"] }));
+    with_fault("off-by-one", &expect, &out, 1);
+    let labelled = [&expect[..], &["--label", "branch=main", "--label", "x=y"]].concat();
+    with_fault("off-by-one", &labelled, &out, 0);
+    write(json!({ "processor": "no such processor" }));
+    with_fault("off-by-one", &expect, &out, 1);
+    write(json!({ "processor": "*" }));
+    with_fault("off-by-one", &expect, &out, 0);
+}
+
+#[test]
+fn expectations_add_up_and_say_when_they_are_over() {
+    let work = tempfile::tempdir().unwrap();
+    let out = work.path().join("run");
+    let [one, two] = ["one.json", "two.json"].map(|name| work.path().join(name));
+    let write = |path: &Path, more: Value| {
+        fs::write(path, json!([entry(more)]).to_string()).unwrap();
+    };
+    write(&one, json!({ "case": "depth/*" }));
+    write(&two, json!({}));
+    let [one_arg, two_arg] = [&one, &two].map(|path| path.to_str().unwrap());
+    with_fault("zero-channel", &["--expect", one_arg], &out, 1);
+    with_fault(
+        "zero-channel",
+        &["--expect", one_arg, "--expect", two_arg],
+        &out,
+        0,
+    );
+    // The built-in findings stay.
+    let softpipe = |more: &[&str]| {
+        let known = [
+            "run",
+            "cull/points",
+            "--adapter",
+            "gl:softpipe",
+            "--force",
+            "--expect",
+            one_arg,
+        ];
+        let mut command = etalon(&known);
+        command.args(more).arg("--out").arg(&out).assert()
+    };
+    softpipe(&[]).code(0);
+    softpipe(&["--expect-only"]).code(1);
+
+    write(&two, json!({ "expires": "2020-02-29" }));
+    let mut command = etalon(&["run", "cull/points", "--adapter", "cpu", "--force"]);
+    command
+        .args(["--expect", two_arg, "--out"])
+        .arg(&out)
+        .assert()
+        .code(0)
+        .stderr(contains("expired").and(contains("2020-02-29")));
+    write(&two, json!({ "expires": "2027-02-30" }));
+    with_bad_day(&two, &out);
+    assert!(Expectations::read(&two).is_err());
+}
+
+fn with_bad_day(file: &Path, out: &Path) {
+    etalon(&[
+        "run",
+        "cull/points",
+        "--adapter",
+        "cpu",
+        "--force",
+        "--expect",
+    ])
+    .arg(file)
+    .arg("--out")
+    .arg(out)
+    .assert()
+    .code(64)
+    .stderr(contains("2027-02-30"));
+}

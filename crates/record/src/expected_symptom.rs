@@ -1,0 +1,163 @@
+//! What an expected failure shows: another wrong value of the same case is another failure.
+
+use crate::record::Record;
+use etalon_frame::{Aspect, Band, ChannelMismatch, CounterKind, state_enum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+state_enum! {
+    /// The side of what is allowed on which a value lies.
+    Side: array {
+        /// Above the highest value.
+        High = "high",
+        /// Below the lowest one.
+        Low = "low",
+    }
+}
+
+/// Facts that hold of each wrong value that a record lists.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExpectedSymptom {
+    /// The attachment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attachment: Option<String>,
+    /// The aspect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aspect: Option<Aspect>,
+    /// The codes that come back, of all wrong channels; any where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub codes: Vec<u32>,
+    /// The side of what is allowed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<Side>,
+    /// The counter that is wrong, while every texel is right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counter: Option<CounterKind>,
+}
+
+impl ExpectedSymptom {
+    /// True if it names no fact.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// True if it is about texels.
+    fn names_texels(&self) -> bool {
+        let counter = self.counter;
+        *self
+            != Self {
+                counter,
+                ..Self::default()
+            }
+    }
+
+    /// True if a record shows this and nothing else.
+    pub fn is_shown_by(&self, record: &Record) -> bool {
+        let texels = record.wrong.iter().filter(|w| w.band > Band::Imprecise);
+        let mut channels = texels.flat_map(|w| &w.channels).peekable();
+        let has_texels = channels.peek().is_some();
+        let mut counters = record
+            .counters
+            .iter()
+            .filter(|c| c.band > Some(Band::Imprecise));
+        let counter = counters.clone().next().is_some();
+        if self.names_texels() {
+            has_texels && channels.all(|channel| self.fits(channel))
+        } else {
+            counter && !has_texels && counters.all(|c| Some(c.kind) == self.counter)
+        }
+    }
+
+    fn fits(&self, channel: &ChannelMismatch) -> bool {
+        let order = |code| channel.encoding.order_of_code(code);
+        self.attachment
+            .as_ref()
+            .is_none_or(|name| *name == channel.attachment)
+            && self.aspect.is_none_or(|aspect| aspect == channel.aspect)
+            && (self.codes.is_empty() || self.codes.contains(&channel.actual))
+            && match self.side {
+                None => true,
+                Some(Side::High) => order(channel.actual) > order(channel.high),
+                Some(Side::Low) => order(channel.actual) < order(channel.low),
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Verdict;
+    use etalon_frame::{ChannelEncoding, CounterOutcome, WrongTexel};
+
+    fn record(channels: &[(&str, Aspect, u32)]) -> Record {
+        let channels = channels
+            .iter()
+            .map(|(attachment, aspect, actual)| ChannelMismatch {
+                attachment: (*attachment).to_owned(),
+                aspect: *aspect,
+                channel: 0,
+                encoding: ChannelEncoding::Unorm(8),
+                low: 10,
+                high: 20,
+                actual: *actual,
+            });
+        let mut record = Record::new("a", "gl:x", Verdict::Fail);
+        record.wrong = channels
+            .map(|channel| WrongTexel {
+                x: 0,
+                y: 0,
+                sample: 0,
+                band: Band::Fail,
+                channels: vec![channel],
+            })
+            .collect();
+        record
+    }
+
+    fn symptom(text: &str) -> ExpectedSymptom {
+        serde_json::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn every_wrong_value_must_be_the_expected_one() {
+        let shown = [("color", Aspect::Color, 5), ("color", Aspect::Color, 7)];
+        let fits = |text: &str| symptom(text).is_shown_by(&record(&shown));
+        assert!(fits(
+            r#"{ "attachment": "color", "aspect": "color", "codes": [5, 7], "side": "low" }"#
+        ));
+        assert!(fits(r#"{ "side": "low" }"#));
+        for other in [
+            r#"{ "attachment": "depth" }"#,
+            r#"{ "aspect": "depth" }"#,
+            r#"{ "codes": [5] }"#,
+            r#"{ "side": "high" }"#,
+            r#"{ "counter": "samples-passed" }"#,
+        ] {
+            assert!(!fits(other), "{other}");
+        }
+        let mut imprecise = record(&shown);
+        imprecise.wrong[1].band = Band::Imprecise;
+        assert!(symptom(r#"{ "codes": [5] }"#).is_shown_by(&imprecise));
+        let none = Record::new("a", "gl:x", Verdict::Fail);
+        assert!(!symptom(r#"{ "aspect": "color" }"#).is_shown_by(&none));
+    }
+
+    #[test]
+    fn a_counter_is_wrong_alone() {
+        let occlusion = symptom(r#"{ "counter": "samples-passed" }"#);
+        let mut counted = record(&[]);
+        counted.counters = vec![CounterOutcome {
+            name: "passed".to_owned(),
+            kind: occlusion.counter.unwrap(),
+            low: 4,
+            high: Some(4),
+            actual: 0,
+            band: Some(Band::Fail),
+        }];
+        assert!(occlusion.is_shown_by(&counted));
+        let wrong = record(&[("color", Aspect::Color, 5)]);
+        counted.wrong = wrong.wrong;
+        assert!(!occlusion.is_shown_by(&counted));
+    }
+}
