@@ -23,8 +23,9 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     Ok(cases)
 }
 
-/// The most cases that are judged for warnings before they are drawn.
+/// The most cases that are judged for warnings before they are drawn, and their most draws.
 const JUDGED: usize = 64;
+const JUDGED_DRAWS: usize = 4096;
 
 /// Prints the warnings of `etalon check` on the files of these cases: all if they are few, else those that need no
 /// judge.
@@ -41,6 +42,9 @@ fn warn(library: &Library, cases: &[Case]) {
         .map(|file| file.cases(Profile::Quick).count())
         .sum::<usize>()
         <= JUDGED;
+    let passes = cases.iter().flat_map(|case| &case.scene.passes);
+    let draws: usize = passes.map(|pass| pass.draws.len()).sum();
+    let few = few && draws <= JUDGED_DRAWS;
     let warnings: Vec<CaseError> = if few {
         check(&files, Profile::Quick)
             .into_iter()

@@ -141,7 +141,7 @@ impl WorkerProcess {
             }
         });
         let stderr = StderrTail::of(errors);
-        let stderr = writing.and(reading).and_then(|_| stderr).map_err(|e| {
+        let stderr = writing.and(reading).and(stderr).map_err(|e| {
             // It may have ended by itself; then there is nothing to kill.
             let _ = child.kill();
             let _ = child.wait();
