@@ -1,6 +1,6 @@
-// The vertex colour. The depth grows with the logarithm of the distance, whose inverse is the first
-// texture coordinate: 0 at the near plane, whose distance is the parameter's red. The parameter's blue
-// is 1 over the binary logarithm of far over near.
+// The vertex colour. The depth grows with the logarithm of the distance, which is the clip-space w: 0 at the
+// near plane, whose distance is the parameter's red. The parameter's blue is 1 over the binary logarithm of
+// far over near.
 
 struct Params {
     color: vec4f,
@@ -12,16 +12,14 @@ struct Params {
 struct Varying {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) color: vec4f,
-    @location(1) uv: vec2f,
 }
 
 @vertex
 fn vs(
     @location(0) position: vec4f,
     @location(1) color: vec4f,
-    @location(2) uv: vec2f,
 ) -> Varying {
-    return Varying(position, color, uv);
+    return Varying(position, color);
 }
 
 struct Output {
@@ -31,5 +29,5 @@ struct Output {
 
 @fragment
 fn fs(in: Varying) -> Output {
-    return Output(in.color, log2(1.0 / (in.uv.x * params.color.r)) * params.color.b);
+    return Output(in.color, log2(1.0 / (in.position.w * params.color.r)) * params.color.b);
 }

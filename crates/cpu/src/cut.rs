@@ -13,9 +13,6 @@ use etalon_pipeline::{
 };
 use etalon_scene::{Draw, Interpolation};
 
-/// The farthest that a snapped vertex may lie from the corner of the picture, in sub-texel units.
-const FARTHEST: f64 = (1_u64 << 28) as f64;
-
 /// The texels beyond a viewport to which a line is drawn.
 const BEYOND: f64 = 64.0;
 
@@ -25,12 +22,7 @@ fn window(draw: &Draw, vertex: &Vertex) -> WindowVertex {
 
 /// True if a vertex lies behind the eye or too far out to be snapped.
 pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
-    let [x, y, w] = window(draw, vertex);
-    let far = |v: f64| {
-        let at = v / w;
-        at.is_nan() || at.abs() > FARTHEST
-    };
-    w <= 0.0 || far(x) || far(y)
+    etalon_pipeline::is_cut(window(draw, vertex))
 }
 
 /// An edge with the side on which the triangle lies.

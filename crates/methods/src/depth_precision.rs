@@ -1,8 +1,8 @@
 //! Depth precision: pairs of surfaces that nearly touch, at many distances.
 //!
 //! The near and the far surface of a pair take turns in being drawn first, so that a depth buffer that
-//! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
-//! is rounded to 32 bits once, as a vertex shader would hand it on.
+//! holds both to be equal goes wrong in half of the texels. Vertices are in clip space, with the distance as w:
+//! its four numbers are rounded to 32 bits, as a vertex shader would hand them on, and the driver divides.
 
 mod claims;
 mod lessons;
@@ -68,6 +68,10 @@ enum MethodName {
     Depth32float,
     /// A 32-bit float that is 1 at the near and 0 at the far plane.
     ReversedDepth,
+    /// At least 24 bits, and a far plane at infinity.
+    InfiniteDepth,
+    /// A 32-bit float that is 1 at the near plane and 0 at infinity.
+    InfiniteReversedDepth,
     /// At least 24 bits of a depth that grows linearly with the distance.
     LinearDepth,
     /// At least 24 bits of a depth that grows with the logarithm of the distance.
@@ -182,6 +186,8 @@ fn decal(gap: f64) -> Vec<Quad> {
 struct Buffer {
     format: TextureFormat,
     near: f64,
+    /// Distance of the far plane, or infinity.
+    far: f64,
     reversed: bool,
     shader: Shader,
     bias: DepthBias,
@@ -192,6 +198,7 @@ impl Buffer {
         let usual = Self {
             format: TextureFormat::Depth24Plus,
             near,
+            far: FAR,
             reversed: false,
             shader: Shader::FlatColor,
             bias: DepthBias::default(),
@@ -208,6 +215,16 @@ impl Buffer {
             },
             MethodName::ReversedDepth => Self {
                 format: TextureFormat::Depth32Float,
+                reversed: true,
+                ..usual
+            },
+            MethodName::InfiniteDepth => Self {
+                far: f64::INFINITY,
+                ..usual
+            },
+            MethodName::InfiniteReversedDepth => Self {
+                format: TextureFormat::Depth32Float,
+                far: f64::INFINITY,
                 reversed: true,
                 ..usual
             },
@@ -234,20 +251,24 @@ impl Buffer {
         }
     }
 
+    /// Returns the window depth of a distance.
+    fn depth(&self, distance: f64) -> f64 {
+        let nearness = self.near / distance;
+        match (self.far.is_infinite(), self.reversed) {
+            (true, true) => nearness,
+            (true, false) => 1.0 - nearness,
+            // The same with near and far exchanged: small numbers far away, which a float keeps well.
+            (false, true) => window_depth(distance, [self.far, self.near]),
+            (false, false) => window_depth(distance, [self.near, self.far]),
+        }
+    }
+
     fn polygon(&self, quad: &Quad) -> Polygon {
-        let corners = quad.corners.map(|[x, y, inverse]| {
-            let distance = inverse.recip();
-            let planes = [self.near, FAR];
-            let depth = if self.reversed {
-                // The same with near and far exchanged: small numbers far away, which a float keeps well.
-                window_depth(distance, [FAR, self.near])
-            } else {
-                window_depth(distance, planes)
-            };
-            [x, y, depth]
-        });
+        let corners = quad
+            .corners
+            .map(|[x, y, inverse]| [x, y, self.depth(inverse.recip())]);
         let mut polygon = Polygon::new(corners.to_vec(), quad.color);
-        polygon.uv = quad.corners.map(|[_, _, inverse]| [inverse, 0.0]).to_vec();
+        polygon.w = quad.corners.map(|[.., inverse]| inverse.recip()).to_vec();
         polygon
     }
 

@@ -26,6 +26,7 @@ mod stage;
 mod stencil_effects;
 #[cfg(test)]
 mod tests;
+mod texture_sampling;
 mod transparency;
 mod truth;
 #[cfg(test)]

@@ -12,6 +12,8 @@ pub(crate) struct Polygon {
     pub(crate) color: [f64; 4],
     /// Texture coordinates of each corner; empty for none.
     pub(crate) uv: Vec<[f64; 2]>,
+    /// Clip-space w of each corner, by which the driver divides; empty for 1.
+    pub(crate) w: Vec<f64>,
 }
 
 impl Polygon {
@@ -21,6 +23,7 @@ impl Polygon {
             corners,
             color,
             uv: Vec::new(),
+            w: Vec::new(),
         }
     }
 
@@ -51,13 +54,10 @@ pub(crate) fn mesh(size: [u32; 2], polygons: &[Polygon]) -> Mesh {
     let vertex = |polygon: &Polygon, i: usize| {
         let [x, y, z] = polygon.corners[i];
         let uv = polygon.uv.get(i).copied().unwrap_or_default();
+        let w = polygon.w.get(i).copied().unwrap_or(1.0);
+        let position = [clip(x, size[0]) * w, -clip(y, size[1]) * w, z * w, w];
         Vertex {
-            position: [
-                clip(x, size[0]) as f32,
-                -clip(y, size[1]) as f32,
-                z as f32,
-                1.0,
-            ],
+            position: position.map(|v| v as f32),
             color: polygon.color.map(|c| c as f32),
             uv: uv.map(|c| c as f32),
         }

@@ -6,7 +6,7 @@ use crate::lesson::Lesson;
 use crate::method_scene::MethodScene;
 use crate::{
     accumulation, anti_aliasing, culling, cut_outs, depth_precision, depth_shown, stencil_effects,
-    transparency, visibility_cost,
+    texture_sampling, transparency, visibility_cost,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,6 +33,8 @@ pub enum MethodWire {
     Accumulation(accumulation::Wire),
     /// Depth shown as a colour.
     DepthShown(depth_shown::Wire),
+    /// The sampling of a texture without smaller levels.
+    TextureSampling(texture_sampling::Wire),
 }
 
 /// Draws a scene by a method.
@@ -50,6 +52,7 @@ pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
         MethodWire::StencilEffects(wire) => stencil_effects::make(wire),
         MethodWire::Accumulation(wire) => accumulation::make(wire),
         MethodWire::DepthShown(wire) => depth_shown::make(wire),
+        MethodWire::TextureSampling(wire) => texture_sampling::make(wire),
     }
 }
 
@@ -64,6 +67,7 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
         depth_precision::CLAIMS,
         stencil_effects::CLAIMS,
         accumulation::CLAIMS,
+        texture_sampling::CLAIMS,
     ]
     .into_iter()
     .flatten()
@@ -81,6 +85,7 @@ pub fn lessons(question: &str) -> &'static [Lesson] {
         "stencil-effects" => stencil_effects::LESSONS,
         "accumulation" => accumulation::LESSONS,
         "depth-shown" => depth_shown::LESSONS,
+        "texture-sampling" => texture_sampling::LESSONS,
         _ => &[],
     }
 }

@@ -1,9 +1,11 @@
 //! Building scenes in code: attachments, passes, draws with everything off.
 
+use crate::polygon::cover;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
-    Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, Contents,
-    DepthState, Draw, Mesh, Pass, Path, Pool, Scene, Shader, Viewport,
+    AddressMode, Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState,
+    CompareFunction, Contents, DepthState, Draw, FilterMode, Mesh, Pass, Path, Pool, Sampler,
+    Scene, Shader, Viewport,
 };
 
 /// Width and height of a method's picture in texels, where a scene does not ask for another.
@@ -42,6 +44,17 @@ pub(crate) fn over() -> Option<BlendState> {
         color: add(BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha),
         alpha: add(BlendFactor::One, BlendFactor::OneMinusSrcAlpha),
     })
+}
+
+/// A texture at half its size: a linear filter right between four texels is their mean.
+fn halved(texture: usize) -> Draw {
+    let mut draw = draw(Shader::SampledColor, cover());
+    draw.textures = vec![texture];
+    draw.sampler = Some(Sampler {
+        filter: FilterMode::Linear,
+        address: [AddressMode::ClampToEdge; 2],
+    });
+    draw
 }
 
 /// A scene while it is being built.
@@ -118,6 +131,34 @@ impl Stage {
     /// without a viewport fills them.
     pub(crate) fn pass(&mut self, color: &[usize], depth_stencil: Option<usize>, draws: Vec<Draw>) {
         self.resolving_pass(color, vec![None; color.len()], depth_stencil, draws);
+    }
+
+    /// Adds passes that draw to an attachment whose sides are those of a picture doubled so often, and halve it
+    /// again. Meshes know nothing of texels: the same one fills an attachment of any size.
+    pub(crate) fn supersampled(
+        &mut self,
+        picture: usize,
+        clear: [f64; 4],
+        doublings: u32,
+        draw: Draw,
+    ) {
+        let Attachment { format, size, .. } = self.attachments[picture];
+        let mut draw = Some(draw);
+        let mut from = picture;
+        for step in (0..=doublings).rev() {
+            let to = match step {
+                0 => picture,
+                _ => self.color(
+                    format!("large_{step}"),
+                    format,
+                    size.map(|s| s << step),
+                    clear,
+                ),
+            };
+            let next = draw.take().unwrap_or_else(|| halved(from));
+            self.pass(&[to], None, vec![next]);
+            from = to;
+        }
     }
 
     /// Adds a pass whose colour attachments are resolved to others.

@@ -11,6 +11,8 @@ fn all() -> Vec<Value> {
         "depth24",
         "depth32float",
         "reversed-depth",
+        "infinite-depth",
+        "infinite-reversed-depth",
         "linear-depth",
         "logarithmic-depth",
         "larger-near",
@@ -38,7 +40,14 @@ fn all() -> Vec<Value> {
     ];
     let volumes = ["shadow-volume-depth-pass", "shadow-volume-depth-fail"];
     let culls = ["none", "back", "front"];
-    let families: [(&str, &str, &[&str], Value); 17] = [
+    let sampling = [
+        "nearest",
+        "linear",
+        "affine",
+        "supersampling-2x2",
+        "supersampling-4x4",
+    ];
+    let families: [(&str, &str, &[&str], Value); 18] = [
         ("depth-precision", "planes", &depth, json!({"gap": 0.1})),
         ("depth-precision", "slanted", &depth, json!({"gap": 0.1})),
         ("depth-precision", "decal", &decal, json!({"gap": 0.1})),
@@ -91,6 +100,7 @@ fn all() -> Vec<Value> {
             json!({"near": 0.1}),
         ),
         ("depth-shown", "pictures", &["dissolve"], json!({"t": 0.3})),
+        ("texture-sampling", "ground", &sampling, json!({"tiles": 1})),
     ];
     let mut all = Vec::new();
     for (question, scene, methods, parameters) in families {
@@ -131,10 +141,10 @@ fn every_method_draws_every_scene() {
         let draws = scene.passes.iter().flat_map(|p| &p.draws);
         for vertex in draws.clone().flat_map(|d| &d.mesh.vertices) {
             let [x, y, z, w] = vertex.position;
-            assert!(
-                x.is_finite() && y.is_finite() && z.is_finite() && w == 1.0,
-                "{wire}"
-            );
+            assert!([x, y, z, w].iter().all(|v| v.is_finite()), "{wire}");
+            // Elsewhere vertices are exact, and nothing but their places matters.
+            let projects = ["depth-precision", "texture-sampling"].map(Value::from);
+            assert!(w == 1.0 || projects.contains(&wire["question"]), "{wire}");
             assert!(
                 vertex.color.iter().all(|c| (0.0..=1.0).contains(c)),
                 "{wire}"
@@ -178,6 +188,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         ("shift", json!(-1), json!(4)),
         ("near", json!(0), json!(100)),
         ("t", json!(-0.1), json!(1.1)),
+        ("tiles", json!(0.1), json!(5)),
     ];
     let mut refused = BTreeSet::new();
     for wire in all() {
@@ -243,6 +254,39 @@ fn without_a_depth_test_the_nearest_is_drawn_last() {
     }
     // Walls cover most of the picture, each.
     assert!(overdraw > 5 * 128 * 128, "{overdraw}");
+}
+
+/// Returns the corners of a draw's polygons in the picture, with minus 1 over w: fans of two triangles.
+fn projected(draw: &etalon_scene::Draw) -> Vec<[f64; 3]> {
+    let fans = draw.mesh.vertices.chunks(6);
+    let corners = fans.flat_map(|fan| [0, 1, 2, 5].map(|i| fan[i].position.map(f64::from)));
+    let project = |[x, y, _, w]: [f64; 4]| [64.0 * (1.0 + x / w), 64.0 * (1.0 - y / w), -1.0 / w];
+    corners.map(project).collect()
+}
+
+#[test]
+fn the_driver_projects_to_the_surfaces_of_the_truth() {
+    for wire in all() {
+        if wire["question"] != "depth-precision" {
+            continue;
+        }
+        let MethodScene { scene, truth } = made(&wire);
+        let drawn = scene.passes[0].draws.iter().flat_map(projected);
+        let drawn: Vec<[f64; 3]> = drawn.collect();
+        let meant = truth.surfaces.iter().flat_map(|s| &s.corners);
+        assert_eq!(drawn.len(), meant.clone().count(), "{wire}");
+        for (at, meant) in drawn.iter().zip(meant) {
+            // Roundings to 32 bits of x or y, of w, and none of the quotient.
+            let place = (at[0] - meant[0]).abs().max((at[1] - meant[1]).abs());
+            let nearness = (at[2] / meant[2] - 1.0).abs();
+            assert!(place < 2e-5 && nearness < 1e-7, "{wire}: {at:?} {meant:?}");
+        }
+        // Clip-space z is that of the projection: nothing lies before the near plane or beyond the far one.
+        let vertices = scene.passes[0].draws.iter().flat_map(|d| &d.mesh.vertices);
+        for [.., z, w] in vertices.map(|v| v.position) {
+            assert!((0.0..=w).contains(&z), "{wire}: {z} {w}");
+        }
+    }
 }
 
 #[test]

@@ -148,6 +148,21 @@ impl View {
         )
     }
 
+    /// Returns a point of the world in clip space, wherever it lies: the driver clips and divides.
+    pub(crate) fn clip_position(&self, point: DVec3) -> [f64; 4] {
+        let eye = self.world.transform_point3(point);
+        let distance = -eye.z;
+        let [width, height] = self.size;
+        let (half, w, z) = match self.lens {
+            Lens::Perspective(half) => {
+                let z = self.far * (distance - self.near) / (self.far - self.near);
+                (half, distance, z)
+            }
+            Lens::Parallel(half) => (half, 1.0, self.depth(distance)),
+        };
+        [eye.x / half * height / width, eye.y / half, z, w]
+    }
+
     /// Projects faces, clipped to the near and far plane but not to the picture's
     /// edges. Faces without anything left are left out.
     pub(crate) fn unbounded(&self, faces: &[Face]) -> Vec<Polygon> {

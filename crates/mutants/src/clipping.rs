@@ -49,6 +49,13 @@ fn places(draw: &mut Draw, moved: fn(f32) -> f32) {
     }
 }
 
+/// Divides vertices behind the eye by their w.
+fn mirrored(draw: &mut Draw) {
+    let all = draw.mesh.vertices.iter_mut();
+    let behind = all.filter(|v| v.position[3] < 0.0);
+    behind.for_each(|v| v.position = v.position.map(|p| p / v.position[3]));
+}
+
 pub(super) fn add(list: &mut List) {
     list.class("clipping", "cull");
     eye(list);
@@ -58,14 +65,7 @@ pub(super) fn add(list: &mut List) {
 
 fn eye(list: &mut List) {
     list.bug("mirrored: Vertices behind the eye are drawn where the division by w puts them.")
-        .draws(|draw| {
-            let behind = draw
-                .mesh
-                .vertices
-                .iter_mut()
-                .filter(|v| v.position[3] < 0.0);
-            behind.for_each(|v| v.position = v.position.map(|p| p / v.position[3]));
-        });
+        .draws(mirrored);
     list.bug("behind-lost: A triangle with a vertex behind the eye is lost whole.")
         .plant(triangles(is_behind, lose));
     list.bug("directions-lost: A triangle with a vertex of w 0 is lost.")
@@ -109,14 +109,7 @@ fn planes(list: &mut List) {
         .draws(|draw| draw.depth_clamp = true);
     list.bug("behind-the-clamp: With depth clamped, nothing behind the eye is clipped.")
         .when(|draw| draw.depth_clamp)
-        .draws(|draw| {
-            let behind = draw
-                .mesh
-                .vertices
-                .iter_mut()
-                .filter(|v| v.position[3] < 0.0);
-            behind.for_each(|v| v.position = v.position.map(|p| p / v.position[3]));
-        });
+        .draws(mirrored);
     list.bug("cut-lost: A triangle that the near or far plane cuts is lost whole.")
         .plant(triangles(is_beyond_planes, lose));
     list.bug("cut-turned: A triangle that the near or far plane cuts faces the other way.")

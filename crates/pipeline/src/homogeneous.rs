@@ -23,6 +23,19 @@ pub fn window_vertex(position: [f32; 4], viewport: &Viewport, units: f64) -> Win
     ]
 }
 
+/// The farthest that a snapped vertex may lie from the corner of the picture, in units: products of two differences
+/// fit an integer.
+pub const FARTHEST: f64 = (1_u64 << 28) as f64;
+
+/// True if the perspective division or the grid cannot place a vertex: it lies behind the eye, or too far out.
+pub fn is_cut([x, y, w]: WindowVertex) -> bool {
+    let far = |v: f64| {
+        let at = v / w;
+        at.is_nan() || at.abs() > FARTHEST
+    };
+    w <= 0.0 || far(x) || far(y)
+}
+
 /// Returns the line through two points of the window: 0 on it, and on its other sides of the sign that
 /// [`crate::edge_value`] has if both points lie in front of the eye. Exchanging the points negates it, bit for bit.
 pub fn line_through([ax, ay, aw]: WindowVertex, [bx, by, bw]: WindowVertex) -> DepthPlane {
@@ -157,6 +170,13 @@ mod tests {
     /// Vertices at window positions, times w.
     fn vertices(places: [(f64, f64, f64); 3]) -> HomogeneousTriangle {
         HomogeneousTriangle::new(places.map(|(x, y, w)| [x * w, y * w, w]))
+    }
+
+    #[test]
+    fn the_grid_has_places_in_front_of_the_eye_alone() {
+        assert!(!is_cut([3.0, -5.0, 1.0]) && !is_cut([FARTHEST, 0.0, 1.0]));
+        assert!(is_cut([0.0, 0.0, 0.0]) && is_cut([3.0, 5.0, -1.0]));
+        assert!(is_cut([FARTHEST, 0.0, 0.5]) && is_cut([0.0, -FARTHEST, 0.5]));
     }
 
     #[test]

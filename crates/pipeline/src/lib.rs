@@ -31,7 +31,8 @@ pub use blend::{BlendInput, blend};
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};
 pub use depth::{DepthPlane, slope};
 pub use homogeneous::{
-    CutEdge, HomogeneousTriangle, WindowVertex, clipped_segment, dot, line_through, window_vertex,
+    CutEdge, FARTHEST, HomogeneousTriangle, WindowVertex, clipped_segment, dot, is_cut,
+    line_through, window_vertex,
 };
 pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;

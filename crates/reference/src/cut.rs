@@ -13,7 +13,7 @@ use crate::primitive::{Edge, Triangle, VertexId};
 use crate::snap::{SnapBox, units_per_texel};
 use crate::varying::{Perspective, Varying};
 use etalon_pipeline::{
-    HomogeneousTriangle, Point, WindowVertex, clipped_segment, dot, window_vertex,
+    FARTHEST, HomogeneousTriangle, Point, WindowVertex, clipped_segment, dot, window_vertex,
 };
 use etalon_scene::{Draw, Interpolation};
 
@@ -21,27 +21,18 @@ use etalon_scene::{Draw, Interpolation};
 /// the viewport's product and sum; twice, since two planes may cut an edge.
 const ROUNDINGS: f64 = 8.0;
 
-/// The farthest that a snapped vertex may lie from the corner of the picture, in units: products of two differences
-/// fit an integer.
-const FARTHEST: f64 = (1_u64 << 28) as f64;
-
 /// The texels beyond a viewport to which a primitive is followed: more than any may reach into it from there.
 const BEYOND: f64 = 64.0;
 
 /// The part of w by which the near and far planes are moved out, so that roundings lie between.
 const DEPTH_SLACK: f64 = 1.0 / 1024.0;
 
-/// True if the perspective division or the grid cannot place a vertex.
+/// True if the perspective division or the grid cannot place one of some vertices.
 pub(crate) fn is_cut(context: &PassContext<'_>, draw: &Draw, vertices: &[usize]) -> bool {
     let units = units_per_texel(context.limits) as f64;
-    vertices.iter().any(|i| {
-        let [x, y, w] = window_vertex(draw.mesh.vertices[*i].position, &draw.viewport, units);
-        let far = |v: f64| {
-            let at = v / w;
-            at.is_nan() || at.abs() > FARTHEST
-        };
-        w <= 0.0 || far(x) || far(y)
-    })
+    let position = |i: &usize| draw.mesh.vertices[*i].position;
+    let mut positions = vertices.iter().map(position);
+    positions.any(|p| etalon_pipeline::is_cut(window_vertex(p, &draw.viewport, units)))
 }
 
 /// True if a line crosses the near or the far plane, or is cut otherwise.

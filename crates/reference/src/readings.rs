@@ -1,17 +1,38 @@
 //! Texts with two readings. A driver follows one of them: what lies between the results of both is not legal.
 
-use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
+use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
 use crate::world::{Contested, Decision, World, Worlds};
 use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_scene::{Draw, Pass, RESTART, Scene};
 use smallvec::{SmallVec, smallvec};
+
+/// What the texts leave open of a draw, wherever its fragments lie.
+pub(crate) struct OpenTexts {
+    /// The contested texts that matter to it.
+    contested: SmallVec<[Contested; 2]>,
+    /// True if an index that may not be a restart leads out of the vertices: what is drawn then is not followed.
+    pub(crate) indices: bool,
+}
+
+impl OpenTexts {
+    pub(crate) fn new(rules: &Rules, scene: &Scene, pass: &Pass, draw: &Draw) -> Self {
+        let restarts = || draw.mesh.indices.iter().flatten().any(|i| *i == RESTART);
+        Self {
+            contested: contested(rules, scene, pass, draw),
+            indices: draw.fetch.base_vertex != 0
+                && !rules.restarts_before_base_vertex.value()
+                && restarts(),
+        }
+    }
+}
 
 impl Walk<'_> {
     /// Splits a world by the readings that matter to a draw and that it has not taken yet.
     pub(crate) fn by_reading(&self, place: Place<'_>, world: World) -> Worlds {
         let mut worlds: Worlds = smallvec![world];
-        for contested in self.contested(place) {
-            let decision = Decision::Reading(contested);
+        for contested in &self.open_texts[place.pass][place.draw_index].contested {
+            let decision = Decision::Reading(*contested);
             let split = |world: World| -> Worlds {
                 if world.decided(decision).is_some() {
                     return smallvec![world];
@@ -23,43 +44,42 @@ impl Walk<'_> {
         }
         worlds
     }
+}
 
-    /// Returns the contested texts that matter to a draw.
-    fn contested(&self, place: Place<'_>) -> SmallVec<[Contested; 2]> {
-        let draw = place.draw;
-        let colors = &self.scene.passes[place.pass].color;
-        let formats = colors.iter().map(|i| self.scene.attachments[*i].format);
-        let is_signed = |format: TextureFormat| {
-            let encodings = format.color_channels();
-            encodings
-                .iter()
-                .any(|e| matches!(e, ChannelEncoding::Snorm(_)))
-        };
-        let blends = draw
-            .targets
+/// Returns the contested texts that matter to a draw.
+fn contested(rules: &Rules, scene: &Scene, pass: &Pass, draw: &Draw) -> SmallVec<[Contested; 2]> {
+    let colors = &pass.color;
+    let formats = colors.iter().map(|i| scene.attachments[*i].format);
+    let is_signed = |format: TextureFormat| {
+        let encodings = format.color_channels();
+        encodings
             .iter()
-            .any(|t| t.blend.is_some() || t.advanced.is_some());
-        let signed = formats.clone().any(is_signed);
-        let srgb = formats.clone().any(|f| f == TextureFormat::Rgba8UnormSrgb);
-        let constant = draw.blend_constant.iter().any(|v| !(0.0..=1.0).contains(v));
-        let outputs = colors.len().min(draw.targets.len());
-        let others = outputs > 1 || draw.shader.has_second_source();
-        let mut contested = SmallVec::new();
-        if signed && blends && self.rules.signed_clamp.value() == SignedClamp::Either {
-            contested.push(Contested::SignedOperands);
-        }
-        if signed && self.rules.signed_result.value() == SignedClamp::Either {
-            contested.push(Contested::SignedResults);
-        }
-        if srgb && draw.logic.is_some() && self.rules.srgb_logic.value() == SrgbLogic::Either {
-            contested.push(Contested::SrgbLogic);
-        }
-        if constant && blends && self.rules.constant_clamp.value() == ConstantClamp::Either {
-            contested.push(Contested::ClampedConstant);
-        }
-        if others && draw.alpha_to_one() && self.rules.one_is_first_output.value() {
-            contested.push(Contested::OneForAll);
-        }
-        contested
+            .any(|e| matches!(e, ChannelEncoding::Snorm(_)))
+    };
+    let blends = draw
+        .targets
+        .iter()
+        .any(|t| t.blend.is_some() || t.advanced.is_some());
+    let signed = formats.clone().any(is_signed);
+    let srgb = formats.clone().any(|f| f == TextureFormat::Rgba8UnormSrgb);
+    let constant = draw.blend_constant.iter().any(|v| !(0.0..=1.0).contains(v));
+    let outputs = colors.len().min(draw.targets.len());
+    let others = outputs > 1 || draw.shader.has_second_source();
+    let mut contested = SmallVec::new();
+    if signed && blends && rules.signed_clamp.value() == SignedClamp::Either {
+        contested.push(Contested::SignedOperands);
     }
+    if signed && rules.signed_result.value() == SignedClamp::Either {
+        contested.push(Contested::SignedResults);
+    }
+    if srgb && draw.logic.is_some() && rules.srgb_logic.value() == SrgbLogic::Either {
+        contested.push(Contested::SrgbLogic);
+    }
+    if constant && blends && rules.constant_clamp.value() == ConstantClamp::Either {
+        contested.push(Contested::ClampedConstant);
+    }
+    if others && draw.alpha_to_one() && rules.one_is_first_output.value() {
+        contested.push(Contested::OneForAll);
+    }
+    contested
 }

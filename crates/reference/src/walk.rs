@@ -8,6 +8,7 @@ use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::read_back::{converted, depth_encoding, read_path};
+use crate::readings::OpenTexts;
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::snap::units_per_texel;
@@ -20,7 +21,7 @@ use etalon_frame::{
     WorldBox,
 };
 use etalon_pipeline::Point;
-use etalon_scene::{Draw, RESTART, Scene};
+use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
@@ -43,6 +44,8 @@ pub(crate) struct Walk<'a> {
     pub(crate) rules: &'a Rules,
     /// Per pass.
     pub(crate) setups: Vec<PassSetup>,
+    /// Per pass and draw.
+    pub(crate) open_texts: Vec<Vec<OpenTexts>>,
     /// Per pass, the number of its first draw, counted over the scene from 1.
     pub(crate) draw_ids: Vec<u32>,
     pub(crate) units: i64,
@@ -126,6 +129,11 @@ impl<'a> Walk<'a> {
         });
         let passes = contexts.zip(&scene.passes);
         let setups = passes.map(|(context, pass)| PassSetup::new(&context, pass));
+        let open_texts = scene.passes.iter().map(|pass| {
+            let each = pass.draws.iter();
+            each.map(|draw| OpenTexts::new(rules, scene, pass, draw))
+                .collect()
+        });
         let mut draws = 1;
         let draw_ids = scene.passes.iter().map(|pass| {
             let first = draws;
@@ -137,6 +145,7 @@ impl<'a> Walk<'a> {
             limits,
             rules,
             setups: without_lone_geometry(setups.collect()),
+            open_texts: open_texts.collect(),
             draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
             texels,
@@ -257,11 +266,7 @@ impl<'a> Walk<'a> {
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
         let draw = &self.scene.passes[p].draws[d];
-        // An index that is no restart leads out of the vertices: whatever is drawn then is not followed.
-        if draw.fetch.base_vertex != 0
-            && draw.mesh.indices.iter().flatten().any(|i| *i == RESTART)
-            && !self.rules.restarts_before_base_vertex.value()
-        {
+        if self.open_texts[p][d].indices {
             return None;
         }
         let mut skipped = Skipped::new(notes);

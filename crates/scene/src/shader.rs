@@ -390,18 +390,18 @@ shaders! {
     /// coordinates, contrast relative to the brightest neighbour and least contrast of an edge;
     /// `params.back_color`'s red: the weight of single texels.
     Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
-    /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
-    /// texture coordinate, between the planes in `params.color`'s red and green.
-    LinearDepth = "linear_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
+    /// between the planes in `params.color`'s red and green.
+    LinearDepth = "linear_depth" { params: true, reads_w: true, depth: Depth::Computed },
     /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and height
     /// of the picture.
     ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
     /// The list of the texel, nearest first, premultiplied, and as alpha what it lets through. `params.color`: width
     /// and height of the picture.
     ListCompose = "list_compose" { params: true, pool: PoolUse::Reads, position_only: true },
-    /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
-    /// texture coordinate, over `params.color`'s red, times its blue.
-    LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// The vertex colour; writes as depth the binary logarithm of the distance, the clip-space w,
+    /// over `params.color`'s red, times its blue.
+    LogarithmicDepth = "logarithmic_depth" { params: true, reads_w: true, depth: Depth::Computed },
     /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
     /// sample mask.
     MaskedColor = "masked_color" { params: true, textures: 1, mask: true, position_only: true },

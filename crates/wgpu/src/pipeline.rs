@@ -252,11 +252,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
     const TEXTURED: [wgpu::VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
-        Shader::ClipFlat
-        | Shader::ClipUniform
-        | Shader::EdgeAlpha
-        | Shader::LinearDepth
-        | Shader::LogarithmicDepth => &ALL,
+        Shader::ClipFlat | Shader::ClipUniform | Shader::EdgeAlpha => &ALL,
         Shader::Centroid
         | Shader::Fxaa
         | Shader::SampledColor
@@ -277,7 +273,9 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::FlatEither
         | Shader::Fog
         | Shader::FragCoordDepth
+        | Shader::LinearDepth
         | Shader::ListAppend
+        | Shader::LogarithmicDepth
         | Shader::MomentAbsorbance
         | Shader::MomentTransmittance
         | Shader::Peel

@@ -73,36 +73,12 @@ fn multisampled(edges: &Edges, count: u32) -> Scene {
     stage.read(&[picture])
 }
 
-/// Draws a picture whose sides are doubled so often, and halves it again.
 fn supersampled(edges: &Edges, doublings: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let mut from = 0;
-    for step in (1..=doublings).rev() {
-        let size = SIZE.map(|s| s << step);
-        let large = stage.color(format!("large_{step}"), PICTURE, size, clear(edges));
-        let draws = if step == doublings {
-            // Meshes know nothing of texels: the same one fills an attachment of any size.
-            vec![draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()))]
-        } else {
-            vec![halved(from)]
-        };
-        stage.pass(&[large], None, draws);
-        from = large;
-    }
-    stage.pass(&[picture], None, vec![halved(from)]);
+    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.supersampled(picture, clear(edges), doublings, all);
     stage.read(&[picture])
-}
-
-/// A texture at half its size: a linear filter right between four texels is their mean.
-fn halved(texture: usize) -> etalon_scene::Draw {
-    let mut draw = draw(Shader::SampledColor, cover());
-    draw.textures = vec![texture];
-    draw.sampler = Some(Sampler {
-        filter: FilterMode::Linear,
-        address: [AddressMode::ClampToEdge; 2],
-    });
-    draw
 }
 
 /// The contrast of an edge: relative to the brightest neighbour, and the least (Lottes 2009).

@@ -94,6 +94,7 @@ impl Piece {
             uv: corners.iter().map(|c| [u(*c), 0.0]).collect(),
             corners: corners.into_iter().map(|[x, y]| [x, y, DEPTH]).collect(),
             color: self.color,
+            w: Vec::new(),
         })
     }
 

@@ -30,6 +30,17 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(GAPS),
     Claim::new(
         QUESTION,
+        "A far plane at infinity resolves the same gaps.",
+        "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
+        Test::Narrowest {
+            of: "infinite-depth",
+            over: "depth24",
+            holds: Condition::Between(0.5, 2.0),
+        },
+    )
+    .of(&["planes"]),
+    Claim::new(
+        QUESTION,
         "A near plane farther away resolves smaller gaps.",
         "Upchurch and Desbrun 2012, Tightening the Precision of Perspective Rendering",
         Test::Narrowest {

@@ -24,8 +24,20 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "reversed-depth",
         "Window depth is a float that is 0 at the far plane.",
-        "The two hyperbolas cancel, so that steps are about a constant part of the distance; what is left is the rounding of vertex transforms.",
+        "The two hyperbolas cancel, so that steps are about a constant part of the distance; what is left is the rounding of clip-space z and w.",
         "Reed 2015, Depth Precision Visualized",
+    ),
+    Lesson::new(
+        "infinite-depth",
+        "Window depth in 24 bits, 1 at infinity.",
+        "Nearly nothing is lost: the codes past a far plane are few.",
+        "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
+    ),
+    Lesson::new(
+        "infinite-reversed-depth",
+        "Window depth is a float that is 0 at infinity.",
+        "Clip-space z is the near distance everywhere, so that the rounding of w alone is left.",
+        "Upchurch and Desbrun 2012, Tightening the Precision of Perspective Rendering",
     ),
     Lesson::new(
         "linear-depth",

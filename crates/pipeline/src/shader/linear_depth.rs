@@ -10,7 +10,7 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     let [near, far] = [0, 1].map(|c| a.constant(input.params.color[c]));
     let one = a.constant(1.0);
-    let distance = a.div(one, input.uv[0]);
+    let distance = a.div(one, input.reciprocal_w);
     let distance = a.rounded(distance);
     FragmentOutput {
         depth: Some(share_between(a, distance, near, far)),

@@ -8,7 +8,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     let [near, _, scale, _] = input.params.color.map(|v| a.constant(v));
-    let inverse = a.mul(input.uv[0], near);
+    let inverse = a.mul(input.reciprocal_w, near);
     let inverse = a.rounded(inverse);
     let one = a.constant(1.0);
     let ratio = a.div(one, inverse);

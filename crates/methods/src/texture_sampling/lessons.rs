@@ -1,0 +1,36 @@
+//! The methods of this question, explained.
+
+use crate::lesson::Lesson;
+
+pub(crate) const LESSONS: &[Lesson] = &[
+    Lesson::new(
+        "nearest",
+        "A fragment has the colour of the texel at its centre.",
+        "Far away a texel of the picture holds many of the texture, of which one is picked: the ground flickers.",
+        "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
+    ),
+    Lesson::new(
+        "linear",
+        "A fragment has the weighted mean of the four texels around its centre.",
+        "Four texels are too few far away, and near to the eye edges become as wide as a texel.",
+        "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
+    ),
+    Lesson::new(
+        "affine",
+        "Texture coordinates are interpolated over the picture, without a division by w.",
+        "The two triangles bend the ground, each its own way.",
+        "Heckbert and Moreton 1991, Interpolation for Polygon Texture Mapping and Shading",
+    ),
+    Lesson::new(
+        "supersampling-2x2",
+        "The mean of four fragments, each with its nearest texel.",
+        "The texture is sampled twice as finely each way, which moves the flicker farther away.",
+        "Fuchs and others 1985, Fast Spheres, Shadows, Textures, Transparencies, and Image Enhancements",
+    ),
+    Lesson::new(
+        "supersampling-4x4",
+        "The mean of sixteen fragments, each with its nearest texel.",
+        "As with four; sixteen times the fragments for a quarter of a row's distance.",
+        "Fuchs and others 1985, Fast Spheres, Shadows, Textures, Transparencies, and Image Enhancements",
+    ),
+];
