@@ -168,7 +168,7 @@ impl<'r> Judging<'r> {
             low: counted(value.low).sqrt(),
             high: value.high.sqrt(),
         };
-        let units = 5.0 * f64::from(f32::EPSILON);
+        let units = ROOT_UNITS * f64::from(f32::EPSILON);
         self.computed(exact.widen_relative(units))
     }
 
@@ -396,6 +396,9 @@ pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
         high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
     }
 }
+
+/// Units in the last place that a square root may be off by: it may be one over an inverse root.
+const ROOT_UNITS: f64 = 5.0;
 
 /// The bits of a 16-bit float's significand, the hidden one among them.
 const HALF_SIGNIFICAND: u32 = 11;
@@ -790,6 +793,18 @@ impl Arithmetic for Judging<'_> {
                 v.map_increasing(|v| v.max(0.0).sqrt())
             }
         });
+        if matches!(
+            encoding,
+            ChannelEncoding::Float16 | ChannelEncoding::Float32
+        ) && self.is_coarse()
+        {
+            // Within the units that a shader's root has, of 16-bit floats.
+            let half = ROOT_UNITS * 2_f64.powi(1 - HALF_SIGNIFICAND as i32);
+            return Range {
+                float: exact.float.widen_relative(self.error()),
+                coarse: self.round_outward(encoding, exact.coarse.widen_relative(half)),
+            };
+        }
         let inverse = self.inverse(encoding, exact);
         let product = value.zip(inverse, Interval::times);
         self.rounded_once(encoding, exact)
