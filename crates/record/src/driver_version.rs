@@ -23,13 +23,14 @@ pub(crate) fn release_version(text: &str) -> Option<Version> {
     Some(Version::new(part(0)?, part(1)?, part(2)?))
 }
 
-/// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa`, else the first
+/// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa` or `NVIDIA`, else the first
 /// one with a dot. Missing parts of three are 0, further parts are dropped; `None` if there is no such
 /// number.
 fn driver_version(text: &str) -> Option<Version> {
-    let after_mesa = text.split_once("Mesa ").map(|(_, behind)| behind);
-    after_mesa
-        .and_then(|behind| number(behind.split_whitespace().next()?))
+    let makers = ["Mesa ", "NVIDIA "];
+    let behind = makers.iter().find_map(|maker| text.split_once(maker));
+    behind
+        .and_then(|(_, behind)| number(behind.split_whitespace().next()?))
         .or_else(|| text.split([' ', ',', '(', ')']).find_map(number))
 }
 
@@ -73,6 +74,7 @@ mod tests {
             ("Mesa 22.3.6 (LLVM 15.0.6)", Some("22.3.6")),
             ("4.5 (Core Profile) Mesa 25.0.7-2~bpo12+1", Some("25.0.7")),
             ("550.54.14", Some("550.54.14")),
+            ("3.3.0 NVIDIA 580.159.04", Some("580.159.4")),
             ("535.183.01.02", Some("535.183.1")),
             ("25.1", Some("25.1.0")),
             ("0x1400000", None),
