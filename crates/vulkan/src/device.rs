@@ -427,7 +427,11 @@ impl Device {
             .enabled_extension_names(&extensions)
             .push_next(&mut enabled13);
         let indirect_count = has_indirect_count(api, physical, &properties.limits);
-        let mut counted = vk::PhysicalDeviceVulkan12Features::default().draw_indirect_count(true);
+        // A device with the extension has both features of it (VUID-VkDeviceCreateInfo-ppEnabledExtensionNames-02835).
+        let mut counted = vk::PhysicalDeviceVulkan12Features::default()
+            .draw_indirect_count(true)
+            .shader_output_viewport_index(second_viewport)
+            .shader_output_layer(second_viewport);
         if indirect_count {
             info = info.push_next(&mut counted);
         }
