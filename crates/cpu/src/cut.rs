@@ -25,6 +25,19 @@ pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
     etalon_pipeline::is_cut(window(draw, vertex))
 }
 
+/// True if all vertices of a point or line lie beyond one side of the view volume, so that it is discarded before it has a
+/// width.
+pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
+    let beyond: [fn([f32; 4]) -> bool; 4] = [
+        |[x, _, _, w]| x < -w,
+        |[x, _, _, w]| x > w,
+        |[_, y, _, w]| y < -w,
+        |[_, y, _, w]| y > w,
+    ];
+    let all = |beyond: &fn([f32; 4]) -> bool| vertices.iter().all(|v| beyond(v.position));
+    beyond.iter().any(all)
+}
+
 /// An edge with the side on which the triangle lies.
 enum Edge {
     /// Between snapped vertices: clockwise on the screen.

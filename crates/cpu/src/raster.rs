@@ -79,6 +79,8 @@ pub(crate) fn draw<S: Steps>(
         };
         match primitive {
             PrimitiveVertices::Point(i) if cut::is_cut(draw, &vertices[i]) => {}
+            PrimitiveVertices::Point(i) if cut::is_beside(&vertices[i..=i]) => {}
+            PrimitiveVertices::Line(ends) if cut::is_beside(&ends.map(vertex)) => {}
             PrimitiveVertices::Point(i) => {
                 let v = vertices[i];
                 let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);

@@ -13,5 +13,8 @@ state_enum! {
         /// With forced early tests, the sample mask acts before samples are counted
         /// (`earlyFragmentSampleMaskTestBeforeSampleCounting` of Vulkan's maintenance5 and 1.4).
         MaskBeforeCounting = "mask-before-counting",
+        /// A point outside of the view volume is discarded (`VK_POINT_CLIPPING_BEHAVIOR_ALL_CLIP_PLANES` of Vulkan's
+        /// maintenance2 and 1.1).
+        DiscardsPointsOutside = "discards-points-outside",
     }
 }

@@ -3,6 +3,21 @@
 use crate::list::{CONFUSION, List, SMALL};
 use crate::plant::{Plant, sized};
 use crate::tables::ONE_TEXEL;
+use etalon_scene::{Draw, PrimitiveTopology};
+
+/// Makes the viewport the whole attachment, and leaves vertices where they are.
+fn unclipped(draw: &mut Draw, size: [u32; 2]) {
+    let [x, y, w, h] = draw.viewport.rect;
+    let [all_w, all_h] = size.map(|s| s as f32);
+    draw.viewport.rect = [0.0, 0.0, all_w, all_h];
+    for vertex in &mut draw.mesh.vertices {
+        let p = &mut vertex.position;
+        let across = (p[0] / p[3] + 1.0) * w / 2.0 + x;
+        let down = (1.0 - p[1] / p[3]) * h / 2.0 + y;
+        p[0] = (across * 2.0 / all_w - 1.0) * p[3];
+        p[1] = (1.0 - down * 2.0 / all_h) * p[3];
+    }
+}
 
 pub(super) fn add(list: &mut List) {
     list.class("viewport", "scissor");
@@ -49,16 +64,12 @@ pub(super) fn add(list: &mut List) {
     list.source(CONFUSION);
     list.bug("not-clipping: Primitives are not clipped to the viewport.")
         .source("a guard band without clipping")
+        .plant(sized(unclipped));
+    list.bug("points-not-clipped: Points beside the viewport are drawn.")
+        .source("a guard band without clipping")
         .plant(sized(|draw, size| {
-            let [x, y, w, h] = draw.viewport.rect;
-            let [all_w, all_h] = size.map(|s| s as f32);
-            draw.viewport.rect = [0.0, 0.0, all_w, all_h];
-            for vertex in &mut draw.mesh.vertices {
-                let p = &mut vertex.position;
-                let across = (p[0] / p[3] + 1.0) * w / 2.0 + x;
-                let down = (1.0 - p[1] / p[3]) * h / 2.0 + y;
-                p[0] = (across * 2.0 / all_w - 1.0) * p[3];
-                p[1] = (1.0 - down * 2.0 / all_h) * p[3];
+            if draw.topology == PrimitiveTopology::PointList {
+                unclipped(draw, size);
             }
         }));
     list.bug("as-scissor: The scissor rectangle is the viewport's.")

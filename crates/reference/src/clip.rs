@@ -11,13 +11,18 @@ use std::ops::RangeInclusive;
 
 /// The edges of a draw's viewport. They are clip planes and may be snapped. Points and lines are clipped
 /// before they have a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel
-/// beyond, and a clipped end or a point outside may be missing.
+/// beyond, and a clipped end or a point outside may be missing. Where the rules let points or lines pass, they may
+/// reach any texel beyond.
 #[derive(Clone, Debug)]
 pub(crate) struct Clip {
     /// Left, top, width and height in sub-texel units.
     rect: [f64; 4],
+    /// How far from them a vertex lies outside for certain.
+    slack: f64,
     triangles: Reach,
     wide: Reach,
+    points_at_sides: bool,
+    lines_at_sides: bool,
 }
 
 /// Along each axis, the samples that can lie inside, and those that must.
@@ -35,21 +40,28 @@ impl Clip {
             + units * rules.float_error.value() * 16.0;
         Self {
             rect,
+            slack,
             triangles: Reach::new(rect, slack),
             wide: Reach::new(rect, slack + units),
+            points_at_sides: rules.clips_points_at_sides.value(),
+            lines_at_sides: rules.clips_lines_at_sides.value(),
         }
     }
 
     /// Returns whether a sample lies inside.
     pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> Possible {
-        let reach = match primitive.shape {
-            Shape::Triangle(_) => &self.triangles,
+        let (reach, clips) = match primitive.shape {
+            Shape::Triangle(_) => (&self.triangles, true),
             _ if primitive.inside_rect(self.rect) => return Possible::Always,
-            _ => &self.wide,
+            Shape::Point(_) => (&self.wide, self.points_at_sides),
+            Shape::Line(_) => (&self.wide, self.lines_at_sides),
+            Shape::Outline(_) => (&self.wide, true),
         };
+        let discarded = clips && primitive.beyond_rect(self.rect, self.slack);
         let inside =
             |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
-        Possible::of(inside(&reach.can), inside(&reach.must))
+        let can = !discarded && (!clips || inside(&reach.can));
+        Possible::of(can, !discarded && inside(&reach.must))
     }
 }
 

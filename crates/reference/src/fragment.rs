@@ -499,7 +499,9 @@ impl Walk<'_> {
         let slack = self.rules.float_error.value() * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == Source::Written;
-        let exported = written || place.primitive.is_biased();
+        // A point beyond the near and far planes may be drawn.
+        let point = matches!(place.primitive.shape, Shape::Point(_));
+        let exported = written || point || place.primitive.is_biased();
         let depth = if depth.float.may_be_nan() {
             // NaN stays NaN, or is clamped to any value of the range.
             depth.float

@@ -310,6 +310,15 @@ impl SnappedPrimitive {
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
+    /// True if all vertices lie beyond one side of a rectangle by more than some units, wherever they are snapped to.
+    pub(crate) fn beyond_rect(&self, [x, y, w, h]: [f64; 4], by: f64) -> bool {
+        let [low, high] = [self.all.low, self.all.high].map(|p| [p.x as f64, p.y as f64]);
+        let beyond = |axis: usize, start: f64, length: f64| {
+            high[axis] < start - by || low[axis] > start + length + by
+        };
+        beyond(0, x, w) || beyond(1, y, h)
+    }
+
     /// Returns whether a covered sample lies between the near and far planes.
     pub(crate) fn inside_depth(&self, at: Point) -> Possible {
         let depth = self.clip_depth.at(at);

@@ -347,10 +347,14 @@ impl<'a> Walk<'a> {
         if missed {
             return Err(Rejection::Coverage);
         }
+        let passes = matches!(primitive.shape, Shape::Point(_)) && !self.rules.clips_points.value();
         let in_depth = if draw.depth_clamp {
             Possible::Always
         } else {
-            primitive.inside_depth(point)
+            match primitive.inside_depth(point) {
+                Possible::Never if passes => Possible::Maybe,
+                inside => inside,
+            }
         };
         if !in_depth.can() {
             return Err(Rejection::NearFar);

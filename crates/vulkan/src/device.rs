@@ -245,10 +245,19 @@ fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<b
     Some(offered.advanced_blend_coherent_operations != vk::FALSE)
 }
 
-/// Returns the promises of maintenance5, where the device has it.
+/// Returns the promises of Vulkan 1.1, and those of maintenance5 where the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
+    let mut clipping = vk::PhysicalDevicePointClippingProperties::default();
+    let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut clipping);
+    // SAFETY: a device of Vulkan 1.0 leaves the chained structure as it is.
+    unsafe { api.get_physical_device_properties2(physical, &mut both) };
+    let fills = both.properties.api_version >= vk::API_VERSION_1_1;
+    let mut promises = BTreeSet::new();
+    if fills && clipping.point_clipping_behavior == vk::PointClippingBehavior::ALL_CLIP_PLANES {
+        promises.insert(Property::DiscardsPointsOutside);
+    }
     if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
-        return BTreeSet::new();
+        return promises;
     }
     let mut raw = vk::PhysicalDeviceMaintenance5PropertiesKHR::default();
     let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
@@ -265,7 +274,8 @@ fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Prope
         ),
     ];
     let kept = promised.into_iter().filter(|(_, has)| *has == vk::TRUE);
-    kept.map(|(property, _)| property).collect()
+    promises.extend(kept.map(|(property, _)| property));
+    promises
 }
 
 /// The modes in which a device resolves depth and stencil.

@@ -3,8 +3,8 @@ use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
 use etalon_frame::{
-    Api, ApiVersion, ChannelEncoding, DepthTest, Effect, Limits, Operation, Rejection, Step,
-    ValueRange,
+    Api, ApiVersion, ChannelEncoding, DepthTest, Effect, Limits, Operation, Property, Rejection,
+    Step, ValueRange,
 };
 use etalon_scene::Scene;
 
@@ -438,6 +438,93 @@ fn a_line_between_texels_that_its_viewport_clips_is_not_lost() {
     let drawn = |y: u32| group.sample(4, y, 0).allows(&[255; 4]);
     let rows: Vec<u32> = (0..64).filter(|y| drawn(*y)).collect();
     assert!(rows.contains(&22) && rows.contains(&23), "{rows:?}");
+}
+
+/// Returns which texels of row 3 may be red or must be, where a viewport begins at column 4.
+fn beside_the_viewport(topology: &str, positions: &str, limits: &Limits) -> Vec<(bool, bool)> {
+    let scene = case(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[8,8]}}}},
+            "passes":[{{"color":["color"],"draws":[{{
+                "mesh":{{"kind":"vertices","units":"texels","positions":{positions}}},
+                "params":{{"color":[1,1,1,1]}},"shader":"uniform_color","topology":"{topology}",
+                "viewport":{{"rect":[4,0,4,8],"depth":[0,1]}}}}]}}],
+            "read":["color"]}}}}"#
+    ))
+    .scene;
+    let set = legal_set(&scene, limits, &Rules::of(limits));
+    let texel = |x: u32| set.groups[0].sample(x, 3, 0);
+    let both = |x: u32| (texel(x).allows(&[255; 4]), !texel(x).allows(&[0; 4]));
+    (0..8).map(both).collect()
+}
+
+/// Limits of a version, with Vulkan's promise to discard points outside of the view volume or without.
+fn clipping_limits(api: Api, version: [u8; 2], promise: bool) -> Limits {
+    let mut limits = limits(api);
+    limits.version = ApiVersion::new(version[0], version[1]);
+    if promise {
+        limits.properties = Property::ALL.into_iter().collect();
+    }
+    limits
+}
+
+#[test]
+fn a_point_beside_the_viewport_is_discarded_where_the_text_says_so() {
+    for (api, version, promise, may) in [
+        (Api::OpenGl, [3, 3], false, false),
+        (Api::OpenGl, [4, 5], false, false),
+        (Api::OpenGl, [4, 6], false, true),
+        (Api::OpenGlEs, [3, 0], false, true),
+        (Api::OpenGlEs, [3, 2], false, true),
+        (Api::Vulkan, [1, 3], false, true),
+        (Api::Vulkan, [1, 3], true, false),
+        (Api::WebGpu, [0, 0], false, false),
+    ] {
+        let limits = clipping_limits(api, version, promise);
+        for (x, column) in [("-0.5", 3), ("-3.5", 0)] {
+            let texels = beside_the_viewport("point-list", &format!("[[{x},3.5,0]]"), &limits);
+            let mut expected = vec![(false, false); 8];
+            expected[column].0 = may;
+            assert_eq!(texels, expected, "{api} {version:?} {promise}");
+        }
+        // Inside it is drawn, whatever the text says of others.
+        let inside = beside_the_viewport("point-list", "[[1.5,3.5,0]]", &limits);
+        assert_eq!(inside[5], (true, true), "{api}");
+    }
+}
+
+#[test]
+fn a_point_before_the_near_plane_may_be_drawn_in_vulkan_without_the_promise() {
+    for (api, promise, may) in [
+        (Api::OpenGl, false, false),
+        (Api::OpenGlEs, false, false),
+        (Api::Vulkan, false, true),
+        (Api::Vulkan, true, false),
+    ] {
+        let limits = clipping_limits(api, [9, 9], promise);
+        let texels = beside_the_viewport("point-list", "[[1.5,3.5,-0.5]]", &limits);
+        assert_eq!(texels[5], (may, false), "{api} {promise}");
+    }
+}
+
+#[test]
+fn a_line_may_leave_the_viewport_where_the_text_lets_it() {
+    for (api, may) in [
+        (Api::OpenGl, false),
+        (Api::WebGpu, false),
+        (Api::OpenGlEs, true),
+        (Api::Vulkan, true),
+    ] {
+        let limits = clipping_limits(api, [9, 9], true);
+        let texels = |positions| beside_the_viewport("line-list", positions, &limits);
+        let crossing = texels("[[-3.75,3.5,0],[3.75,3.5,0]]");
+        assert_eq!(crossing[0].0, may, "{api}: {crossing:?}");
+        assert!(crossing[5].1, "{api}: {crossing:?}");
+        // Wholly outside, it is discarded or whole.
+        let outside = texels("[[-3.75,3.5,0],[-0.25,3.5,0]]");
+        assert_eq!(outside[3].0, may, "{api}: {outside:?}");
+        assert!(outside.iter().all(|texel| !texel.1), "{api}: {outside:?}");
+    }
 }
 
 #[test]

@@ -155,11 +155,11 @@ mod tests {
         let open = Rules::of(&limits);
         assert_eq!(open.early_coverage.value, EarlyUpdates::Either);
         assert_eq!(open.early_updates.grade, Grade::RequiredByCts);
-        assert!(!open.mask_acts_first.value);
+        assert!(!open.mask_acts_first.value && !open.clips_points_at_sides.value);
         limits.properties = Property::ALL.into_iter().collect();
         let pinned = Rules::of(&limits);
         assert_eq!(pinned.early_coverage.value, EarlyUpdates::Happen);
         assert_eq!(pinned.early_updates.grade, Grade::Proven);
-        assert!(pinned.mask_acts_first.value);
+        assert!(pinned.mask_acts_first.value && pinned.clips_points_at_sides.value);
     }
 }

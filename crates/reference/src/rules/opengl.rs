@@ -127,7 +127,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         blend: permit(
             BlendPrecision::DestinationCodes,
             text.cite([
-                "OpenGL 3.3: 4.1.7 Blending: as if in floating-point; later versions let the precision of the destination do",
+                "OpenGL 3.3: 4.1.7 Blending: no precision is named; OpenGL 4.2: no lower than that used to represent destination components",
                 "OpenGL 4.5: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
                 "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
             ]),
@@ -237,8 +237,24 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             text.cite([
                 "OpenGL 3.3: 2.19 Primitive Clipping: a point outside of the clip volume is discarded",
-                "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the near and far planes is discarded",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the clip volume is discarded",
                 "OpenGL 4.6: 13.7 Primitive Clipping: a point outside of the near and far planes is discarded",
+            ]),
+        ),
+        clips_points_at_sides: permit(
+            text != Text::V46,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: a point outside of the clip volume is discarded",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the clip volume is discarded",
+                "OpenGL 4.6: 13.7 Primitive Clipping: points outside of the view volume may be discarded",
+            ]),
+        ),
+        clips_lines_at_sides: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.6: 13.7 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
             ]),
         ),
         points_face_front: permit(

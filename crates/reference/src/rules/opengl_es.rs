@@ -196,6 +196,22 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 12.5 Primitive Clipping: a point outside of the near and far planes is discarded",
             ]),
         ),
+        clips_points_at_sides: permit(
+            false,
+            text.cite([
+                "OpenGL ES 3.0: 2.18 Primitive Clipping: a point between the near and far planes passes unchanged; the clip volume has sides",
+                "OpenGL ES 3.1: 12.4 Primitive Clipping: a point between the near and far planes passes unchanged; the clip volume has sides",
+                "OpenGL ES 3.2: 12.5 Primitive Clipping: a point between the near and far planes passes unchanged; the clip volume has sides",
+            ]),
+        ),
+        clips_lines_at_sides: permit(
+            false,
+            text.cite([
+                "OpenGL ES 3.0: 2.18 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
+                "OpenGL ES 3.1: 12.4 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
+                "OpenGL ES 3.2: 12.5 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

@@ -439,8 +439,12 @@ rules! {
     factor_clamp: FactorClamp,
     /// Averaging samples.
     resolve: Resolve,
-    /// True if a point outside of the clip volume is discarded; otherwise it may be.
+    /// True if a point before the near or beyond the far plane is discarded; otherwise it may be.
     clips_points: bool,
+    /// True if a point beyond a side of the view volume is discarded; otherwise it may be.
+    clips_points_at_sides: bool,
+    /// True if lines are clipped at the sides of the view volume; otherwise they may be.
+    clips_lines_at_sides: bool,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.

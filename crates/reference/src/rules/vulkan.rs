@@ -19,9 +19,15 @@ fn text(limits: &Limits) -> &'static str {
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    // Promises of maintenance5 and Vulkan 1.4.
+    // Promises of maintenance5 and Vulkan 1.4, of maintenance2 and Vulkan 1.1.
     let coverage_last = limits.properties.contains(&Property::CoverageAfterCounting);
     let mask_first = limits.properties.contains(&Property::MaskBeforeCounting);
+    let discards_points = limits.properties.contains(&Property::DiscardsPointsOutside);
+    let outside = if discards_points {
+        "Vulkan: Primitive Clipping, VK_POINT_CLIPPING_BEHAVIOR_ALL_CLIP_PLANES: a point outside of any clip plane is discarded"
+    } else {
+        "Vulkan: Primitive Clipping: a point outside of the clip volume may be discarded"
+    };
     let happens = |cited: &'static str| {
         if coverage_last {
             permit(
@@ -145,9 +151,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Resolve::CoarseAverage,
             "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),
-        clips_points: permit(
+        clips_points: permit(discards_points, outside),
+        clips_points_at_sides: permit(discards_points, outside),
+        clips_lines_at_sides: permit(
             false,
-            "Vulkan: Primitive Clipping: a point outside of the clip volume may be discarded",
+            "Vulkan: Primitive Clipping: a line with an end outside of the clip volume may be clipped",
         ),
         points_face_front: permit(
             true,

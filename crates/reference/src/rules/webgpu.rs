@@ -130,6 +130,14 @@ pub(super) fn rules() -> Rules {
             true,
             "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
         ),
+        clips_points_at_sides: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
+        clips_lines_at_sides: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
         points_face_front: permit(
             false,
             "WebGPU: 23.2.5: facing of points and lines is not asserted",

@@ -110,6 +110,14 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             true,
             "Yardstick: nothing outside of the clip volume is drawn",
         ),
+        clips_points_at_sides: permit(
+            true,
+            "Yardstick: nothing outside of the clip volume is drawn",
+        ),
+        clips_lines_at_sides: permit(
+            true,
+            "Yardstick: nothing outside of the clip volume is drawn",
+        ),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",

@@ -151,6 +151,28 @@ fn the_middle_of_each_viewport_lies_outside() {
 }
 
 #[test]
+fn vertices_lie_beside_each_side_of_the_viewport_and_inside() {
+    for case in all_cases("scissor/viewport-beside/") {
+        let draw = &case.scene.passes[0].draws[0];
+        let places = draw.mesh.vertices.iter().map(|v| v.position);
+        let side = |axis: usize, below: bool| {
+            let beyond = |p: [f32; 4]| {
+                if below {
+                    p[axis] < -p[3]
+                } else {
+                    p[axis] > p[3]
+                }
+            };
+            places.clone().any(beyond)
+        };
+        let all = [0, 1].map(|axis| side(axis, true) && side(axis, false));
+        let inside = |p: [f32; 4]| p[0].abs() < p[3] && p[1].abs() < p[3];
+        let both = all == [true; 2] && places.clone().filter(|p| inside(*p)).count() == 4;
+        assert!(both, "{}", case.id);
+    }
+}
+
+#[test]
 fn references_lie_outside_of_masks_that_write() {
     let mut outside = 0;
     for case in all_cases("stencil/reference-outside-mask/") {
