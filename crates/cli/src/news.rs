@@ -23,10 +23,13 @@ pub(crate) struct NewsArguments {
 impl NewsArguments {
     /// Refuses labels and a file that cannot be used, before anything is drawn.
     pub(crate) fn check(&self) -> Result<(), Failure> {
-        // Without a history, labels limit expectations.
-        self.labels.labels()?;
+        let labels = self.labels.labels()?;
         let Some(path) = &self.history else {
-            return Ok(());
+            return if labels.is_empty() {
+                Ok(())
+            } else {
+                Err(Failure::usage("--label is for --history: name its file"))
+            };
         };
         match History::open_read(path) {
             Ok(_) | Err(HistoryError::None { .. } | HistoryError::Busy { .. }) => Ok(()),

@@ -67,7 +67,7 @@ pub fn bless(
             blessing.unblessed += 1;
         } else if !follows
             && !matches!(
-                expectations.look_up_record(adapter, record),
+                expectations.look_up_record(adapter, &record.case, record.shown()),
                 Expectation::Agrees(_)
             )
         {

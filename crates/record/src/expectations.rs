@@ -6,11 +6,10 @@ use crate::adapter::AdapterRecord;
 use crate::date::check_date;
 use crate::driver_version::version_of;
 use crate::error::RecordError;
-use crate::expected_symptom::ExpectedSymptom;
+use crate::expected_symptom::{ExpectedSymptom, Shown};
 use crate::findings::{self, Finding};
 use crate::grade::Grade;
 use crate::json::without_position;
-use crate::record::Record;
 use crate::verdict::Verdict;
 use etalon_frame::{shortened, without_mark};
 use globset::{GlobBuilder, GlobMatcher};
@@ -176,7 +175,7 @@ impl Known {
     }
 
     /// True if it excuses a record: its verdict, and of a violation what it shows.
-    pub fn excuses_record(&self, record: &Record) -> bool {
+    pub fn excuses_record(&self, record: Shown<'_>) -> bool {
         let shown = |symptom: &ExpectedSymptom| {
             !record.verdict.is_violation() || symptom.is_shown_by(record)
         };
@@ -545,7 +544,7 @@ impl Expectations {
     }
 
     /// True if an expectation excuses a record of the cases and adapters that it names.
-    pub(crate) fn excuses(&self, number: usize, record: &Record) -> bool {
+    pub(crate) fn excuses(&self, number: usize, record: Shown<'_>) -> bool {
         self.all
             .get(number)
             .is_some_and(|k| k.excuses_record(record))
@@ -606,9 +605,14 @@ impl Expectations {
     }
 
     /// Looks up a record, as [`Expectations::look_up`] does a verdict.
-    pub fn look_up_record(&self, adapter: &AdapterRecord, record: &Record) -> Expectation<'_> {
+    pub fn look_up_record(
+        &self,
+        adapter: &AdapterRecord,
+        case: &str,
+        record: Shown<'_>,
+    ) -> Expectation<'_> {
         let agrees = |known: &Known| known.excuses_record(record);
-        self.find(adapter, &record.case, record.verdict, agrees)
+        self.find(adapter, case, record.verdict, agrees)
     }
 
     fn find(

@@ -15,6 +15,7 @@ mod adapter;
 mod bench;
 mod clear;
 mod conflict;
+mod content;
 mod date;
 mod dead;
 mod driver_version;
@@ -53,15 +54,15 @@ pub use bench::{
     Done, Ended, Enough, Measure, Picture, Round, Time, cell,
 };
 pub use clear::clear;
+pub use content::{Content, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source, compile_glob};
-pub use expected_symptom::{ExpectedSymptom, Side};
+pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
-    BENCH_FILE, CASES_FILE, Content, DEAD_FILE, FUZZ_FILE, FolderKind, MISSING_FILE, RUN_FILE,
-    is_marked, overlap,
+    BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, MISSING_FILE, RUN_FILE, VERSIONS_FILE,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;
@@ -83,6 +84,6 @@ pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
 pub use verdict::Verdict;
 pub use versions::{
-    CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,
+    CaseVersions, ReleaseRecord, Standing, VERSIONS_FORMAT, Versions, VersionsHeader,
 };
 pub use writer::RunWriter;

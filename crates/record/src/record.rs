@@ -2,6 +2,7 @@
 
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Expectation, Expectations};
+use crate::expected_symptom::Shown;
 use crate::measured::Measured;
 use crate::verdict::Verdict;
 use etalon_frame::{
@@ -149,27 +150,37 @@ impl Record {
 
     /// Notes what the expectations say of the verdict.
     pub fn expect(&mut self, expectations: &Expectations, adapter: &AdapterRecord) {
-        (self.expected, self.improves) = match expectations.look_up_record(adapter, self) {
-            Expectation::None => (None, None),
-            Expectation::Agrees(entry) => (
-                Some(Expected {
-                    reason: entry.reason.clone(),
-                }),
-                None,
-            ),
-            Expectation::Better(entry) => (None, Some(entry.verdict)),
-            Expectation::Expired(entry) => {
-                let day = entry.expires.as_deref().unwrap_or_default();
-                let note = format!("the expectation expired on {day}: {}", entry.reason);
-                self.note(note);
-                (None, None)
-            }
-            Expectation::Differs(entry) => {
-                let note = format!("not the expected symptom: {}", entry.reason);
-                self.note(note);
-                (None, None)
-            }
-        };
+        (self.expected, self.improves) =
+            match expectations.look_up_record(adapter, &self.case, self.shown()) {
+                Expectation::None => (None, None),
+                Expectation::Agrees(entry) => (
+                    Some(Expected {
+                        reason: entry.reason.clone(),
+                    }),
+                    None,
+                ),
+                Expectation::Better(entry) => (None, Some(entry.verdict)),
+                Expectation::Expired(entry) => {
+                    let day = entry.expires.as_deref().unwrap_or_default();
+                    let note = format!("the expectation expired on {day}: {}", entry.reason);
+                    self.note(note);
+                    (None, None)
+                }
+                Expectation::Differs(entry) => {
+                    let note = format!("not the expected symptom: {}", entry.reason);
+                    self.note(note);
+                    (None, None)
+                }
+            };
+    }
+
+    /// What an expectation may ask of it.
+    pub fn shown(&self) -> Shown<'_> {
+        Shown {
+            verdict: self.verdict,
+            wrong: &self.wrong,
+            counters: &self.counters,
+        }
     }
 
     /// Adds to the message.

@@ -4,6 +4,7 @@
 //! is checked in the middle of each such span.
 
 use crate::error::RecordError;
+use crate::folder::VERSIONS_FILE;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
@@ -13,8 +14,6 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The name of the file.
-pub const VERSIONS_FILE: &str = "versions.jsonl";
 /// The format that this crate writes.
 pub const VERSIONS_FORMAT: u32 = 1;
 /// The longest line that is read, in bytes.

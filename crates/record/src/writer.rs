@@ -1,10 +1,9 @@
 //! Writing a run folder.
 
 use crate::conflict::resume_conflict;
+use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{
-    CASES_FILE, Content, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE,
-};
+use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE};
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;

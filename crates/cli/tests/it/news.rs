@@ -262,7 +262,9 @@ fn a_file_that_is_no_history_is_refused_before_anything_is_drawn() {
         .code(64)
         .stderr(contains("is no history of etalon"));
     assert!(!place.path("run").exists());
-    run(&place, "run", &["--label", "branch=main"])
+    // Without a history, labels limit expectations, and must be labels all the same.
+    run(&place, "run", &["--label", "branch"])
         .code(64)
-        .stderr(contains("--history"));
+        .stderr(contains("branch"));
+    assert!(!place.path("run").exists());
 }
