@@ -16,7 +16,7 @@ mod unstarted;
 
 pub(crate) use backend_name::BackendName;
 pub(crate) use description::{described_names, releases_of};
-pub(crate) use devices::HardwareDevice;
+pub(crate) use devices::{HardwareDevice, hardware_names};
 pub(crate) use discovery::{Adapters, discover, refuse_absent};
 pub(crate) use faulty::Faulty;
 pub(crate) use open::{FROM_INPUT, Open};

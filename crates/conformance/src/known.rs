@@ -150,7 +150,7 @@ const GL_SOFTPIPE: Lacks = Lacks {
 };
 
 const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
-    fragment-invocations fragment-shader-absent fragment-shader-absent-with-color linear-interpolation logic-operations \
+    forced-early-tests-with-depth fragment-invocations fragment-shader-absent fragment-shader-absent-with-color linear-interpolation logic-operations \
     mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion stencil-export \
     upper-left-domain";
 /// OpenGL ES of llvmpipe and zink.

@@ -47,7 +47,8 @@ impl Walk<'_> {
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
         let drawn = self.by_sample_coverage(place, world, notes).into_iter();
         let read = drawn.flat_map(|(world, drawn)| {
-            let worlds = self.by_reading(place, world).into_iter();
+            let open_texts = &self.open_texts[place.pass][place.draw_index];
+            let worlds = open_texts.by_reading(world).into_iter();
             worlds.map(move |world| (world, drawn))
         });
         for (world, drawn) in read {

@@ -1,7 +1,6 @@
 //! Texts with two readings. A driver follows one of them: what lies between the results of both is not legal.
 
 use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
-use crate::walk::{Place, Walk};
 use crate::world::{Contested, Decision, World, Worlds};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Draw, Pass, RESTART, Scene};
@@ -25,13 +24,11 @@ impl OpenTexts {
                 && restarts(),
         }
     }
-}
 
-impl Walk<'_> {
-    /// Splits a world by the readings that matter to a draw and that it has not taken yet.
-    pub(crate) fn by_reading(&self, place: Place<'_>, world: World) -> Worlds {
+    /// Splits a world by the readings that matter to the draw and that it has not taken yet.
+    pub(crate) fn by_reading(&self, world: World) -> Worlds {
         let mut worlds: Worlds = smallvec![world];
-        for contested in &self.open_texts[place.pass][place.draw_index].contested {
+        for contested in &self.contested {
             let decision = Decision::Reading(*contested);
             let split = |world: World| -> Worlds {
                 if world.decided(decision).is_some() {

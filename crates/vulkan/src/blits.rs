@@ -7,15 +7,7 @@ use crate::image_state::{ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED};
 use crate::plan::AttachmentPlan;
 use ash::vk;
 use etalon_backend::{Blit, Blits};
-use etalon_frame::{Aspect, PathEnd};
-
-/// Returns the size of the image between an attachment of this size and its copy; `None` if there is none.
-pub(crate) fn between(end: PathEnd, size: [u32; 2]) -> Option<[u32; 2]> {
-    match end {
-        PathEnd::BlitLinear => Some([2 * size[0], size[1]]),
-        _ => Blits::new(end, size).map(|blits| blits.size()),
-    }
-}
+use etalon_frame::Aspect;
 
 /// Records the blits of an attachment to the image between, and from there the copies, or the filtered blit, to the copy.
 ///

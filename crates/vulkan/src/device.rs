@@ -1,7 +1,6 @@
 //! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
-use crate::inputs::MOST_COUNTED;
 use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::recording;
 use ash::vk;
@@ -10,6 +9,9 @@ use etalon_frame::{ApiVersion, Property};
 use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::rc::Rc;
+
+/// The most draws of an indirect draw whose number is in a buffer.
+pub(crate) const MOST_COUNTED: u32 = 2;
 
 /// The properties of a physical device, known before it is opened.
 pub(crate) struct Identity {

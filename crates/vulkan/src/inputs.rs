@@ -17,9 +17,6 @@ pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 /// Bytes of the arguments of an indirect draw, with indices or without.
 pub(crate) const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
 
-/// The most draws of an indirect draw whose number is in a buffer.
-pub(crate) const MOST_COUNTED: u32 = 2;
-
 /// Assigns consecutive offsets in a buffer.
 #[derive(Default)]
 pub(crate) struct OffsetAllocator {

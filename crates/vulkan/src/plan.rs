@@ -1,7 +1,6 @@
 //! The commands of a scene in terms of device handles, ready to be recorded at each submit.
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
-use crate::blits;
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
@@ -19,7 +18,7 @@ use crate::render_pass::RenderPass;
 use crate::state;
 use crate::targets::Targets;
 use ash::vk;
-use etalon_backend::BackendError;
+use etalon_backend::{BackendError, Blits};
 use etalon_frame::{PathClears, PathEnd, PathTarget, Requirement};
 use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
@@ -376,9 +375,17 @@ pub(crate) fn image_key(
     })
 }
 
+/// Returns the size of the image between an attachment of this size and its copy; `None` if there is none.
+fn between(end: PathEnd, size: [u32; 2]) -> Option<[u32; 2]> {
+    match end {
+        PathEnd::BlitLinear => Some([2 * size[0], size[1]]),
+        _ => Blits::new(end, size).map(|blits| blits.size()),
+    }
+}
+
 /// Returns the key of the image that blits move an attachment to, if its path has them.
 pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
-    let size = blits::between(end, key.size)?;
+    let size = between(end, key.size)?;
     Some(ImageKey {
         size,
         usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,

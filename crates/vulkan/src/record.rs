@@ -3,14 +3,14 @@
 use crate::attached::DepthStencilPlan;
 use crate::blits;
 use crate::clear::Ends;
-use crate::device::Device;
+use crate::device::{Device, MOST_COUNTED};
 use crate::error::Check;
 use crate::image::Place;
 use crate::image_state::{
     COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
     ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
 };
-use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers, MOST_COUNTED};
+use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers};
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role};
 use crate::read::ReadPlan;

@@ -33,6 +33,18 @@ pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
     ("wgpu-gl", "wgpu:gl", BackendName::WgpuGl),
 ];
 
+/// Drivers of hardware that findings are about. A machine without the hardware does not make them dead.
+const KNOWN_DRIVERS: [&str; 1] = ["nvidia"];
+
+/// Returns the names of the adapters of hardware that findings are about.
+pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
+    BACKENDS.iter().flat_map(|(_, prefix, _)| {
+        KNOWN_DRIVERS
+            .iter()
+            .map(move |driver| format!("{prefix}:{driver}"))
+    })
+}
+
 /// Enumerates the devices of a backend in a new process.
 ///
 /// # Errors

@@ -1,7 +1,8 @@
 //! `etalon run`.
 
 use crate::adapters::{
-    Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
+    Adapters, Query, cache, described_names, discover, hardware_names, refuse_absent,
+    take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
 use crate::cases::{all_ids, chosen, left_out, library, round_trips};
@@ -444,7 +445,8 @@ fn dead_expectations(
         return Ok(Vec::new());
     }
     let ids = all_ids(cases)?;
-    let described = described_names(arguments.file.adapter_file.as_deref())?;
+    let mut described = described_names(arguments.file.adapter_file.as_deref())?;
+    described.extend(hardware_names());
     let mut dead = expectations.dead(run, &ids, &described);
     // A list of a user's own may cover a finding, and does not make it one to remove.
     dead.retain(|entry| {

@@ -260,7 +260,8 @@ fn a_reduced_case_can_be_reduced_again_from_its_folder() {
     assert_eq!(code, 0, "{error}");
     let path = Path::new(first["file"].as_str().unwrap());
     let id = path.file_stem().unwrap().to_str().unwrap();
-    let [cases, out] = ["", "again"].map(|name| folder.path().join(name));
+    let other = TempDir::new().unwrap();
+    let (cases, out) = (folder.path(), other.path());
     let arguments = [
         "reduce",
         id,

@@ -117,9 +117,12 @@ fn an_earlier_page_is_replaced_and_nothing_else() {
     let to = folder.path().join("page");
     let write = || write_history(&history, &Labels::new(), &to);
     write().unwrap();
-    fs::write(to.join("data/case-99.js"), "old").unwrap();
     write().unwrap();
-    assert!(!to.join("data/case-99.js").exists());
+    let deep = to.join("data/case-99.js");
+    fs::write(&deep, "mine").unwrap();
+    assert!(matches!(write(), Err(ReportError::NotOfTheHistory { .. })));
+    assert_eq!(fs::read_to_string(&deep).unwrap(), "mine");
+    fs::remove_file(&deep).unwrap();
     fs::write(to.join("notes.txt"), "mine").unwrap();
     assert!(matches!(write(), Err(ReportError::NotOfTheHistory { .. })));
     fs::remove_file(to.join(HISTORY_PAGE_FILE)).unwrap();

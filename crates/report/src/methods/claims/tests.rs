@@ -148,11 +148,12 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
         }
         Test::Narrowest { of, over, holds } => {
             let gaps = [0.001, 0.01, 0.1, 1.0];
-            // Where the other resolves from the third gap on, one that resolves from another on.
-            let from = match (holds.met(0.2), good) {
-                (true, true) | (false, false) => 1,
-                _ => 3,
-            };
+            // The other resolves from the third gap on.
+            let narrowest = [(1, 0.1), (3, 10.0), (2, 1.0)];
+            let (from, _) = narrowest
+                .into_iter()
+                .find(|(_, ratio)| holds.met(*ratio) == good)
+                .unwrap();
             for (i, gap) in gaps.into_iter().enumerate() {
                 records.push(setting(over, gap).off(if i < 2 { 0.3 } else { 0.001 }));
                 records.push(setting(of, gap).off(if i < from { 0.3 } else { 0.001 }));
