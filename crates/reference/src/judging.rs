@@ -208,11 +208,15 @@ impl<'r> Judging<'r> {
         computed.hull(to_significand(bits, exact))
     }
 
+    /// Returns the floats that one step of a blend may compute for an exact result.
+    fn float_step(&self, encoding: ChannelEncoding, exact: Interval) -> Interval {
+        self.float_outward(encoding, exact, exact.widen_relative(self.error()))
+    }
+
     /// Returns the results that one step of a blend may compute for an exact one.
     fn rounded_once(&self, encoding: ChannelEncoding, exact: Range) -> Range {
-        let computed = exact.float.widen_relative(self.error());
         Range {
-            float: self.float_outward(encoding, exact.float, computed),
+            float: self.float_step(encoding, exact.float),
             coarse: self.round_outward(encoding, exact.coarse),
         }
     }
@@ -656,8 +660,7 @@ impl Arithmetic for Judging<'_> {
         let float = if value.float.is(0.0) || value.float.is(1.0) {
             exact.float
         } else {
-            let computed = exact.float.widen_relative(self.error());
-            self.float_outward(encoding, exact.float, computed)
+            self.float_step(encoding, exact.float)
         };
         Range {
             float,
@@ -700,8 +703,7 @@ impl Arithmetic for Judging<'_> {
         let float = if plain(operand.float) || plain(factor.float) {
             product.float
         } else {
-            let computed = product.float.widen_relative(self.error());
-            self.float_outward(encoding, product.float, computed)
+            self.float_step(encoding, product.float)
         };
         Range {
             float: float.may_overflow(),
