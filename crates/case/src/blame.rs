@@ -65,9 +65,10 @@ impl CaseRef<'_> {
             .as_ref()
             .is_some_and(|values| at < values.len());
         let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
-        Some(match given {
-            true => path.into_iter().chain([Step::Index(at)]).collect(),
-            false => self.value_of(&derived.axis, at),
+        Some(if given {
+            path.into_iter().chain([Step::Index(at)]).collect()
+        } else {
+            self.value_of(&derived.axis, at)
         })
     }
 
@@ -104,9 +105,13 @@ impl CaseRef<'_> {
             let mut tried = 0;
             let all = others.take(TRIED).all(|other| {
                 tried += 1;
-                let place = |(name, length): &(&String, usize)| match name == axis {
-                    true => (other, *length),
-                    false => (own[name.as_str()], *length),
+                let place = |(name, length): &(&String, usize)| {
+                    let at = if name == axis {
+                        other
+                    } else {
+                        own[name.as_str()]
+                    };
+                    (at, *length)
                 };
                 let index = lengths
                     .iter()

@@ -408,12 +408,12 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
         let (mask, depth) = (f32::from_bits(texel[0]), f32::from_bits(texel[1]));
         mask.fract() == 0.0 && (0.0..=65535.0).contains(&mask) && (0.0..=1.0).contains(&depth)
     };
-    match texels.chunks_exact(4).all(fits) {
-        true => Ok(()),
-        false => Err(At::new(
-            "a sample mask is a whole number from 0 to 65535, and a written depth lies between 0 and 1",
-        )),
+    if texels.chunks_exact(4).all(fits) {
+        return Ok(());
     }
+    Err(At::new(
+        "a sample mask is a whole number from 0 to 65535, and a written depth lies between 0 and 1",
+    ))
 }
 
 /// Checks the texture from which a shader takes its stencil references, and perhaps its depth.
@@ -434,12 +434,12 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
         let whole = |v: f32| v.fract() == 0.0 && v.abs() <= MOST;
         whole(front) && whole(back) && (0.0..=1.0).contains(&depth)
     };
-    match texels.chunks_exact(4).all(fits) {
-        true => Ok(()),
-        false => Err(At::new(
-            "a stencil reference is a whole number from -65535 to 65535, and a written depth lies between 0 and 1",
-        )),
+    if texels.chunks_exact(4).all(fits) {
+        return Ok(());
     }
+    Err(At::new(
+        "a stencil reference is a whole number from -65535 to 65535, and a written depth lies between 0 and 1",
+    ))
 }
 
 /// True if a draw can change depth or stencil.

@@ -73,10 +73,8 @@ fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<
         PrimitiveTopology::LineList,
         PrimitiveTopology::TriangleList,
     ];
-    let most = match !restarts && lists.contains(&topology) {
-        true => u32::from(RESTART_16),
-        false => u32::from(RESTART_16) - 1,
-    };
+    let kept = u32::from(restarts || !lists.contains(&topology));
+    let most = u32::from(RESTART_16) - kept;
     let greatest = all.filter(|i| **i != u32::MAX).max().copied().unwrap_or(0);
     if greatest + moved > most {
         return Err(At::new(format!(

@@ -122,9 +122,10 @@ impl CaseFile {
                              [0, 0, 0, 0]"
                         );
                         let at = At::new(message);
-                        let at = match self.wire.sequence.is_null() {
-                            true => at.index(d).key("draws").index(p).key("passes").key("scene"),
-                            false => at.key("sequence"),
+                        let at = if self.wire.sequence.is_null() {
+                            at.index(d).key("draws").index(p).key("passes").key("scene")
+                        } else {
+                            at.key("sequence")
                         };
                         found.push(at);
                     }

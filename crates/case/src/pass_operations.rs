@@ -188,10 +188,10 @@ fn color_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
 }
 
 fn depth_value(value: f32) -> Result<(), At> {
-    match (0.0..=1.0).contains(&value) {
-        true => Ok(()),
-        false => Err(At::new("a cleared depth lies between 0 and 1")),
+    if (0.0..=1.0).contains(&value) {
+        return Ok(());
     }
+    Err(At::new("a cleared depth lies between 0 and 1"))
 }
 
 /// Returns the rectangle of a clear, which lies inside the attachments.

@@ -103,9 +103,10 @@ fn shorts(values: &[f32]) -> Value {
 /// Returns four values, as one number where they are alike.
 fn splat(values: [f32; 4]) -> Value {
     let bits = values.map(f32::to_bits);
-    match bits.iter().all(|b| *b == bits[0]) {
-        true => short(values[0]),
-        false => shorts(&values),
+    if bits.iter().all(|b| *b == bits[0]) {
+        short(values[0])
+    } else {
+        shorts(&values)
     }
 }
 

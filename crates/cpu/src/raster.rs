@@ -11,7 +11,7 @@ use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::{
     Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, window_position,
 };
-use etalon_scene::{Draw, Pass, PolygonMode, PrimitiveVertices, Scene};
+use etalon_scene::{Draw, Interpolation, Pass, PolygonMode, PrimitiveVertices, Scene};
 
 /// The supported sample counts.
 pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
@@ -43,33 +43,17 @@ pub(crate) fn draw<S: Steps>(
             y: i64::from(y) * UNITS / 256,
         })
         .collect();
-    let bounds = bounds(draw, size);
-    let vertices: Vec<Vertex> = draw
-        .mesh
-        .vertices
-        .iter()
-        .map(|v| {
-            let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
-            let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
-            Vertex {
-                position: v.position,
-                at: Point {
-                    x: snap(x),
-                    y: snap(y),
-                },
-                z,
-                clip_z: v.position[2] / v.position[3],
-                color: v.color,
-                uv: v.uv,
-                distances: clipping(draw, v),
-            }
-        })
-        .collect();
+    let vertices: Vec<Vertex> = draw.mesh.vertices.iter().map(|v| vertex(draw, v)).collect();
     let mut state = SpanState::new(scene, pass, draw, &samples, memory, steps);
-    let encoding = state.depth_encoding();
-    let front = steps.lines_face_front();
+    let raster = Raster {
+        draw,
+        steps,
+        samples: &samples,
+        bounds: bounds(draw, size),
+        encoding: state.depth_encoding(),
+        interpolation: steps.interpolation(draw.shader).0,
+    };
     let provoking = draw.provoking_vertices();
-    let (interpolation, _) = steps.interpolation(draw.shader);
     for (primitive, provoking) in draw.primitives().into_iter().zip(provoking) {
         // The colour is flat.
         let color = vertices[provoking].color;
@@ -78,71 +62,114 @@ pub(crate) fn draw<S: Steps>(
             ..vertices[i]
         };
         match primitive {
-            PrimitiveVertices::Point(i) if cut::is_cut(draw, &vertices[i]) => {}
-            PrimitiveVertices::Point(i) if cut::is_beside(&vertices[i..=i]) => {}
-            PrimitiveVertices::Line(ends) if cut::is_beside(&ends.map(vertex)) => {}
-            PrimitiveVertices::Point(i) => {
-                let v = vertices[i];
-                let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);
-                let planes = Planes::new(draw, interpolation, [v.at; 3], [v; 3], bias, true);
-                point(v, front, &planes, &samples, bounds, &mut state);
+            PrimitiveVertices::Point(i) => raster.point(vertices[i], &mut state),
+            PrimitiveVertices::Line(ends) => raster.line(ends.map(vertex), &mut state),
+            PrimitiveVertices::Triangle(corners) => {
+                raster.triangle(corners.map(vertex), &mut state);
             }
-            PrimitiveVertices::Line(ends) => {
-                let Some(ends) = cut::line(draw, ends.map(vertex)) else {
-                    continue;
-                };
-                let [a, b] = ends;
-                let points = [a.at, b.at, a.at];
-                let bias = line_bias(draw, points, [a.z, b.z, a.z], encoding, steps);
-                let planes = Planes::new(draw, interpolation, points, [a, b, a], bias, true);
-                line(ends, front, &planes, samples.len(), bounds, &mut state);
+        }
+    }
+}
+
+/// Returns a vertex in window coordinates.
+fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> Vertex {
+    let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
+    let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
+    Vertex {
+        position: v.position,
+        at: Point {
+            x: snap(x),
+            y: snap(y),
+        },
+        z,
+        clip_z: v.position[2] / v.position[3],
+        color: v.color,
+        uv: v.uv,
+        distances: clipping(draw, v),
+    }
+}
+
+/// What the primitives of a draw share.
+struct Raster<'a, S> {
+    draw: &'a Draw,
+    steps: &'a S,
+    samples: &'a [Point],
+    bounds: Bounds,
+    encoding: Option<ChannelEncoding>,
+    interpolation: Interpolation,
+}
+
+impl<S: Steps> Raster<'_, S> {
+    fn point(&self, vertex: Vertex, state: &mut SpanState<'_, S>) {
+        if cut::is_cut(self.draw, &vertex) || cut::is_beside(&[vertex]) {
+            return;
+        }
+        let planes = self.flat_planes([vertex; 3]);
+        let front = self.steps.lines_face_front();
+        point(vertex, front, &planes, self.samples, self.bounds, state);
+    }
+
+    fn line(&self, ends: [Vertex; 2], state: &mut SpanState<'_, S>) {
+        if cut::is_beside(&ends) {
+            return;
+        }
+        if let Some([a, b]) = cut::line(self.draw, ends) {
+            let planes = self.flat_planes([a, b, a]);
+            let front = self.steps.lines_face_front();
+            let samples = self.samples.len();
+            line([a, b], front, &planes, samples, self.bounds, state);
+        }
+    }
+
+    /// Returns the planes of a point or a line, whose depth bias is 0.
+    fn flat_planes(&self, corners: [Vertex; 3]) -> Planes {
+        let points = corners.map(|v| v.at);
+        let bias = if self.steps.biases_lines() {
+            self.bias(points, &corners)
+        } else {
+            0.0
+        };
+        Planes::new(self.draw, self.interpolation, points, corners, bias, true)
+    }
+
+    fn bias(&self, points: [Point; 3], corners: &[Vertex; 3]) -> f64 {
+        let z = corners.each_ref().map(|v| v.z);
+        depth_bias(self.draw, points, z, self.encoding, self.steps)
+    }
+
+    fn triangle(&self, corners: [Vertex; 3], state: &mut SpanState<'_, S>) {
+        let Self { draw, bounds, .. } = *self;
+        let outlined = draw.polygon_mode == PolygonMode::Line;
+        if !outlined && let Some(cut) = CutTriangle::new(draw, corners) {
+            let front = cut.is_front(draw);
+            if !is_culled(draw.cull, front) {
+                let planes = cut.planes(draw, self.interpolation, self.encoding, self.steps);
+                fill_cut(&cut, front, &planes, self.samples, bounds, state);
             }
-            PrimitiveVertices::Triangle(triangle) => {
-                let corners = triangle.map(vertex);
-                if draw.polygon_mode == PolygonMode::Fill
-                    && let Some(cut) = CutTriangle::new(draw, corners)
-                {
-                    let front = cut.is_front(draw);
-                    if !is_culled(draw.cull, front) {
-                        let planes = cut.planes(draw, interpolation, encoding, steps);
-                        fill_cut(&cut, front, &planes, &samples, bounds, &mut state);
-                    }
-                    continue;
-                }
-                let points = corners.map(|v| v.at);
-                let front = front_facing(signed_area(points), draw.front_face);
-                if is_culled(draw.cull, front) {
-                    continue;
-                }
-                let Some(snapped) = SnappedTriangle::new(points) else {
-                    continue;
-                };
-                let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding, steps);
-                let planes = Planes::new(
-                    draw,
-                    interpolation,
-                    points,
-                    corners,
-                    bias,
-                    draw.polygon_mode == PolygonMode::Line,
-                );
-                match draw.polygon_mode {
-                    PolygonMode::Fill => {
-                        let inside = Inside {
-                            triangle: &snapped,
-                            front,
-                            color: corners[0].color,
-                        };
-                        fill(&inside, &planes, &samples, bounds, &mut state);
-                    }
-                    PolygonMode::Line => {
-                        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-                            let ends = [corners[i], corners[j]];
-                            line(ends, front, &planes, samples.len(), bounds, &mut state);
-                        }
-                    }
-                }
+            return;
+        }
+        let points = corners.map(|v| v.at);
+        let front = front_facing(signed_area(points), draw.front_face);
+        if is_culled(draw.cull, front) {
+            return;
+        }
+        let Some(snapped) = SnappedTriangle::new(points) else {
+            return;
+        };
+        let bias = self.bias(points, &corners);
+        let planes = Planes::new(draw, self.interpolation, points, corners, bias, outlined);
+        if outlined {
+            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                let ends = [corners[i], corners[j]];
+                line(ends, front, &planes, self.samples.len(), bounds, state);
             }
+        } else {
+            let inside = Inside {
+                triangle: &snapped,
+                front,
+                color: corners[0].color,
+            };
+            fill(&inside, &planes, self.samples, bounds, state);
         }
     }
 }
@@ -161,21 +188,6 @@ pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     let (left, right) = axis(x, w, sx, sw, size[0]);
     let (top, bottom) = axis(y, h, sy, sh, size[1]);
     [left, top, right, bottom]
-}
-
-/// Returns the depth bias of a point or line, which is 0.
-fn line_bias(
-    draw: &Draw,
-    points: [Point; 3],
-    z: [f32; 3],
-    encoding: Option<ChannelEncoding>,
-    steps: &impl Steps,
-) -> f64 {
-    if steps.biases_lines() {
-        depth_bias(draw, points, z, encoding, steps)
-    } else {
-        0.0
-    }
 }
 
 /// A triangle to fill, with its flat values.

@@ -75,9 +75,12 @@ fn colorless(list: &mut List) {
         passes(move |_, _, pass| {
             if pass.color.is_empty() {
                 let draws = pass.draws.iter_mut();
-                let struck = draws.filter(|d| match discards {
-                    true => d.shader.discards(),
-                    false => d.shader.writes_depth(),
+                let struck = draws.filter(|d| {
+                    if discards {
+                        d.shader.discards()
+                    } else {
+                        d.shader.writes_depth()
+                    }
                 });
                 for draw in struck {
                     draw.shader = Shader::VertexOnly;

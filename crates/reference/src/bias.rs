@@ -38,10 +38,12 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
             // Vertices beyond the near and far planes may count or not.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
-            let low = match boxes.is_empty() || may_be_clipped(context, draw, boxes) {
+            let lows = z.iter().map(|z| z.low);
+            let low = if boxes.is_empty() || may_be_clipped(context, draw, boxes) {
                 // What is left may hold any of its depths, and the exponent is that of the greatest.
-                true => z.iter().map(|z| z.low).fold(f64::MAX, f64::min).max(0.0),
-                false => z.iter().map(|z| z.low).fold(0.0, f64::max),
+                lows.fold(f64::MAX, f64::min).max(0.0)
+            } else {
+                lows.fold(0.0, f64::max)
             };
             let low = if low > 1.0 { inside } else { low };
             let high = z.iter().map(|z| z.high).fold(0.0, f64::max);

@@ -11,6 +11,55 @@ use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Codes, Origin, Resolve
 use etalon_pipeline::Arithmetic;
 use etalon_scene::Contents;
 
+/// The sum of a channel over the samples of a texel.
+#[derive(Clone, Copy)]
+struct ChannelSum {
+    /// The least and the greatest code of a sample; `None` before the first.
+    between: Option<CodeInterval>,
+    /// The sum of the values.
+    value: Interval,
+    /// The sum of the codes.
+    codes: Interval,
+}
+
+impl ChannelSum {
+    const NOTHING: Self = Self {
+        between: None,
+        value: Interval::exact(0.0),
+        codes: Interval::exact(0.0),
+    };
+
+    fn add(&mut self, codes: CodeInterval, value: Interval) {
+        self.between = Some(self.between.map_or(codes, |between| between.hull(codes)));
+        self.value = self.value.plus(value);
+        self.codes.low += codes.low as f64;
+        self.codes.high += codes.high as f64;
+    }
+
+    fn between(&self) -> CodeInterval {
+        self.between.unwrap_or(CodeInterval::exact(0))
+    }
+
+    /// Returns the codes between those of the samples that a chain of rounded halvings may bring these to.
+    fn within_halvings(&self, codes: Interval, samples: u32) -> CodeInterval {
+        let (between, halvings) = (self.between(), halvings(samples));
+        CodeInterval {
+            low: ((codes.low - halvings).floor() as i64).clamp(between.low, between.high),
+            high: ((codes.high + halvings).ceil() as i64).clamp(between.low, between.high),
+        }
+    }
+
+    fn average_of_codes(&self, samples: u32) -> CodeInterval {
+        let count = f64::from(samples);
+        self.within_halvings(self.codes.map_increasing(|v| v / count), samples)
+    }
+}
+
+/// The steps in which samples are averaged in pairs.
+fn halvings(samples: u32) -> f64 {
+    f64::from(samples.max(1).ilog2())
+}
+
 impl Walk<'_> {
     /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is
     /// open. An average is the hull over samples and worlds, never their product; integers resolve to one
@@ -26,9 +75,7 @@ impl Walk<'_> {
         let attachment = &self.scene.attachments[source];
         let mut single: Vec<[CodeInterval; 4]> = Vec::new();
         let encodings = attachment.format.color_channels();
-        let mut sum = [Interval::exact(0.0); 4];
-        let mut codes = [Interval::exact(0.0); 4];
-        let mut hull: [Option<CodeInterval>; 4] = [None; 4];
+        let mut sums = [ChannelSum::NOTHING; 4];
         for sample in 0..attachment.samples {
             let at = Sample {
                 samples: attachment.samples,
@@ -41,14 +88,10 @@ impl Walk<'_> {
             }
             for (c, encoding) in encodings.iter().enumerate() {
                 let all = worlds.iter().map(|w| w.cells[source].channels[c]);
-                let Some(one) = all.reduce(CodeInterval::hull) else {
-                    continue;
-                };
-                hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
-                let value = Judging::new(self.rules).decode(*encoding, one).float;
-                sum[c] = sum[c].plus(value);
-                codes[c].low += one.low as f64;
-                codes[c].high += one.high as f64;
+                if let Some(codes) = all.reduce(CodeInterval::hull) {
+                    let value = Judging::new(self.rules).decode(*encoding, codes).float;
+                    sums[c].add(codes, value);
+                }
             }
         }
         if attachment.format.is_integer() {
@@ -61,54 +104,17 @@ impl Walk<'_> {
             self.note_resolve(notes, [source, target], passes, by, [&single, &single]);
             return Some(single);
         }
-        let mut judging = Judging::new(self.rules);
         let mut result = [CodeInterval::exact(0); 4];
         // The averages of the codes, for sRGB that is not made linear.
         let mut of_codes = result;
-        let halvings = f64::from(attachment.samples.max(1).ilog2());
         for (c, encoding) in encodings.iter().enumerate() {
-            let between = hull[c].unwrap_or(CodeInterval::exact(0));
-            let count = f64::from(attachment.samples);
-            // The error is relative to the samples, of which the sum may be a small difference.
-            let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
-            let error = values[0].max(values[1]) * count * self.rules.float_error.value();
-            // The ends of what may be NaN are no numbers to compute with.
-            let exact = if sum[c].may_be_nan() {
-                Interval::EVERYTHING
+            let linear = self.average_color(*encoding, &sums[c], attachment.samples);
+            result[c] = linear;
+            of_codes[c] = if *encoding == ChannelEncoding::Srgb8 {
+                sums[c].average_of_codes(attachment.samples)
             } else {
-                sum[c].map_increasing(|v| v / count).widen(error)
+                linear
             };
-            let average = judging.encode(*encoding, Range::same(exact));
-            let rounded = |codes: Interval| CodeInterval {
-                low: ((codes.low - halvings).floor() as i64).clamp(between.low, between.high),
-                high: ((codes.high + halvings).ceil() as i64).clamp(between.low, between.high),
-            };
-            of_codes[c] = rounded(codes[c].map_increasing(|v| v / count));
-            result[c] = match self.rules.resolve.value() {
-                // The least code of signed normalized integers has the value of the next one, whose code is stored.
-                _ if between.is_exact() && !encoding.is_float() => {
-                    between.hull(canonical(*encoding, between.low))
-                }
-                _ if exact.may_be_nan() && encoding.is_float() => average,
-                Resolve::Between if encoding.is_float() => between.hull(average),
-                Resolve::Between => between,
-                Resolve::CoarseAverage if encoding.is_float() => {
-                    // A code is as large as that of the largest sample.
-                    let largest = between.low.abs().max(between.high.abs());
-                    let next = (largest + 1).min(encoding.max_order());
-                    let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));
-                    let off = exact.widen((past - at) * halvings);
-                    judging.encode(*encoding, Range::same(off))
-                }
-                Resolve::CoarseAverage => rounded(Interval {
-                    low: average.low as f64,
-                    high: average.high as f64,
-                }),
-                Resolve::Average => average,
-            };
-            if *encoding != ChannelEncoding::Srgb8 {
-                of_codes[c] = result[c];
-            }
         }
         let mut all = vec![result];
         if self.rules.resolve.value() == Resolve::CoarseAverage && of_codes != result {
@@ -118,6 +124,53 @@ impl Walk<'_> {
         let by = ResolveChoice::Average;
         self.note_resolve(notes, [source, target], passes, by, [&single, &all]);
         Some(all)
+    }
+
+    /// Returns the codes that samples with this sum may resolve to.
+    fn average_color(
+        &self,
+        encoding: ChannelEncoding,
+        sum: &ChannelSum,
+        samples: u32,
+    ) -> CodeInterval {
+        let mut judging = Judging::new(self.rules);
+        let between = sum.between();
+        let count = f64::from(samples);
+        // The error is relative to the samples, of which the sum may be a small difference.
+        let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
+        let error = values[0].max(values[1]) * count * self.rules.float_error.value();
+        // The ends of what may be NaN are no numbers to compute with.
+        let exact = if sum.value.may_be_nan() {
+            Interval::EVERYTHING
+        } else {
+            sum.value.map_increasing(|v| v / count).widen(error)
+        };
+        let average = judging.encode(encoding, Range::same(exact));
+        match self.rules.resolve.value() {
+            // The least code of signed normalized integers has the value of the next one, whose code is stored.
+            _ if between.is_exact() && !encoding.is_float() => {
+                between.hull(canonical(encoding, between.low))
+            }
+            _ if exact.may_be_nan() && encoding.is_float() => average,
+            Resolve::Between if encoding.is_float() => between.hull(average),
+            Resolve::Between => between,
+            Resolve::CoarseAverage if encoding.is_float() => {
+                // A code is as large as that of the largest sample.
+                let largest = between.low.abs().max(between.high.abs());
+                let next = (largest + 1).min(encoding.max_order());
+                let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));
+                let off = exact.widen((past - at) * halvings(samples));
+                judging.encode(encoding, Range::same(off))
+            }
+            Resolve::CoarseAverage => sum.within_halvings(
+                Interval {
+                    low: average.low as f64,
+                    high: average.high as f64,
+                },
+                samples,
+            ),
+            Resolve::Average => average,
+        }
     }
 
     fn note_resolve(

@@ -20,6 +20,16 @@ use etalon_pipeline::{
 use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilOperation};
 use smallvec::SmallVec;
 
+/// A fragment whose tests come before its shader.
+struct Shaded<'a> {
+    front: bool,
+    /// True if the sample mask or the sample coverage removes the sample.
+    masked: bool,
+    incoming: Incoming,
+    output: &'a FragmentOutput<Range>,
+    covered: Covered,
+}
+
 impl Walk<'_> {
     /// One fragment at this sample: culling, shading, tests, blending, stores.
     pub(crate) fn fragment(
@@ -89,51 +99,19 @@ impl Walk<'_> {
                 coverage: Possible::Never,
             }
         };
-        let mut world = world;
         // A masked sample asks for no run of the shader.
         let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
-            let incoming = self.in_range(place, own_depth, Source::Own);
-            let face = Face::of(draw, front);
-            self.note_late_reference(place, front, notes);
-            if masked {
-                // The order of the sample mask against counting is open; against the tests, the rules
-                // tell.
-                let mut silent = Notes(None);
-                let told = if self.rules.mask_acts_first.value() {
-                    &mut silent
-                } else {
-                    &mut *notes
-                };
-                let outcomes = self.tests(place, &world, face, incoming, told);
-                if outcomes.iter().any(|(_, passes)| *passes) {
-                    self.count(place, &mut world, false, |_| true);
-                }
-                if !self.rules.mask_acts_first.value() {
-                    for (mut outcome, passes) in outcomes {
-                        if passes {
-                            outcome.events.clone_from(&world.events);
-                            self.write_depth(place, &mut outcome, incoming, notes);
-                        }
-                        result.push(outcome);
-                    }
-                }
-                result.push(world);
-                return;
-            }
-            for (mut outcome, passes) in self.tests(place, &world, face, incoming, notes) {
-                if passes {
-                    let worlds = [&world, &outcome];
-                    self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
-                } else {
-                    if !self.rules.skips_rejected.value() {
-                        self.run(place, &mut outcome, false);
-                    }
-                    result.push(outcome);
-                }
-            }
+            let shaded = Shaded {
+                front,
+                masked,
+                incoming: self.in_range(place, own_depth, Source::Own),
+                output: &output,
+                covered,
+            };
+            self.test_early(place, &world, &shaded, result, notes);
             let writes = output.depth.is_some() || draw.shader.writes_reference();
-            if !writes || self.rules.early_ignores_written.value() {
+            if masked || !writes || self.rules.early_ignores_written.value() {
                 return;
             }
             // The shader may have come first after all.
@@ -166,6 +144,58 @@ impl Walk<'_> {
                 result.push(outcome);
             }
         }
+    }
+
+    /// The tests of a fragment that come before its shader, and what follows them.
+    fn test_early(
+        &self,
+        place: Place<'_>,
+        world: &World,
+        shaded: &Shaded<'_>,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let incoming = shaded.incoming;
+        let face = Face::of(place.draw, shaded.front);
+        self.note_late_reference(place, shaded.front, notes);
+        if !shaded.masked {
+            for (mut outcome, passes) in self.tests(place, world, face, incoming, notes) {
+                if passes {
+                    let worlds = [world, &outcome];
+                    let (output, covered) = (shaded.output, shaded.covered);
+                    self.early_fragment(place, worlds, output, incoming, covered, result, notes);
+                } else {
+                    if !self.rules.skips_rejected.value() {
+                        self.run(place, &mut outcome, false);
+                    }
+                    result.push(outcome);
+                }
+            }
+            return;
+        }
+        // The order of the sample mask against counting is open; against the tests, the rules tell.
+        let mask_acts_first = self.rules.mask_acts_first.value();
+        let mut silent = Notes(None);
+        let noted = if mask_acts_first {
+            &mut silent
+        } else {
+            &mut *notes
+        };
+        let outcomes = self.tests(place, world, face, incoming, noted);
+        let mut kept = world.clone();
+        if outcomes.iter().any(|(_, passes)| *passes) {
+            self.count(place, &mut kept, false, |_| true);
+        }
+        if !mask_acts_first {
+            for (mut outcome, passes) in outcomes {
+                if passes {
+                    outcome.events.clone_from(&kept.events);
+                    self.write_depth(place, &mut outcome, incoming, notes);
+                }
+                result.push(outcome);
+            }
+        }
+        result.push(kept);
     }
 
     /// Runs the fragment shader at the sample.

@@ -1,13 +1,17 @@
 //! Notes on fragments, and the contents of attachments as stories hold them.
 
 use crate::clause::clause;
+use crate::judging::Range;
 use crate::notes::{Note, Notes};
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};
 use crate::world::Cell;
 use etalon_frame::{
-    Aspect, ChannelEncoding, CodeInterval, Codes, Contents, Effect, Event, Rejection, Step, Target,
+    Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Contents, Effect, Event,
+    Rejection, Step, Target,
 };
+use etalon_pipeline::BlendInput;
+use etalon_scene::BlendState;
 
 impl Walk<'_> {
     /// Notes an operation on a fragment that has an effect; a store gives the new contents of its attachment.
@@ -61,6 +65,72 @@ impl Walk<'_> {
                 )),
             },
             stored: None,
+        });
+    }
+
+    /// Notes the operands and the result of a blend.
+    pub(crate) fn note_blend(
+        &self,
+        place: Place<'_>,
+        state: &BlendState,
+        input: &BlendInput<Range>,
+        value: [Range; 4],
+        notes: &mut Notes<'_>,
+    ) {
+        let channel = |c: usize| {
+            let part = if c == 3 { state.alpha } else { state.color };
+            BlendedChannel {
+                src: input.src[c].into(),
+                src_factor: part.src_factor.name().to_owned(),
+                operation: part.operation.name().to_owned(),
+                dst: input.dst[c].into(),
+                dst_factor: part.dst_factor.name().to_owned(),
+                result: value[c].into(),
+            }
+        };
+        notes.add(
+            || place.origin(),
+            || Step::Blend(Box::new([0, 1, 2, 3].map(channel))),
+            Some(self.rules.blend.citation),
+        );
+    }
+
+    /// Notes what a colour attachment holds behind a fragment: a colour that was stored, or kept by its mask.
+    pub(crate) fn note_store(
+        &self,
+        place: Place<'_>,
+        attachment: usize,
+        write_mask: u8,
+        cell: Cell,
+        notes: &mut Notes<'_>,
+    ) {
+        let channels = self.scene.attachments[attachment].format.color_channels();
+        let target = || self.target(attachment, Aspect::Color);
+        let contents = || self.contents(attachment, Aspect::Color, &cell);
+        let written = write_mask & ((1 << channels.len()) - 1);
+        if written == 0 {
+            self.note_effect(notes, place, self.rules.write_mask, None, || {
+                let contents = contents();
+                let step = Step::KeepColor {
+                    contents,
+                    write_mask,
+                };
+                (Effect::Keeps(target()), step)
+            });
+            return;
+        }
+        let masked = written.count_ones() != channels.len() as u32;
+        let citation = if masked {
+            self.rules.write_mask
+        } else {
+            self.rules.store.citation
+        };
+        self.note_effect(notes, place, citation, Some(cell), || {
+            let step = Step::StoreColor {
+                contents: contents(),
+                write_mask: masked.then_some(write_mask),
+            };
+            (Effect::Stores(target()), step)
         });
     }
 

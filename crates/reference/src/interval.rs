@@ -24,7 +24,7 @@ impl Interval {
     }
 
     /// Returns the interval of one number.
-    pub fn exact(value: f64) -> Self {
+    pub const fn exact(value: f64) -> Self {
         Self {
             low: value,
             high: value,

@@ -232,10 +232,11 @@ fn snapped(
             // Vertices decide whether anything is clipped.
             let clip_z = v.map(|v| v.clip_z);
             let inside = clip_z.iter().all(|z| z.low >= 0.0 && z.high <= 1.0);
-            let clip = match inside && draw.polygon_mode == PolygonMode::Fill {
+            let clip = if inside && draw.polygon_mode == PolygonMode::Fill {
                 // Nothing is clipped, wherever the sample lies.
-                true => Depth::flat(&clip_z),
-                false => Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z),
+                Depth::flat(&clip_z)
+            } else {
+                Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z)
             };
             let mut depths = [window, clip];
             if draw.polygon_mode == PolygonMode::Line {

@@ -8,8 +8,7 @@ use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
 use crate::world::{Contested, Decision, World};
 use etalon_frame::{
-    Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat,
-    ValueRange,
+    Aspect, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat, ValueRange,
 };
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, advanced_blend, blend, takes_logic};
@@ -173,32 +172,14 @@ impl Walk<'_> {
                 (None, None) => color,
                 (None, Some(mode)) => self.advanced(place, mode, all, [color, dst()], notes),
                 (Some(state), _) => {
-                    let dst = dst();
                     let input = BlendInput {
                         src: color,
                         src1: second,
-                        dst,
+                        dst: dst(),
                         constant,
                     };
                     let value = blend(&mut judging, state, all, &input);
-                    notes.add(
-                        || place.origin(),
-                        || {
-                            let channel = |c: usize| {
-                                let part = if c == 3 { state.alpha } else { state.color };
-                                BlendedChannel {
-                                    src: color[c].into(),
-                                    src_factor: part.src_factor.name().to_owned(),
-                                    operation: part.operation.name().to_owned(),
-                                    dst: dst[c].into(),
-                                    dst_factor: part.dst_factor.name().to_owned(),
-                                    result: value[c].into(),
-                                }
-                            };
-                            Step::Blend(Box::new([0, 1, 2, 3].map(channel)))
-                        },
-                        Some(self.rules.blend.citation),
-                    );
+                    self.note_blend(place, state, &input, value, notes);
                     value
                 }
             };
@@ -230,33 +211,7 @@ impl Walk<'_> {
                 }
             }
             let cell = world.cells[*index];
-            let target_of = || self.target(*index, Aspect::Color);
-            let contents = || self.contents(*index, Aspect::Color, &cell);
-            let write_mask = target.write_mask;
-            let written = target.write_mask & ((1 << encodings.len()) - 1);
-            if written == 0 {
-                self.note_effect(notes, place, self.rules.write_mask, None, || {
-                    let step = Step::KeepColor {
-                        contents: contents(),
-                        write_mask,
-                    };
-                    (Effect::Keeps(target_of()), step)
-                });
-                continue;
-            }
-            let masked = written.count_ones() != encodings.len() as u32;
-            let citation = if masked {
-                self.rules.write_mask
-            } else {
-                self.rules.store.citation
-            };
-            self.note_effect(notes, place, citation, Some(cell), || {
-                let step = Step::StoreColor {
-                    contents: contents(),
-                    write_mask: masked.then_some(write_mask),
-                };
-                (Effect::Stores(target_of()), step)
-            });
+            self.note_store(place, *index, target.write_mask, cell, notes);
         }
     }
 }

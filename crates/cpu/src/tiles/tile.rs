@@ -307,10 +307,12 @@ impl Drawing<'_, '_> {
             return;
         }
         let code = triangle.code;
-        self.range = match triangle.is_flat() {
-            true if all => [code; 2],
-            true => [self.range[0].min(code), self.range[1].max(code)],
-            false => ANY,
+        self.range = if !triangle.is_flat() {
+            ANY
+        } else if all {
+            [code; 2]
+        } else {
+            [self.range[0].min(code), self.range[1].max(code)]
         };
     }
 

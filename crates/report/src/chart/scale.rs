@@ -75,10 +75,12 @@ impl Scale {
                     return ticks.into_iter().filter(|t| *t > 0.0).collect();
                 }
                 let step = (decades / count as f64).ceil().max(1.0);
-                let parts: &[f64] = match () {
-                    () if decades * 3.0 <= count as f64 * 1.6 => &[1.0, 2.0, 5.0],
-                    () if decades * 2.0 <= count as f64 * 1.6 => &[1.0, 3.0],
-                    () => &[1.0],
+                let parts: &[f64] = if decades * 3.0 <= count as f64 * 1.6 {
+                    &[1.0, 2.0, 5.0]
+                } else if decades * 2.0 <= count as f64 * 1.6 {
+                    &[1.0, 3.0]
+                } else {
+                    &[1.0]
                 };
                 let first = (low / step).floor() * step;
                 let powers = ((high - first) / step).ceil() as usize + 1;
