@@ -18,7 +18,6 @@ pub mod codes;
 mod fault;
 mod halves;
 mod recording;
-mod tree;
 
 pub use blits::{Blit, Blits, Piece, doubled};
 pub use fault::{
@@ -29,7 +28,6 @@ pub use recording::{
     Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
     RecordedCounter, RecordedImage, Recording, VulkanNeeds,
 };
-pub use tree::Tree;
 
 use etalon_frame::{ErrorKind, Frame, Limits, Requirement};
 use etalon_scene::Scene;

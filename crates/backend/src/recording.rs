@@ -1,6 +1,5 @@
 //! The calls that a backend made to draw and read one scene, as data.
 
-use crate::tree::Tree;
 use etalon_frame::{Aspect, ChannelEncoding};
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +45,10 @@ pub enum RecordedContext {
         api: String,
         /// The adapter's name.
         device: String,
+        /// The features that the device has, by wgpu's names.
+        features: Vec<String>,
+        /// The list of calls, as JSON of `etalon-webgpu`.
+        list: String,
     },
 }
 
@@ -121,8 +124,6 @@ pub enum Argument {
     Offset(u64),
     /// No address.
     Null,
-    /// A descriptor.
-    Tree(Tree),
     /// Memory of the program that the driver writes to, by its number in [`Recording`], and its size in bytes.
     Output(u32, u64),
     /// Values in place, all of one kind.

@@ -56,8 +56,13 @@ pub fn program(
             };
             vulkan::program(head, &context, recording, due)
         }
-        RecordedContext::Wgpu { api, device } => {
-            let files = wgpu::program(head, [api, device], recording, due)?;
+        RecordedContext::Wgpu {
+            api,
+            device,
+            features,
+            list,
+        } => {
+            let files = wgpu::program(head, [api, device], features, list, recording, due)?;
             return Ok(Program {
                 language: Language::Rust,
                 files,

@@ -1,13 +1,13 @@
 //! Enumeration of adapters and the open adapter.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, limits, used_features};
+use crate::limits::{abilities, limits, used_features};
 use crate::messages;
 use crate::prepared::PreparedScene;
-use crate::recording::Recorder;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Fault, Prepared, Recording, Unavailable};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use wgpu::{Backends, InstanceFlags};
 
@@ -100,7 +100,7 @@ impl Backend for WgpuBackend {
     }
 
     fn limits(&self) -> &Limits {
-        &self.gpu.limits
+        &self.gpu.facts.limits
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
@@ -112,11 +112,13 @@ impl Backend for WgpuBackend {
             Via::Vulkan => "vulkan",
             Via::Gl => "gl",
         };
-        let recorder = self.gpu.recorder.as_ref()?;
-        match recorder.recording(api, &self.info.device) {
+        let list = self.gpu.recorded.as_ref()?.borrow();
+        let features = self.gpu.device.features();
+        let features = features.iter_names().map(|(name, _)| name.to_owned());
+        match etalon_webgpu::recording(&list, api, &self.info.device, features.collect()) {
             Ok(recording) => Some(recording),
             Err(error) => {
-                log::error!("the trace of wgpu cannot be read: {error}");
+                log::error!("the calls cannot be recorded: {error}");
                 None
             }
         }
@@ -160,8 +162,6 @@ fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavai
 }
 
 fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
-    let recorder = options.record.then(Recorder::new).transpose();
-    let recorder = recorder.map_err(|error| format!("its calls cannot be recorded: {error}"))?;
     let mut features = adapter.features() & used_features();
     let mut required_limits = adapter.limits();
     if options.record {
@@ -180,17 +180,26 @@ fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
         experimental_features: wgpu::ExperimentalFeatures::disabled(),
         // Scenes are small, and many processes run at once.
         memory_hints: wgpu::MemoryHints::MemoryUsage,
-        trace: recorder.as_ref().map_or(wgpu::Trace::Off, Recorder::trace),
+        trace: wgpu::Trace::Off,
     };
     let request = || pollster::block_on(adapter.request_device(&descriptor));
     let (device, queue) = catch_unwind(AssertUnwindSafe(request))
         .map_err(|_| "wgpu panicked".to_owned())?
         .map_err(|error| error.to_string())?;
-    let abilities = Abilities::of(adapter);
-    let limits = limits(adapter, features, abilities);
-    let opened = Gpu::new(device, queue, limits, abilities, options.fault);
+    let abilities = abilities(adapter);
+    let sides = device.limits();
+    let facts = etalon_webgpu::Device {
+        limits: limits(adapter, features, abilities),
+        abilities,
+        max_texture_2d: sides.max_texture_dimension_2d,
+        max_texture_3d: sides.max_texture_dimension_3d,
+        uniform_alignment: sides.min_uniform_buffer_offset_alignment,
+        storage_alignment: sides.min_storage_buffer_offset_alignment,
+        indirect_first_instance: features.contains(wgpu::Features::INDIRECT_FIRST_INSTANCE),
+    };
+    let opened = Gpu::new(device, queue, facts, options.fault);
     let mut gpu = opened.map_err(|error| error.to_string())?;
-    gpu.recorder = recorder;
+    gpu.recorded = options.record.then(RefCell::default);
     Ok(gpu)
 }
 

@@ -2,6 +2,7 @@
 
 use etalon_backend::BackendError;
 use etalon_frame::{Requirement, TextureFormat};
+use etalon_webgpu::Format;
 
 /// Returns WebGPU's format, if it has one.
 pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
@@ -29,7 +30,13 @@ pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
     })
 }
 
-/// Returns WebGPU's format of an attachment that the limits allow.
-pub(crate) fn known(format: TextureFormat) -> Result<wgpu::TextureFormat, BackendError> {
-    texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
+/// Returns the format of a texture.
+pub(crate) fn known(format: Format) -> Result<wgpu::TextureFormat, BackendError> {
+    match format {
+        Format::R32Uint => Ok(wgpu::TextureFormat::R32Uint),
+        Format::Rgba32Uint => Ok(wgpu::TextureFormat::Rgba32Uint),
+        Format::Attachment(format) => {
+            texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
+        }
+    }
 }

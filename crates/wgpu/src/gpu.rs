@@ -3,15 +3,12 @@
 use crate::clock::Clock;
 use crate::error::Errors;
 use crate::format;
-use crate::layout::Layout;
-use crate::limits::{Abilities, fetched};
-use crate::path::Shape;
-use crate::pipeline::Pipelines;
+use crate::pipelines::Pipelines;
 use crate::pool::{Lease, Pool};
-use crate::recording::Recorder;
-use crate::target::Target;
+use crate::state;
 use etalon_backend::{BackendError, Fault};
-use etalon_frame::{Limits, PathTarget, PathValue, Requirement, TextureFormat};
+use etalon_webgpu::{CallList, Device, Texture, TextureDimension, TextureView};
+use std::cell::RefCell;
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
@@ -25,23 +22,22 @@ pub(crate) struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) errors: Errors,
-    pub(crate) limits: Limits,
-    pub(crate) abilities: Abilities,
+    /// What scenes are lowered by.
+    pub(crate) facts: Device,
     pub(crate) clock: Option<Clock>,
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
     pub(crate) pipelines: Pipelines,
-    /// Keeps the calls, if they are recorded.
-    pub(crate) recorder: Option<Recorder>,
-    textures: Pool<TextureKey, Rc<Target>>,
+    /// The calls of the scene that was last read, if they are recorded.
+    pub(crate) recorded: Option<RefCell<CallList>>,
+    textures: Pool<Texture, Rc<Viewed>>,
     buffers: Pool<BufferKey, wgpu::Buffer>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct TextureKey {
-    format: wgpu::TextureFormat,
-    shape: Shape,
-    samples: u32,
+/// A texture and the views of it that were used.
+pub(crate) struct Viewed {
+    pub(crate) texture: wgpu::Texture,
+    views: RefCell<Vec<(TextureView, wgpu::TextureView)>>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -50,33 +46,30 @@ pub(crate) struct BufferKey {
     size: u64,
 }
 
-pub(crate) type TextureLease<'a> = Lease<'a, TextureKey, Rc<Target>>;
+pub(crate) type TextureLease<'a> = Lease<'a, Texture, Rc<Viewed>>;
 pub(crate) type BufferLease<'a> = Lease<'a, BufferKey, wgpu::Buffer>;
 
 impl Gpu {
     pub(crate) fn new(
         device: wgpu::Device,
         queue: wgpu::Queue,
-        limits: Limits,
-        abilities: Abilities,
+        facts: Device,
         fault: Option<Fault>,
     ) -> Result<Self, BackendError> {
         let errors = Errors::of(&device);
-        let (clock, pipelines) = errors.guard("opening the device", || {
+        let clock = errors.guard("opening the device", || {
             let timed = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-            let clock = timed.then(|| Clock::new(&device, &queue));
-            Ok((clock, Pipelines::new(&device)))
+            Ok(timed.then(|| Clock::new(&device, &queue)))
         })?;
         Ok(Self {
             device,
             queue,
             errors,
-            limits,
-            abilities,
+            facts,
             clock,
             fault,
-            pipelines,
-            recorder: None,
+            pipelines: Pipelines::default(),
+            recorded: None,
             textures: Pool::new(IDLE_BYTES),
             buffers: Pool::new(IDLE_BYTES),
         })
@@ -107,115 +100,38 @@ impl Gpu {
         self.pipelines.clear();
     }
 
-    /// Returns a texture for an attachment, with undefined contents.
-    pub(crate) fn attachment(
-        &self,
-        format: TextureFormat,
-        size: [u32; 2],
-        samples: u32,
-        target: PathTarget,
-    ) -> Result<TextureLease<'_>, BackendError> {
-        let shape = Shape::of(target, size);
-        self.check_target(target, shape)?;
-        let known = format::known(format)?;
-        let drawable = self.draws(format);
-        let usage = match (samples, drawable) {
-            (1, false) => fetched(format),
-            (1, true) => fetched(format) | TextureUsages::RENDER_ATTACHMENT,
-            _ => TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT,
-        };
-        // Copies of depth end in another texture of its format.
-        let copied = if samples == 1 && self.abilities.copies {
-            TextureUsages::COPY_DST
-        } else {
-            TextureUsages::empty()
-        };
-        Ok(self.texture(known, shape, samples, usage | copied))
-    }
-
-    /// Checks that the device has textures as large as an attachment's target needs.
-    fn check_target(&self, target: PathTarget, shape: Shape) -> Result<(), BackendError> {
-        let limits = self.device.limits();
-        let most = match shape.dimension {
-            wgpu::TextureDimension::D3 => limits.max_texture_dimension_3d,
-            _ => limits.max_texture_dimension_2d,
-        };
-        let fits = shape.size.width.max(shape.size.height) <= most;
-        let value = Requirement::Path(PathValue::Target(target));
-        (fits || target == PathTarget::Plain)
-            .then_some(())
-            .ok_or(BackendError::NotSupported(value))
-    }
-
-    /// Returns true if attachments of the format can be drawn to.
-    pub(crate) fn draws(&self, format: TextureFormat) -> bool {
-        let support = self.limits.formats.get(&format);
-        support.is_some_and(|support| !support.samples.is_empty())
-    }
-
-    /// Returns a texture that a fetch renders to, with undefined contents.
-    pub(crate) fn scratch(&self, format: wgpu::TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
-        let usage = fetched(TextureFormat::Rgba8Unorm) | TextureUsages::RENDER_ATTACHMENT;
-        let shape = Shape::of(PathTarget::Plain, size);
-        self.texture(format, shape, 1, usage)
-    }
-
-    /// The usages follow from format and sample count, so they are not part of the key.
-    fn texture(
-        &self,
-        format: wgpu::TextureFormat,
-        shape: Shape,
-        samples: u32,
-        usage: TextureUsages,
-    ) -> TextureLease<'_> {
-        let wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: layers,
-        } = shape.size;
-        let sides = [width, height, layers, samples];
-        let texels: u64 = sides.into_iter().map(u64::from).product();
+    /// Returns a texture with undefined contents.
+    pub(crate) fn texture(&self, texture: &Texture) -> Result<TextureLease<'_>, BackendError> {
+        let format = format::known(texture.format)?;
+        let view_format = texture.view_format.map(format::known).transpose()?;
+        let [width, height, layers] = texture.size;
+        let texels = [width, height, layers, texture.samples].map(u64::from);
         // An estimate, without the device's padding.
-        let bytes = texels * u64::from(format.block_copy_size(None).unwrap_or(8));
-        let key = TextureKey {
-            format,
-            shape,
-            samples,
-        };
-        let casts = [format.remove_srgb_suffix()];
-        self.textures.take(key, bytes, || {
+        let bytes =
+            texels.iter().product::<u64>() * u64::from(format.block_copy_size(None).unwrap_or(8));
+        Ok(self.textures.take(*texture, bytes, || {
             let texture = self.device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
-                size: shape.size,
-                mip_level_count: shape.levels,
-                sample_count: samples,
-                dimension: shape.dimension,
-                format,
-                usage,
-                view_formats: if samples > 1 && format.is_srgb() {
-                    &casts
-                } else {
-                    &[]
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: layers,
                 },
+                mip_level_count: texture.levels,
+                sample_count: texture.samples,
+                dimension: match texture.dimension {
+                    TextureDimension::D2 => wgpu::TextureDimension::D2,
+                    TextureDimension::D3 => wgpu::TextureDimension::D3,
+                },
+                format,
+                usage: TextureUsages::from_bits_truncate(texture.usage),
+                view_formats: view_format.as_slice(),
             });
-            Rc::new(Target::new(texture, shape))
-        })
-    }
-
-    /// Returns a bind group of texture views, the first at binding 1.
-    pub(crate) fn bound(&self, layout: &Layout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
-        let entries: Vec<_> = (1..)
-            .zip(views)
-            .map(|(binding, view)| wgpu::BindGroupEntry {
-                binding,
-                resource: wgpu::BindingResource::TextureView(view),
+            Rc::new(Viewed {
+                texture,
+                views: RefCell::default(),
             })
-            .collect();
-        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &layout.bindings,
-            entries: &entries,
-        })
+        }))
     }
 
     /// Returns a buffer of at least this size, with undefined contents.
@@ -235,13 +151,6 @@ impl Gpu {
         })
     }
 
-    /// Returns a buffer with these contents, whose length is a multiple of four.
-    pub(crate) fn filled(&self, usage: BufferUsages, data: &[u8]) -> BufferLease<'_> {
-        let buffer = self.buffer(usage | BufferUsages::COPY_DST, data.len() as u64);
-        self.queue.write_buffer(&buffer, 0, data);
-        buffer
-    }
-
     /// Waits until the device has finished a submission.
     pub(crate) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), BackendError> {
         let poll = wgpu::PollType::Wait {
@@ -255,10 +164,40 @@ impl Gpu {
     }
 }
 
-pub(crate) fn extent(size: [u32; 2]) -> wgpu::Extent3d {
+impl Viewed {
+    /// Returns a view of the texture.
+    pub(crate) fn view(&self, view: TextureView) -> Result<wgpu::TextureView, BackendError> {
+        // The number of the texture is that of one list of calls.
+        let key = TextureView { texture: 0, ..view };
+        let mut views = self.views.borrow_mut();
+        if let Some((_, known)) = views.iter().find(|(known, _)| *known == key) {
+            return Ok(known.clone());
+        }
+        let part = match view.part {
+            Some([level, layer]) => wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..wgpu::TextureViewDescriptor::default()
+            },
+            None => wgpu::TextureViewDescriptor::default(),
+        };
+        let made = self.texture.create_view(&wgpu::TextureViewDescriptor {
+            aspect: state::aspect(view.aspect),
+            format: view.format.map(format::known).transpose()?,
+            ..part
+        });
+        views.push((key, made.clone()));
+        Ok(made)
+    }
+}
+
+pub(crate) fn extent([width, height]: [u32; 2]) -> wgpu::Extent3d {
     wgpu::Extent3d {
-        width: size[0],
-        height: size[1],
+        width,
+        height,
         depth_or_array_layers: 1,
     }
 }

@@ -1,7 +1,6 @@
 //! The WebGPU backend, through wgpu.
 //!
-//! The suite's conventions are WebGPU's, so scenes go to wgpu as they are, and wgpu translates the
-//! shaders' WGSL. What WebGPU lacks (logic operations, fans, depth bounds, culling of both faces,
+//! [`etalon_webgpu`] lowers scenes to calls, this crate executes them, and wgpu translates the shaders' WGSL. What WebGPU lacks (logic operations, fans, depth bounds, culling of both faces,
 //! masks per face, `constant-alpha` for colour, factors of `min` and `max`, mirrored viewports,
 //! counts of samples) is missing from [`etalon_frame::Limits::features`].
 //!
@@ -11,27 +10,19 @@
 //! wgpu reports errors to a handler, or panics; both become [`etalon_backend::BackendError`]s, so
 //! that a driver's failure costs one case.
 
-mod attachment;
 mod backend;
-mod binding;
 mod cache;
 mod clock;
-mod counting;
+mod encode;
 mod error;
-mod fetch;
 mod format;
 mod gpu;
-mod layout;
 mod limits;
 mod messages;
-mod path;
-mod pipeline;
+mod objects;
+mod pipelines;
 mod pool;
 mod prepared;
-mod read;
-mod recording;
 mod state;
-mod target;
-mod texel;
 
 pub use backend::{Options, Via, WgpuBackend, enumerate, open};

@@ -1,17 +1,16 @@
 //! The limits and features of an adapter.
 
-use crate::{format, path};
+use crate::format;
 use etalon_frame::{
-    Api, ApiVersion, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, Requirement,
-    TextureFormat, standard_sample_positions,
+    Api, ApiVersion, Feature, FormatSupport, Limits, Requirement, TextureFormat,
+    standard_sample_positions,
 };
+use etalon_webgpu::{Abilities, SAMPLES, paths, read_path, samples_are_exact, texture_usages};
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
 
 /// WebGPU does not report it; 4 is the least that any API under it allows.
 const SUB_PIXEL_BITS: u8 = 4;
-/// WebGPU's only sample count above 1 (GPUTextureDescriptor, sampleCount).
-pub(crate) const SAMPLES: u32 = 4;
 /// The largest size of a texel in the sum over a pass's colour attachments
 /// (maxColorAttachmentBytesPerSample).
 const MOST_TEXEL_BYTES: u32 = 16;
@@ -33,67 +32,13 @@ pub(crate) fn used_features() -> Features {
         | Features::CLIP_DISTANCES
 }
 
-/// Abilities of an adapter that [`Limits`] do not contain.
-#[derive(Clone, Copy)]
-pub(crate) struct Abilities {
-    /// Depth and stencil can be copied to buffers.
-    pub(crate) copies: bool,
-    /// Textures can have views of other formats, such as sRGB without conversion.
-    pub(crate) casts: bool,
-}
-
-impl Abilities {
-    pub(crate) fn of(adapter: &wgpu::Adapter) -> Self {
-        let flags = adapter.get_downlevel_capabilities().flags;
-        Self {
-            copies: flags.contains(DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES),
-            casts: flags.contains(DownlevelFlags::VIEW_FORMATS),
-        }
+/// Returns the abilities of an adapter that [`Limits`] do not tell.
+pub(crate) fn abilities(adapter: &wgpu::Adapter) -> Abilities {
+    let flags = adapter.get_downlevel_capabilities().flags;
+    Abilities {
+        copies: flags.contains(DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES),
+        casts: flags.contains(DownlevelFlags::VIEW_FORMATS),
     }
-}
-
-/// Returns the usages that a single-sample texture of this format needs besides rendering.
-pub(crate) fn fetched(format: TextureFormat) -> TextureUsages {
-    let fetched = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-    if format.is_color() {
-        fetched | TextureUsages::COPY_DST
-    } else {
-        fetched
-    }
-}
-
-/// Returns the read path of a format's depth, or colour. WebGPU never copies the depth of
-/// `depth24plus` (26.1.2).
-pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
-    match format {
-        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => ReadPath::Shader,
-        TextureFormat::Depth16Unorm
-        | TextureFormat::Depth32Float
-        | TextureFormat::Depth32FloatStencil8
-            if !abilities.copies =>
-        {
-            ReadPath::Shader
-        }
-        _ => ReadPath::Copy,
-    }
-}
-
-/// Returns true if the codes of multisampled attachments, which only a shader can read, are as
-/// exact as [`read_path`] promises.
-///
-/// Floats are exact. For normalized integers the API allows an error of one part in 10^5 (Vulkan,
-/// Fundamentals; OpenGL 4.6, 2.3.5): that determines the code up to 10 bits, but not at 16. Two
-/// codes of a signed integer mean -1. An sRGB code is exact only in a view without conversion.
-fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
-    let exact = |encoding: &ChannelEncoding| match encoding {
-        ChannelEncoding::Snorm(_) => false,
-        ChannelEncoding::Srgb8 => abilities.casts,
-        ChannelEncoding::Unorm(bits) => *bits <= 10,
-        _ => true,
-    };
-    read_path(format, abilities) == ReadPath::Shader
-        || format.color_channels().iter().all(exact)
-            && (!format.has_depth() || format.depth_encodings() == [ChannelEncoding::Float32])
 }
 
 /// Returns the uses of a format that wgpu allows a device with these features: the adapter's own if
@@ -130,7 +75,7 @@ fn support(
         && (format != TextureFormat::Rg11b10Ufloat
             || features.contains(Features::RG11B10UFLOAT_RENDERABLE)
             || features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES));
-    let needed = fetched(format);
+    let needed = TextureUsages::from_bits_truncate(texture_usages(format));
     if !found.allowed_usages.contains(needed) || !format.is_color() && !drawable {
         return None;
     }
@@ -284,7 +229,7 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .max_color_attachments
             .min(limits.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
-        paths: path::offered(flags, &offered),
+        paths: paths(flags.contains(DownlevelFlags::INDIRECT_EXECUTION), &offered),
         features: offered,
         // WebGPU requires the standard ones of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),

@@ -2,44 +2,29 @@
 
 use crate::format;
 use etalon_backend::BackendError;
-use etalon_frame::TextureFormat;
 use etalon_scene::{
     AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
-    CullMode, DepthBias, DepthState, FilterMode, FrontFace, IndexFormat, PolygonMode,
-    PrimitiveTopology, Sampler, StencilFace, StencilOperation, StencilState,
+    CullMode, FilterMode, FrontFace, IndexFormat, PrimitiveTopology, Sampler, StencilFace,
+    StencilOperation, StencilState,
+};
+use etalon_webgpu::{
+    DepthStencil, LayoutEntry, LayoutResource, PipelineTarget, Primitive, SampleType,
+    TextureAspect, VertexAttribute,
 };
 
-/// Returns a pipeline's depth and stencil state. A disabled test always passes and writes nothing.
-pub(crate) fn depth_stencil(
-    format: TextureFormat,
-    depth: Option<DepthState>,
-    stencil: Option<StencilState>,
-    bias: wgpu::DepthBiasState,
-) -> Result<wgpu::DepthStencilState, BackendError> {
-    let has_depth = format.has_depth();
+/// Returns a pipeline's depth and stencil state.
+pub(crate) fn depth_stencil(state: &DepthStencil) -> Result<wgpu::DepthStencilState, BackendError> {
     Ok(wgpu::DepthStencilState {
-        format: format::known(format)?,
-        depth_write_enabled: has_depth.then(|| depth.is_some_and(|d| d.write)),
-        depth_compare: Some(depth.map_or(wgpu::CompareFunction::Always, |d| compare(d.compare))),
-        stencil: stencil.map(self::stencil).unwrap_or_default(),
-        bias,
-    })
-}
-
-/// Only polygons have a bias, and WebGPU refuses it for other topologies (GPUDepthStencilState).
-pub(crate) fn bias(bias: DepthBias, topology: PrimitiveTopology) -> wgpu::DepthBiasState {
-    match topology {
-        PrimitiveTopology::PointList
-        | PrimitiveTopology::LineList
-        | PrimitiveTopology::LineStrip => wgpu::DepthBiasState::default(),
-        PrimitiveTopology::TriangleList
-        | PrimitiveTopology::TriangleStrip
-        | PrimitiveTopology::TriangleFan => wgpu::DepthBiasState {
-            constant: bias.constant,
-            slope_scale: bias.slope,
-            clamp: bias.clamp,
+        format: format::known(state.format)?,
+        depth_write_enabled: state.depth_write,
+        depth_compare: Some(compare(state.depth_compare)),
+        stencil: state.stencil.map(stencil).unwrap_or_default(),
+        bias: wgpu::DepthBiasState {
+            constant: state.bias.constant,
+            slope_scale: state.bias.slope(),
+            clamp: state.bias.clamp(),
         },
-    }
+    })
 }
 
 /// WebGPU has one pair of masks for both faces; `SeparateStencilMasks` is denied, so they are
@@ -88,7 +73,7 @@ fn stencil_operation(operation: StencilOperation) -> wgpu::StencilOperation {
     }
 }
 
-pub(crate) fn blend(state: BlendState) -> wgpu::BlendState {
+fn blend(state: BlendState) -> wgpu::BlendState {
     wgpu::BlendState {
         color: blend_component(state.color),
         alpha: blend_component(state.alpha),
@@ -135,18 +120,6 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     }
 }
 
-/// The primitive state of a draw.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Shape {
-    pub(crate) topology: PrimitiveTopology,
-    /// The size of the indices of an indexed strip.
-    pub(crate) strip_indices: Option<IndexFormat>,
-    pub(crate) front_face: FrontFace,
-    pub(crate) cull: CullMode,
-    pub(crate) polygon_mode: PolygonMode,
-    pub(crate) depth_clamp: bool,
-}
-
 /// Returns the size of an index.
 pub(crate) fn index_format(index: IndexFormat) -> wgpu::IndexFormat {
     match index {
@@ -155,17 +128,9 @@ pub(crate) fn index_format(index: IndexFormat) -> wgpu::IndexFormat {
     }
 }
 
-/// Returns true for a strip.
-pub(crate) fn is_strip(topology: PrimitiveTopology) -> bool {
-    matches!(
-        topology,
-        PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip
-    )
-}
-
-pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
+pub(crate) fn primitive(primitive: Primitive) -> wgpu::PrimitiveState {
     wgpu::PrimitiveState {
-        topology: match shape.topology {
+        topology: match primitive.topology {
             PrimitiveTopology::PointList => wgpu::PrimitiveTopology::PointList,
             PrimitiveTopology::LineList => wgpu::PrimitiveTopology::LineList,
             PrimitiveTopology::LineStrip => wgpu::PrimitiveTopology::LineStrip,
@@ -175,23 +140,91 @@ pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
             }
             PrimitiveTopology::TriangleStrip => wgpu::PrimitiveTopology::TriangleStrip,
         },
-        strip_index_format: shape.strip_indices.map(index_format),
-        front_face: match shape.front_face {
+        strip_index_format: primitive.strip_index.map(index_format),
+        front_face: match primitive.front_face {
             FrontFace::Ccw => wgpu::FrontFace::Ccw,
             FrontFace::Cw => wgpu::FrontFace::Cw,
         },
-        cull_mode: match shape.cull {
+        cull_mode: match primitive.cull {
             // Both faces together need a feature that is denied.
             CullMode::None | CullMode::FrontAndBack => None,
             CullMode::Front => Some(wgpu::Face::Front),
             CullMode::Back => Some(wgpu::Face::Back),
         },
-        unclipped_depth: shape.depth_clamp,
-        polygon_mode: match shape.polygon_mode {
-            PolygonMode::Fill => wgpu::PolygonMode::Fill,
-            PolygonMode::Line => wgpu::PolygonMode::Line,
+        unclipped_depth: primitive.unclipped_depth,
+        ..wgpu::PrimitiveState::default()
+    }
+}
+
+/// Returns a colour attachment of a pipeline.
+pub(crate) fn target(
+    target: &PipelineTarget,
+) -> Result<Option<wgpu::ColorTargetState>, BackendError> {
+    Ok(Some(wgpu::ColorTargetState {
+        format: format::known(target.format)?,
+        blend: target.blend.map(blend),
+        // Bit 0 is red in both.
+        write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
+    }))
+}
+
+/// Returns an attribute of a vertex buffer.
+pub(crate) fn attribute(attribute: &VertexAttribute) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute {
+        format: if attribute.floats == 2 {
+            wgpu::VertexFormat::Float32x2
+        } else {
+            wgpu::VertexFormat::Float32x4
         },
-        conservative: false,
+        offset: attribute.offset,
+        shader_location: attribute.location,
+    }
+}
+
+/// Returns a binding of a layout.
+pub(crate) fn layout_entry(entry: &LayoutEntry) -> wgpu::BindGroupLayoutEntry {
+    let buffer = |ty, dynamic, bytes| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: dynamic,
+        min_binding_size: wgpu::BufferSize::new(bytes),
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: entry.binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: match entry.resource {
+            LayoutResource::Uniform(bytes) => buffer(wgpu::BufferBindingType::Uniform, true, bytes),
+            LayoutResource::Storage(bytes) => {
+                let storage = wgpu::BufferBindingType::Storage { read_only: false };
+                buffer(storage, false, bytes)
+            }
+            LayoutResource::Texture {
+                sample_type,
+                multisampled,
+            } => wgpu::BindingType::Texture {
+                sample_type: match sample_type {
+                    SampleType::Float => wgpu::TextureSampleType::Float { filterable: true },
+                    SampleType::UnfilterableFloat => {
+                        wgpu::TextureSampleType::Float { filterable: false }
+                    }
+                    SampleType::Uint => wgpu::TextureSampleType::Uint,
+                },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled,
+            },
+            LayoutResource::Sampler => {
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
+            }
+        },
+        count: None,
+    }
+}
+
+/// Returns the aspects of a view or a copy.
+pub(crate) fn aspect(aspect: TextureAspect) -> wgpu::TextureAspect {
+    match aspect {
+        TextureAspect::All => wgpu::TextureAspect::All,
+        TextureAspect::DepthOnly => wgpu::TextureAspect::DepthOnly,
+        TextureAspect::StencilOnly => wgpu::TextureAspect::StencilOnly,
     }
 }
 

@@ -155,7 +155,6 @@ impl Printer {
                 format!("(const {kind}[]){{ {} }}", values.join(", "))
             }
             Argument::Text(text) => c::string(text),
-            Argument::Tree(_) => return Err(BundleError::Call(call.function.clone())),
             Argument::Offset(0) | Argument::Null => "NULL".to_owned(),
             Argument::Offset(offset) => format!("(const void *){offset}"),
             Argument::Output(number, bytes) => self.declarations.memory(*number, *bytes),
@@ -217,7 +216,6 @@ fn kind_of(argument: &Argument) -> String {
         | Argument::Offset(_)
         | Argument::Null
         | Argument::Values(_)
-        | Argument::Tree(_)
         | Argument::Struct { .. } => "const void *",
         Argument::Output(..) => "void *",
     }

@@ -1,9 +1,7 @@
-//! Texts, numbers, names and bytes of recorded calls as literals.
+//! Texts, numbers, names and bytes of calls as literals.
 
-use super::calls::{digits, flags, word};
 use super::code::Code;
-use crate::error::BundleError;
-use etalon_backend::Tree;
+use etalon_webgpu::Format;
 
 /// Returns a text as a literal. No script ends in one.
 pub(super) fn string(text: &str) -> Code {
@@ -104,38 +102,30 @@ pub(super) fn bytes(all: &[u8]) -> Code {
     )
 }
 
-/// Returns the digits of a number.
-pub(super) fn plain(value: &Tree) -> Result<Code, BundleError> {
-    digits(value).map(Code::same)
+/// Returns what both languages print alike: a whole number, `true` or `false`.
+pub(super) fn plain(value: impl std::fmt::Display) -> Code {
+    Code::same(value.to_string())
 }
 
-/// Returns a word: `true` or `false`.
-pub(super) fn truth(value: &Tree) -> Result<Code, BundleError> {
-    word(value).map(Code::same)
+/// Returns a float of 32 bits where 32 bits are asked for.
+pub(super) fn float(value: f32) -> Code {
+    Code::same(format!("{value:?}"))
 }
 
-/// Returns a text.
-pub(super) fn text(value: &Tree) -> Result<Code, BundleError> {
-    match value {
-        Tree::Text(text) => Ok(string(text)),
-        _ => Err(BundleError::Call("a text that is none".to_owned())),
-    }
-}
-
-/// Returns a value of an enumeration.
-pub(super) fn of(kind: &str, value: &Tree) -> Result<Code, BundleError> {
-    Ok(Code::new(
-        format!("wgpu::{kind}::{}", variant(word(value)?)),
-        format!("\"{}\"", hyphened(word(value)?)),
-    ))
+/// Returns a value of an enumeration by WebGPU's name.
+pub(super) fn of(kind: &str, name: &str) -> Code {
+    Code::new(
+        format!("wgpu::{kind}::{}", variant(name)),
+        format!("\"{name}\""),
+    )
 }
 
 /// Returns a format.
-pub(super) fn format(value: &Tree) -> Result<Code, BundleError> {
+pub(super) fn format(format: Format) -> Code {
     const PARTS: [&str; 7] = [
         "unorm", "snorm", "uint", "sint", "ufloat", "plus", "stencil",
     ];
-    let word = word(value)?;
+    let word = format.name();
     let mut name = variant(word);
     for part in PARTS {
         name = name.replace(part, &format!("{}{}", part[..1].to_uppercase(), &part[1..]));
@@ -143,83 +133,86 @@ pub(super) fn format(value: &Tree) -> Result<Code, BundleError> {
     if !name.contains("Ufloat") {
         name = name.replace("float", "Float");
     }
-    Ok(Code::new(
+    Code::new(
         format!("wgpu::TextureFormat::{name}"),
         format!("\"{word}\""),
-    ))
+    )
 }
 
-/// Types of flags, with WebGPU's name and the flags that it has.
-const FLAGS: [(&str, &str, &[&str]); 4] = [
-    (
-        "BufferUsages",
-        "GPUBufferUsage",
-        &[
-            "MAP_READ",
-            "MAP_WRITE",
-            "COPY_SRC",
-            "COPY_DST",
-            "INDEX",
-            "VERTEX",
-            "UNIFORM",
-            "STORAGE",
-            "INDIRECT",
-            "QUERY_RESOLVE",
-        ],
-    ),
-    (
-        "TextureUsages",
-        "GPUTextureUsage",
-        &[
-            "COPY_SRC",
-            "COPY_DST",
-            "TEXTURE_BINDING",
-            "STORAGE_BINDING",
-            "RENDER_ATTACHMENT",
-        ],
-    ),
-    (
-        "ShaderStages",
-        "GPUShaderStage",
-        &["VERTEX", "FRAGMENT", "COMPUTE"],
-    ),
-    (
-        "ColorWrites",
-        "GPUColorWrite",
-        &["RED", "GREEN", "BLUE", "ALPHA", "ALL"],
-    ),
-];
+/// The flags of a type in wgpu and WebGPU, from bit 0 on; a bit without a name is not used.
+pub(super) struct Flags {
+    rust: &'static str,
+    script: &'static str,
+    names: &'static [&'static str],
+}
 
-/// Returns a union of flags.
-pub(super) fn bits(kind: &str, value: &Tree) -> Result<Code, BundleError> {
-    let number = match value {
-        Tree::Tuple(name, parts) if name.is_empty() => parts.first(),
-        value => Some(value),
-    };
-    let web = FLAGS.iter().find(|(of, ..)| *of == kind);
-    if let Some(number @ Tree::Number(_)) = number {
-        let number = digits(number)?;
-        return Ok(Code {
-            rust: format!("wgpu::{kind}::from_bits_truncate({number})"),
-            script: web.map(|_| number.to_owned()),
-        });
+/// The usages of buffers.
+pub(super) const BUFFER_USAGES: Flags = Flags {
+    rust: "wgpu::BufferUsages",
+    script: "GPUBufferUsage",
+    names: &[
+        "MAP_READ",
+        "MAP_WRITE",
+        "COPY_SRC",
+        "COPY_DST",
+        "INDEX",
+        "VERTEX",
+        "UNIFORM",
+        "STORAGE",
+        "INDIRECT",
+        "QUERY_RESOLVE",
+    ],
+};
+
+/// The usages of textures.
+pub(super) const TEXTURE_USAGES: Flags = Flags {
+    rust: "wgpu::TextureUsages",
+    script: "GPUTextureUsage",
+    names: &[
+        "COPY_SRC",
+        "COPY_DST",
+        "TEXTURE_BINDING",
+        "STORAGE_BINDING",
+        "RENDER_ATTACHMENT",
+    ],
+};
+
+/// The channels that are written.
+pub(super) const COLOR_WRITES: Flags = Flags {
+    rust: "wgpu::ColorWrites",
+    script: "GPUColorWrite",
+    names: &["RED", "GREEN", "BLUE", "ALPHA"],
+};
+
+impl Flags {
+    /// Returns the shader stages, of which bit 0 stands for fragments.
+    pub(super) const fn of_fragment_stage() -> Self {
+        Self {
+            rust: "wgpu::ShaderStages",
+            script: "GPUShaderStage",
+            names: &["FRAGMENT"],
+        }
     }
-    let names = flags(value)?;
-    if names.is_empty() {
-        return Ok(Code::new(format!("wgpu::{kind}::empty()"), "0"));
-    }
-    let union = |owner: &str, between: &str| {
-        let flags: Vec<String> = names
-            .iter()
-            .map(|name| format!("{owner}{between}{name}"))
+
+    /// Returns a union of flags.
+    pub(super) fn union(&self, bits: u32) -> Code {
+        let names = (0..).zip(self.names);
+        let set: Vec<&str> = names
+            .filter(|(bit, _)| bits & 1 << bit != 0)
+            .map(|(_, name)| *name)
             .collect();
-        flags.join(" | ")
-    };
-    let web = web.filter(|(_, _, known)| names.iter().all(|name| known.contains(name)));
-    Ok(Code {
-        rust: union(&format!("wgpu::{kind}"), "::"),
-        script: web.map(|(_, name, _)| union(name, ".")),
-    })
+        if set.is_empty() {
+            return Code::new(format!("{}::empty()", self.rust), "0");
+        }
+        let union = |owner: &str, between: &str| {
+            let flags: Vec<String> = set
+                .iter()
+                .map(|name| format!("{owner}{between}{name}"))
+                .collect();
+            flags.join(" | ")
+        };
+        Code::new(union(self.rust, "::"), union(self.script, "."))
+    }
 }
 
 /// Returns a name in WebGPU's spelling as wgpu's variant.
@@ -236,53 +229,39 @@ fn variant(word: &str) -> String {
     word.split('-').map(capital).collect()
 }
 
-/// Returns a name in wgpu's or WebGPU's spelling in WebGPU's.
-fn hyphened(word: &str) -> String {
-    let mut name = String::new();
-    for c in word.chars() {
-        if c.is_ascii_uppercase() && !name.is_empty() {
-            name.push('-');
-        }
-        name.push(c.to_ascii_lowercase());
-    }
-    name
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn name(name: &str) -> Tree {
-        Tree::Name(name.to_owned())
-    }
+    use etalon_frame::TextureFormat;
 
     #[test]
     fn names_become_variants_and_texts() {
-        for (tree, rust, script) in [
-            ("one-minus-src", "OneMinusSrc", "one-minus-src"),
-            ("2d-array", "D2Array", "2d-array"),
-            ("depth-only", "DepthOnly", "depth-only"),
-            ("Occlusion", "Occlusion", "occlusion"),
+        for (name, rust) in [
+            ("one-minus-src", "OneMinusSrc"),
+            ("2d", "D2"),
+            ("depth-only", "DepthOnly"),
         ] {
-            let code = of("A", &name(tree)).unwrap();
+            let code = of("A", name);
             assert_eq!(code.rust, format!("wgpu::A::{rust}"));
-            assert_eq!(code.script.unwrap(), format!("\"{script}\""));
+            assert_eq!(code.script.unwrap(), format!("\"{name}\""));
         }
-        for (webgpu, wgpu) in [
-            ("rgba8unorm-srgb", "Rgba8UnormSrgb"),
-            ("depth24plus-stencil8", "Depth24PlusStencil8"),
-            ("depth32float-stencil8", "Depth32FloatStencil8"),
-            ("rg11b10ufloat", "Rg11b10Ufloat"),
-            ("rgb10a2unorm", "Rgb10a2Unorm"),
-            ("rgba32uint", "Rgba32Uint"),
-            ("stencil8", "Stencil8"),
+        for (known, wgpu) in [
+            (TextureFormat::Rgba8UnormSrgb, "Rgba8UnormSrgb"),
+            (TextureFormat::Depth24PlusStencil8, "Depth24PlusStencil8"),
+            (TextureFormat::Depth32FloatStencil8, "Depth32FloatStencil8"),
+            (TextureFormat::Rg11b10Ufloat, "Rg11b10Ufloat"),
+            (TextureFormat::Rgb10a2Unorm, "Rgb10a2Unorm"),
+            (TextureFormat::Stencil8, "Stencil8"),
         ] {
-            let printed = format(&Tree::Text(webgpu.to_owned())).unwrap();
+            let printed = format(Format::Attachment(known));
             assert_eq!(printed.rust, format!("wgpu::TextureFormat::{wgpu}"));
-            assert_eq!(printed.script.unwrap(), format!("\"{webgpu}\""));
+            assert_eq!(printed.script.unwrap(), format!("\"{known}\""));
         }
+        assert_eq!(
+            format(Format::Rgba32Uint).rust,
+            "wgpu::TextureFormat::Rgba32Uint"
+        );
     }
-
     #[test]
     fn no_text_leaves_its_literal() {
         let code = string("a\"; b\\\n\u{202e}</script>\u{1f600}");
@@ -304,17 +283,6 @@ mod tests {
             let literal = string(hostile);
             assert!(code.rust == literal.rust || code.script == literal.script);
         }
-        for hostile in ["a; b", "a::b", "", "a\n", "a/*"] {
-            assert!(of("A", &name(hostile)).is_err(), "{hostile}");
-        }
-        for hostile in ["1; b", "inf", "NaN", "", "x"] {
-            let number = Tree::Number(hostile.to_owned());
-            assert!(plain_of(&number).is_err(), "{hostile}");
-        }
-    }
-
-    fn plain_of(value: &Tree) -> Result<Code, BundleError> {
-        plain(value)
     }
 
     #[test]
@@ -337,17 +305,17 @@ mod tests {
     }
 
     #[test]
-    fn flags_that_webgpu_lacks_are_in_no_script() {
-        let usage = Tree::Text("COPY_SRC | RENDER_ATTACHMENT".to_owned());
-        let code = bits("TextureUsages", &usage).unwrap();
+    fn flags_are_a_union() {
+        let code = TEXTURE_USAGES.union(0x11);
+        assert_eq!(
+            code.rust,
+            "wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::RENDER_ATTACHMENT"
+        );
         let script = "GPUTextureUsage.COPY_SRC | GPUTextureUsage.RENDER_ATTACHMENT";
         assert_eq!(code.script.unwrap(), script);
-        let usage = Tree::Text("COPY_SRC | TRANSIENT".to_owned());
-        assert_eq!(bits("TextureUsages", &usage).unwrap().script, None);
-        let mask = Tree::Number("15".to_owned());
         assert_eq!(
-            bits("ColorWrites", &mask).unwrap().script.as_deref(),
-            Some("15")
+            COLOR_WRITES.union(0),
+            Code::new("wgpu::ColorWrites::empty()", "0")
         );
     }
 }

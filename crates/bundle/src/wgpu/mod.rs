@@ -1,11 +1,11 @@
 //! wgpu: a package of one file that depends on wgpu, and a page for browsers.
 
-mod calls;
 mod check;
 mod code;
 mod commands;
-mod descriptors;
 mod literals;
+mod memories;
+mod objects;
 mod page;
 mod printer;
 mod program;
@@ -21,6 +21,8 @@ use program::Api;
 pub(crate) fn program(
     head: &Head,
     [api, device]: [&str; 2],
+    features: &[String],
+    calls: &str,
     recording: &Recording,
     due: &Due,
 ) -> Result<Vec<File>, BundleError> {
@@ -29,7 +31,9 @@ pub(crate) fn program(
         "gl" => Api::Gl,
         other => return Err(BundleError::Call(other.to_owned())),
     };
-    let statements = printer::statements(recording)?;
+    let unread = |error| BundleError::Call(format!("wgpu: {error}"));
+    let calls = serde_json::from_str(calls).map_err(unread)?;
+    let statements = printer::statements(recording, &calls, features);
     let check = check::check(recording, due)?;
     let text = program::program(head, api, device, &statements, &check);
     let mut files = vec![

@@ -1,11 +1,12 @@
-//! The calls of a recording as statements.
+//! A list of calls as statements.
 
-use super::calls::{self, Memory, Objects, field, flags, part};
 use super::code::Code;
-use super::{commands, descriptors};
-use crate::error::BundleError;
+use super::memories::{Memory, memories};
+use super::objects::variable;
+use super::{commands, objects};
 use crate::wrap::wrapped;
-use etalon_backend::{Recording, Tree};
+use etalon_backend::Recording;
+use etalon_webgpu::CallList;
 
 /// The statements, and what they need.
 pub(super) struct Statements<'a> {
@@ -32,77 +33,50 @@ const NEEDED: [(&str, &str); 7] = [
     ("RG11B10UFLOAT_RENDERABLE", "Rg11b10Ufloat"),
 ];
 
-/// Returns the statements of the calls that the program makes.
-pub(super) fn statements(recording: &Recording) -> Result<Statements<'_>, BundleError> {
-    let mut printer = Printer::default();
+/// Returns the statements of the calls on a device with these features.
+pub(super) fn statements<'a>(
+    recording: &Recording,
+    calls: &CallList,
+    features: &'a [String],
+) -> Statements<'a> {
     let mut body = Code::same("");
-    let mut features = Vec::new();
-    for action in calls::needed(recording) {
-        if action.name() == "Init" {
-            features = flags(field(field(action, "desc")?, "required_features")?)?;
-            continue;
-        }
-        let is_shader = action.name() == "CreateShaderModule";
-        for statement in printer.statements(action)? {
-            let line = |text: &str| {
-                let end = if matches!(text, "{" | "}") { "" } else { ";" };
-                let line = format!("    {text}{end}");
-                // The lines of a shader are its own.
-                if is_shader {
-                    line + "\n"
-                } else {
-                    wrapped(&line) + "\n"
-                }
-            };
-            body.push(&statement.map(line));
-        }
+    for statement in in_order(calls) {
+        let line = |text: &str| {
+            let end = if matches!(text, "{" | "}") { "" } else { ";" };
+            let line = format!("    {text}{end}");
+            // The lines of a shader are its own.
+            if text.contains("create_shader_module") || text.contains("createShaderModule") {
+                line + "\n"
+            } else {
+                wrapped(&line) + "\n"
+            }
+        };
+        body.push(&statement.map(line));
     }
+    let features: Vec<&str> = features.iter().map(String::as_str).collect();
     let uses = |feature: &&str| {
         let is_used = |(name, word): &(&str, &str)| name == feature && body.rust.contains(word);
         NEEDED.iter().any(is_used)
     };
-    let needed = features.iter().copied().filter(uses).collect();
-    let unread = || BundleError::Unread("the frame".to_owned());
-    Ok(Statements {
-        mapped: printer.mapped.ok_or_else(unread)?,
-        memories: calls::memories(recording),
-        body,
+    Statements {
+        mapped: variable("buffer", calls.output),
+        memories: memories(recording),
+        needed: features.iter().copied().filter(uses).collect(),
         features,
-        needed,
-    })
-}
-
-/// Prints calls.
-#[derive(Default)]
-struct Printer {
-    objects: Objects,
-    /// The buffer that is mapped.
-    mapped: Option<String>,
-    submissions: u32,
-}
-
-impl Printer {
-    /// Returns the statements of a call.
-    fn statements(&mut self, action: &Tree) -> Result<Vec<Code>, BundleError> {
-        let objects = &mut self.objects;
-        let statement = match action.name() {
-            "CreateBuffer" => descriptors::buffer(objects, &mut self.mapped, action)?,
-            "CreateTexture" => descriptors::texture(objects, action)?,
-            "CreateTextureView" => descriptors::view(objects, action)?,
-            "CreateBindGroupLayout" => descriptors::group_layout(objects, action)?,
-            "CreatePipelineLayout" => descriptors::pipeline_layout(objects, action)?,
-            "CreateBindGroup" => descriptors::group(objects, action)?,
-            "CreateShaderModule" => descriptors::shader(objects, action)?,
-            "CreateGeneralRenderPipeline" => descriptors::pipeline(objects, action)?,
-            "CreateQuerySet" => descriptors::query_set(objects, action)?,
-            "CreateRenderBundle" => return commands::bundle(objects, action),
-            "WriteBuffer" => descriptors::write(objects, action)?,
-            "Submit" => {
-                self.submissions += 1;
-                return commands::submission(objects, part(action, 1)?, self.submissions);
-            }
-            name => return Err(BundleError::Call(name.to_owned())),
-        };
-        Ok(vec![statement])
+        body,
     }
+}
+
+fn in_order(calls: &CallList) -> Vec<Code> {
+    let mut statements = objects::definitions(calls);
+    for (place, bundle) in calls.bundles.iter().enumerate() {
+        statements.extend(commands::bundle(bundle, place));
+    }
+    let mut first = &calls.first[..];
+    let buffers = calls.frame.iter().chain([&calls.read]);
+    for (number, buffer) in (1..).zip(buffers) {
+        let commands = std::mem::take(&mut first).iter().chain(buffer);
+        statements.extend(commands::submission(calls, commands, number));
+    }
+    statements
 }

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 26] = [
+const TABLE: [(&str, &[&str], &[&str]); 27] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -31,7 +31,12 @@ const TABLE: [(&str, &[&str], &[&str]); 26] = [
         &["backend", "frame", "scene"],
         &["glow", "khronos-egl", "naga"],
     ),
-    ("wgpu", &["backend", "frame", "scene"], &["naga", "wgpu"]),
+    ("webgpu", &["backend", "frame", "scene"], &[]),
+    (
+        "wgpu",
+        &["backend", "frame", "scene", "webgpu"],
+        &["naga", "wgpu"],
+    ),
     (
         "conformance",
         &["backend", "case", "frame", "methods", "scene"],

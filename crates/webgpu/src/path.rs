@@ -1,26 +1,26 @@
-//! A path as WebGPU takes it: the values that an adapter has, and what each means for an attachment, a draw or
+//! A path as WebGPU takes it: the values that a device has, and what each means for an attachment, a draw or
 //! a read.
 //!
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
+use crate::calls::{Extent, TextureDimension};
 use etalon_frame::{
     ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathStart, PathState, PathTarget,
     PathValue, TextureFormat,
 };
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
-use wgpu::DownlevelFlags;
 
-/// Returns the values that an adapter with these features has. Formats may lack some of them: [`target`] and
-/// [`end`] say so.
-pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
+/// Returns the values that a device with these features has; `indirect` if it executes indirect draws. Formats may
+/// lack some of them: [`target`] and [`end`] say so.
+pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::Start(PathStart::LoadOperation | PathStart::Draw) => true,
         PathValue::Target(target) => target != PathTarget::Renderbuffer,
         // A secondary command buffer is a render bundle.
         PathValue::Commands(_) => true,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
-        PathValue::Draws(PathDraws::Indirect) => flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
+        PathValue::Draws(PathDraws::Indirect) => indirect,
         PathValue::Draws(PathDraws::IndirectCount) => false,
         PathValue::Draws(_) => true,
         PathValue::End(end) => matches!(
@@ -78,8 +78,8 @@ pub(crate) fn target(scene: &Scene, index: usize) -> PathTarget {
 /// The texture that an attachment is a part of.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Shape {
-    pub(crate) size: wgpu::Extent3d,
-    pub(crate) dimension: wgpu::TextureDimension,
+    pub(crate) size: Extent,
+    pub(crate) dimension: TextureDimension,
     pub(crate) levels: u32,
     /// The level of the attachment.
     pub(crate) level: u32,
@@ -89,14 +89,9 @@ pub(crate) struct Shape {
 
 impl Shape {
     pub(crate) fn of(target: PathTarget, [width, height]: [u32; 2]) -> Self {
-        let size = |width, height, depth_or_array_layers| wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers,
-        };
         let plain = Self {
-            size: size(width, height, 1),
-            dimension: wgpu::TextureDimension::D2,
+            size: [width, height, 1],
+            dimension: TextureDimension::D2,
             levels: 1,
             level: 0,
             layer: 0,
@@ -105,24 +100,24 @@ impl Shape {
             PathTarget::Plain | PathTarget::Renderbuffer => plain,
             PathTarget::MipLevel => Self {
                 // Odd sizes, which are rounded down from level to level.
-                size: size(2 * width + 1, 2 * height + 1, 1),
+                size: [2 * width + 1, 2 * height + 1, 1],
                 levels: 2,
                 level: 1,
                 ..plain
             },
             PathTarget::ArrayLayer => Self {
-                size: size(width, height, 3),
+                size: [width, height, 3],
                 layer: 2,
                 ..plain
             },
             PathTarget::CubeFace => Self {
-                size: size(width, height, 6),
+                size: [width, height, 6],
                 layer: 4,
                 ..plain
             },
             PathTarget::Slice3d => Self {
-                size: size(width, height, 4),
-                dimension: wgpu::TextureDimension::D3,
+                size: [width, height, 4],
+                dimension: TextureDimension::D3,
                 layer: 3,
                 ..plain
             },
@@ -131,7 +126,7 @@ impl Shape {
 
     /// The slice of a three-dimensional texture.
     pub(crate) fn slice(self) -> Option<u32> {
-        (self.dimension == wgpu::TextureDimension::D3).then_some(self.layer)
+        (self.dimension == TextureDimension::D3).then_some(self.layer)
     }
 }
 
@@ -242,14 +237,11 @@ mod tests {
     fn values_follow_what_the_adapter_has() {
         let base = PathValue::Draws(PathDraws::BaseVertex);
         let indirect = PathValue::Draws(PathDraws::Indirect);
-        let none = offered(DownlevelFlags::empty(), &BTreeSet::new());
+        let none = paths(false, &BTreeSet::new());
         assert!(!none.contains(&base) && !none.contains(&indirect));
-        let paths = offered(
-            DownlevelFlags::all(),
-            &BTreeSet::from([Feature::BaseVertex]),
-        );
-        assert!(paths.contains(&base) && paths.contains(&indirect));
-        assert!(!paths.contains(&PathValue::Target(PathTarget::Renderbuffer)));
+        let all = paths(true, &BTreeSet::from([Feature::BaseVertex]));
+        assert!(all.contains(&base) && all.contains(&indirect));
+        assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
     }
 
     #[test]
@@ -279,10 +271,7 @@ mod tests {
             PathTarget::Plain
         );
         let mip = Shape::of(PathTarget::MipLevel, [8, 5]);
-        assert_eq!(
-            (mip.size.width >> mip.level, mip.size.height >> mip.level),
-            (8, 5)
-        );
+        assert_eq!((mip.size[0] >> mip.level, mip.size[1] >> mip.level), (8, 5));
         assert_eq!(Shape::of(PathTarget::Slice3d, [8, 8]).slice(), Some(3));
         assert_eq!(Shape::of(PathTarget::ArrayLayer, [8, 8]).slice(), None);
     }

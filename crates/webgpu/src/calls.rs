@@ -1,0 +1,521 @@
+//! The calls: tables of objects, and commands that name them by their place in a table.
+
+use crate::format::Format;
+use crate::pipeline::Pipeline;
+use crate::reading::Reading;
+use etalon_scene::{IndexFormat, Sampler};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// The usages of buffers (WebGPU: GPUBufferUsage).
+pub mod buffer_usage {
+    /// May be mapped for reading.
+    pub const MAP_READ: u32 = 0x1;
+    /// May be the source of a copy.
+    pub const COPY_SRC: u32 = 0x4;
+    /// May be the target of a copy or a write.
+    pub const COPY_DST: u32 = 0x8;
+    /// Holds indices.
+    pub const INDEX: u32 = 0x10;
+    /// Holds vertices.
+    pub const VERTEX: u32 = 0x20;
+    /// Holds uniforms.
+    pub const UNIFORM: u32 = 0x40;
+    /// Is written by shaders.
+    pub const STORAGE: u32 = 0x80;
+    /// Holds the arguments of indirect draws.
+    pub const INDIRECT: u32 = 0x100;
+    /// Takes the results of queries.
+    pub const QUERY_RESOLVE: u32 = 0x200;
+}
+
+/// The usages of textures (WebGPU: GPUTextureUsage).
+pub mod texture_usage {
+    /// May be the source of a copy.
+    pub const COPY_SRC: u32 = 0x1;
+    /// May be the target of a copy.
+    pub const COPY_DST: u32 = 0x2;
+    /// May be read by shaders.
+    pub const TEXTURE_BINDING: u32 = 0x4;
+    /// May be drawn to.
+    pub const RENDER_ATTACHMENT: u32 = 0x10;
+}
+
+/// A scene as WebGPU calls.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct CallList {
+    /// Shader modules.
+    pub shaders: Vec<Shader>,
+    /// Bind group layouts. A pipeline layout has one of them or none.
+    pub layouts: Vec<Vec<LayoutEntry>>,
+    /// Samplers.
+    pub samplers: Vec<Sampler>,
+    /// Textures, with undefined contents.
+    pub textures: Vec<Texture>,
+    /// Texture views.
+    pub views: Vec<TextureView>,
+    /// Buffers.
+    pub buffers: Vec<Buffer>,
+    /// Bind groups.
+    pub groups: Vec<BindGroup>,
+    /// Query sets.
+    pub query_sets: Vec<QuerySet>,
+    /// Render pipelines.
+    pub pipelines: Vec<Pipeline>,
+    /// Render bundles.
+    pub bundles: Vec<RenderBundle>,
+    /// The commands that come before the frame's, in its first submission alone.
+    pub first: Vec<Command>,
+    /// The command buffers of a frame, submitted together.
+    pub frame: Vec<Vec<Command>>,
+    /// The commands that bring what is read into the buffer `output`, submitted after a frame.
+    pub read: Vec<Command>,
+    /// The buffer that is mapped after them.
+    pub output: usize,
+    /// The meaning of its bytes.
+    pub reading: Reading,
+}
+
+impl CallList {
+    /// True if a pass of the frame is timed.
+    pub fn is_timed(&self) -> bool {
+        let timed =
+            |command: &Command| matches!(command, Command::Pass(pass) if pass.timed != [false; 2]);
+        self.frame.iter().flatten().any(timed)
+    }
+}
+
+/// A shader module in WGSL.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Shader {
+    /// The name, for messages.
+    pub label: Cow<'static, str>,
+    /// The source.
+    pub code: Cow<'static, str>,
+}
+
+/// A binding of a layout, visible to fragment shaders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct LayoutEntry {
+    /// The number.
+    pub binding: u32,
+    /// The type of the resource.
+    pub resource: LayoutResource,
+}
+
+/// The type of a bound resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum LayoutResource {
+    /// A uniform buffer with a dynamic offset, of at least this many bytes.
+    Uniform(u64),
+    /// A storage buffer, of at least this many bytes.
+    Storage(u64),
+    /// A two-dimensional texture.
+    Texture {
+        /// The type of its texels.
+        sample_type: SampleType,
+        /// True if it has several samples.
+        multisampled: bool,
+    },
+    /// A filtering sampler.
+    Sampler,
+}
+
+/// The type of a texture's texels in a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum SampleType {
+    /// Floats that a sampler may filter.
+    Float,
+    /// Floats.
+    UnfilterableFloat,
+    /// Unsigned integers.
+    Uint,
+}
+
+/// Width, height, and depth or the number of layers.
+pub type Extent = [u32; 3];
+
+/// A texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Texture {
+    /// The size of level 0.
+    pub size: Extent,
+    /// The number of levels.
+    pub levels: u32,
+    /// Samples per texel.
+    pub samples: u32,
+    /// The dimension.
+    pub dimension: TextureDimension,
+    /// The format.
+    pub format: Format,
+    /// The usages, of [`texture_usage`].
+    pub usage: u32,
+    /// Another format that views may have.
+    pub view_format: Option<Format>,
+}
+
+/// The dimension of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum TextureDimension {
+    /// Two dimensions, in layers.
+    D2,
+    /// Three dimensions.
+    D3,
+}
+
+/// The aspects that a view or a copy takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum TextureAspect {
+    /// All that the format has.
+    All,
+    /// Depth.
+    DepthOnly,
+    /// Stencil.
+    StencilOnly,
+}
+
+/// A view of one level of one layer, or of a whole three-dimensional texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct TextureView {
+    /// The texture.
+    pub texture: usize,
+    /// Level and layer of a two-dimensional texture; none for the whole of a three-dimensional one.
+    pub part: Option<[u32; 2]>,
+    /// The aspect.
+    pub aspect: TextureAspect,
+    /// The format, where it is not the texture's.
+    pub format: Option<Format>,
+}
+
+/// A buffer. Bytes without contents are undefined.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Buffer {
+    /// The size in bytes.
+    pub size: u64,
+    /// The usages, of [`buffer_usage`].
+    pub usage: u32,
+    /// The contents from byte 0 on: a multiple of four bytes, or none.
+    pub contents: Vec<u8>,
+}
+
+/// A bind group.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct BindGroup {
+    /// The layout.
+    pub layout: usize,
+    /// The resources by the numbers of their bindings.
+    pub entries: Vec<(u32, Binding)>,
+}
+
+/// A bound resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Binding {
+    /// A part of a buffer.
+    Buffer {
+        /// The buffer.
+        buffer: usize,
+        /// The first byte.
+        offset: u64,
+        /// The number of bytes.
+        size: u64,
+    },
+    /// A texture view.
+    View(usize),
+    /// A sampler.
+    Sampler(usize),
+}
+
+/// The type of a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum QueryType {
+    /// Tells whether any sample passed.
+    Occlusion,
+    /// Counts invocations of the fragment shader. Not of WebGPU: a native feature of wgpu.
+    FragmentInvocations,
+}
+
+/// Queries of one type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct QuerySet {
+    /// The type.
+    pub ty: QueryType,
+    /// The number of queries.
+    pub count: u32,
+}
+
+/// A query of a set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Query {
+    /// The type of its set.
+    pub ty: QueryType,
+    /// The set.
+    pub set: usize,
+    /// The place in the set.
+    pub index: u32,
+}
+
+/// Draws that are recorded ahead of their pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RenderBundle {
+    /// The formats of the colour attachments.
+    pub color: Vec<Format>,
+    /// The format of the depth and stencil attachment.
+    pub depth_stencil: Option<Format>,
+    /// True if depth and stencil are read only.
+    pub read_only: bool,
+    /// Samples per texel.
+    pub samples: u32,
+    /// The draws.
+    pub commands: Vec<DrawCommand>,
+}
+
+/// A command outside of passes, or a pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Command {
+    /// Fills the first bytes of a buffer with zeros.
+    ClearBuffer {
+        /// The buffer.
+        buffer: usize,
+        /// The number of bytes.
+        size: u64,
+    },
+    /// Copies bytes.
+    CopyBuffer {
+        /// The source, from byte 0 on.
+        from: usize,
+        /// The target.
+        to: usize,
+        /// The first byte in the target.
+        offset: u64,
+        /// The number of bytes.
+        size: u64,
+    },
+    /// Copies rows of a buffer to a texture.
+    Upload {
+        /// The source.
+        from: Rows,
+        /// The target.
+        to: TexturePart,
+        /// Width and height.
+        size: [u32; 2],
+    },
+    /// Copies a part of a texture to rows of a buffer.
+    Download {
+        /// The source.
+        from: TexturePart,
+        /// The target.
+        to: Rows,
+        /// Width and height.
+        size: [u32; 2],
+    },
+    /// Copies a part of a texture to another texture.
+    CopyTexture {
+        /// The source.
+        from: TexturePart,
+        /// The target.
+        to: TexturePart,
+        /// Width and height.
+        size: [u32; 2],
+    },
+    /// Writes the results of all queries of a set to a buffer.
+    Resolve {
+        /// The set.
+        set: usize,
+        /// The buffer.
+        buffer: usize,
+        /// The first byte.
+        offset: u64,
+    },
+    /// A render pass.
+    Pass(RenderPass),
+}
+
+/// Rows of texels in a buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rows {
+    /// The buffer.
+    pub buffer: usize,
+    /// The first byte.
+    pub offset: u64,
+    /// The distance between rows, in bytes.
+    pub pitch: u32,
+}
+
+/// A part of a texture, from a texel on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TexturePart {
+    /// The texture.
+    pub texture: usize,
+    /// The level.
+    pub level: u32,
+    /// Column, row, and layer or slice.
+    pub origin: [u32; 3],
+    /// The aspect.
+    pub aspect: TextureAspect,
+}
+
+/// A render pass.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RenderPass {
+    /// The colour attachments.
+    pub color: Vec<ColorAttachment>,
+    /// The depth and stencil attachment.
+    pub depth_stencil: Option<DepthStencilAttachment>,
+    /// The occlusion queries.
+    pub occlusion: Option<usize>,
+    /// True if the pass begins and if it ends what is timed on the device.
+    pub timed: [bool; 2],
+    /// The commands.
+    pub commands: Vec<PassCommand>,
+}
+
+/// A colour attachment of a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ColorAttachment {
+    /// The view.
+    pub view: usize,
+    /// The slice of a three-dimensional texture.
+    pub depth_slice: Option<u32>,
+    /// The view that it is resolved to.
+    pub resolve: Option<usize>,
+    /// The load and store operations.
+    pub operations: Filled<[f32; 4]>,
+}
+
+/// The load and store operations of an aspect.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Filled<V> {
+    /// The value that it is cleared to; without one it is loaded.
+    pub clear: Option<V>,
+    /// True if it is stored, false if it is discarded.
+    pub store: bool,
+}
+
+impl<V> Filled<V> {
+    /// Cleared and stored.
+    pub const fn cleared(value: V) -> Self {
+        Self {
+            clear: Some(value),
+            store: true,
+        }
+    }
+
+    /// Loaded and stored.
+    pub const fn kept() -> Self {
+        Self {
+            clear: None,
+            store: true,
+        }
+    }
+}
+
+/// The depth and stencil attachment of a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DepthStencilAttachment {
+    /// The view.
+    pub view: usize,
+    /// The access to depth.
+    pub depth: Access<f32>,
+    /// The access to stencil.
+    pub stencil: Access<u32>,
+}
+
+/// The access of a pass to an aspect.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Access<V> {
+    /// The format lacks it.
+    Absent,
+    /// It is read only.
+    ReadOnly,
+    /// It may be written.
+    Written(Filled<V>),
+}
+
+/// A command in a pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum PassCommand {
+    /// Sets the viewport.
+    SetViewport {
+        /// Left, top, width and height in texels.
+        rect: [f32; 4],
+        /// The depths of the near and the far plane.
+        depth: [f32; 2],
+    },
+    /// Sets the scissor rectangle: left, top, width and height in texels.
+    SetScissorRect([u32; 4]),
+    /// Sets the blend constant.
+    SetBlendConstant([f32; 4]),
+    /// Sets the stencil reference.
+    SetStencilReference(u32),
+    /// Begins a query.
+    Begin(Query),
+    /// Ends the query of a type.
+    End(QueryType),
+    /// Executes a bundle.
+    Execute(usize),
+    /// A command that bundles may hold, too.
+    Draw(DrawCommand),
+}
+
+/// A command in a pass or a bundle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum DrawCommand {
+    /// Sets the pipeline.
+    SetPipeline(usize),
+    /// Sets the only bind group.
+    SetBindGroup {
+        /// The group.
+        group: usize,
+        /// The dynamic offset of its uniform buffer.
+        offset: Option<u32>,
+    },
+    /// Sets a vertex buffer.
+    SetVertexBuffer {
+        /// The slot.
+        slot: u32,
+        /// The buffer.
+        buffer: usize,
+        /// The bytes.
+        place: Range<u64>,
+    },
+    /// Sets the index buffer.
+    SetIndexBuffer {
+        /// The buffer.
+        buffer: usize,
+        /// The bytes.
+        place: Range<u64>,
+        /// The size of an index.
+        format: IndexFormat,
+    },
+    /// Draws.
+    Draw {
+        /// The vertices.
+        vertices: Range<u32>,
+        /// The instances.
+        instances: Range<u32>,
+    },
+    /// Draws by indices.
+    DrawIndexed {
+        /// The indices.
+        indices: Range<u32>,
+        /// The number added to each index.
+        base_vertex: i32,
+        /// The instances.
+        instances: Range<u32>,
+    },
+    /// Draws, with the arguments from a buffer.
+    DrawIndirect {
+        /// The buffer.
+        buffer: usize,
+        /// The first byte.
+        offset: u64,
+    },
+    /// Draws by indices, with the arguments from a buffer.
+    DrawIndexedIndirect {
+        /// The buffer.
+        buffer: usize,
+        /// The first byte.
+        offset: u64,
+    },
+}

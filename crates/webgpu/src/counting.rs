@@ -1,0 +1,247 @@
+//! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
+//!
+//! WebGPU's occlusion queries tell whether any sample passed, not how many (GPUQueryType), so
+//! `PreciseOcclusion` is denied.
+
+use crate::calls::{Command, PassCommand, Query, QuerySet, QueryType, buffer_usage};
+use crate::lower::Lowering;
+use crate::reading::{CounterReading, Place};
+use etalon_frame::CounterKind;
+use etalon_scene::{Draw, Scene};
+
+/// The size of a counter of shader runs.
+pub(crate) const RUNS_BYTES: u64 = 4;
+/// The size of a query result.
+const RESULT_BYTES: u64 = 8;
+/// The multiple that the place of the first result in a buffer must be (resolveQuerySet).
+const RESOLVE_ALIGNMENT: u64 = 256;
+
+/// The counters of a scene.
+pub(crate) struct Counting {
+    kinds: Vec<CounterKind>,
+    occlusion: Option<Queries>,
+    statistics: Option<Queries>,
+    /// The results of the occlusion queries, then of the statistics queries.
+    results: Option<usize>,
+    /// The storage buffer that shaders count in: one place per counter, of any kind.
+    runs: Option<usize>,
+    /// The distance between two places.
+    stride: u64,
+}
+
+/// The queries of one type, one per draw and counter.
+struct Queries {
+    set: usize,
+    /// The counter of each query.
+    counters: Vec<usize>,
+    /// The offset of the first result in the results buffer.
+    offset: u64,
+}
+
+/// The queries and the counter of a draw.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Counted {
+    /// The occlusion query.
+    occlusion: Option<u32>,
+    /// The pipeline statistics query.
+    statistics: Option<u32>,
+    /// The counter that the shader increments.
+    pub(crate) runs: Option<usize>,
+}
+
+impl Counted {
+    /// True if a query stands around the draw.
+    pub(crate) fn is_queried(self) -> bool {
+        self.occlusion.is_some() || self.statistics.is_some()
+    }
+}
+
+impl Queries {
+    /// Returns queries for these counters; `None` if there are no counters.
+    fn new(
+        lowering: &mut Lowering<'_>,
+        ty: QueryType,
+        counters: Vec<usize>,
+        offset: u64,
+    ) -> Option<Self> {
+        if counters.is_empty() {
+            return None;
+        }
+        let sets = &mut lowering.list.query_sets;
+        sets.push(QuerySet {
+            ty,
+            count: counters.len() as u32,
+        });
+        Some(Self {
+            set: sets.len() - 1,
+            counters,
+            offset,
+        })
+    }
+
+    fn end(&self) -> u64 {
+        self.offset + self.counters.len() as u64 * RESULT_BYTES
+    }
+
+    /// Returns the places of a counter's results, behind a first byte.
+    fn places(&self, counter: usize, first: u64) -> Vec<Place> {
+        let results = (0..).zip(&self.counters);
+        let results_of_counter = results.filter(|(_, owner)| **owner == counter);
+        results_of_counter
+            .map(|(i, _)| Place {
+                offset: first + self.offset + i * RESULT_BYTES,
+                bytes: RESULT_BYTES,
+            })
+            .collect()
+    }
+}
+
+impl Counting {
+    /// Returns the counters of a scene and the queries of each draw of all passes.
+    pub(crate) fn new(lowering: &mut Lowering<'_>, scene: &Scene) -> (Self, Vec<Counted>) {
+        let (mut occlusion, mut statistics) = (Vec::new(), Vec::new());
+        let mut add = |draw: &Draw| {
+            let number = |counters: &mut Vec<usize>, counter: usize| {
+                counters.push(counter);
+                counters.len() as u32 - 1
+            };
+            let counter = |kind| draw.counter(scene, |k| k == kind);
+            Counted {
+                occlusion: counter(CounterKind::AnySamplesPassed)
+                    .map(|c| number(&mut occlusion, c)),
+                statistics: counter(CounterKind::FragmentInvocations)
+                    .map(|c| number(&mut statistics, c)),
+                runs: counter(CounterKind::ShaderRuns),
+            }
+        };
+        let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
+        let counted: Vec<_> = draws.map(&mut add).collect();
+        let occlusion = Queries::new(lowering, QueryType::Occlusion, occlusion, 0);
+        let behind = occlusion.as_ref().map_or(0, Queries::end);
+        let statistics = Queries::new(
+            lowering,
+            QueryType::FragmentInvocations,
+            statistics,
+            behind.next_multiple_of(RESOLVE_ALIGNMENT),
+        );
+        let end = statistics.as_ref().map_or(behind, Queries::end);
+        let resolved = buffer_usage::QUERY_RESOLVE | buffer_usage::COPY_SRC;
+        let stored = buffer_usage::STORAGE | buffer_usage::COPY_SRC | buffer_usage::COPY_DST;
+        let stride = RUNS_BYTES.next_multiple_of(lowering.device.storage_alignment.into());
+        let runs = counted.iter().any(|counted| counted.runs.is_some());
+        let counting = Self {
+            results: (end > 0).then(|| lowering.buffer(resolved, end)),
+            runs: runs.then(|| lowering.buffer(stored, scene.counters.len() as u64 * stride)),
+            stride,
+            kinds: scene.counters.iter().map(|c| c.kind).collect(),
+            occlusion,
+            statistics,
+        };
+        (counting, counted)
+    }
+
+    /// Returns the buffer and offset of a counter that a shader increments.
+    pub(crate) fn runs(&self, counter: usize) -> Option<(usize, u64)> {
+        Some((self.runs?, counter as u64 * self.stride))
+    }
+
+    /// Returns the occlusion queries for a pass.
+    pub(crate) fn occlusion(&self) -> Option<usize> {
+        self.occlusion.as_ref().map(|queries| queries.set)
+    }
+
+    /// Returns the reset of the storage buffer.
+    pub(crate) fn start(&self) -> Option<Command> {
+        self.runs.map(|buffer| Command::ClearBuffer {
+            buffer,
+            size: self.runs_bytes(),
+        })
+    }
+
+    /// Returns the start of a draw's queries.
+    pub(crate) fn begin(&self, counted: Counted) -> Vec<PassCommand> {
+        let query = |ty, queries: &Option<Queries>, index: Option<u32>| {
+            let (set, index) = (queries.as_ref()?.set, index?);
+            Some(PassCommand::Begin(Query { ty, set, index }))
+        };
+        let occlusion = query(QueryType::Occlusion, &self.occlusion, counted.occlusion);
+        let counts = QueryType::FragmentInvocations;
+        let statistics = query(counts, &self.statistics, counted.statistics);
+        occlusion.into_iter().chain(statistics).collect()
+    }
+
+    /// Returns the end of a draw's queries.
+    pub(crate) fn end(&self, counted: Counted) -> Vec<PassCommand> {
+        let end = |query: Option<u32>, ty| query.map(|_| PassCommand::End(ty));
+        let statistics = end(counted.statistics, QueryType::FragmentInvocations);
+        let occlusion = end(counted.occlusion, QueryType::Occlusion);
+        statistics.into_iter().chain(occlusion).collect()
+    }
+
+    /// Returns the resolve of all queries.
+    pub(crate) fn finish(&self) -> Vec<Command> {
+        let both = self.occlusion.iter().chain(&self.statistics);
+        let resolve = |queries: &Queries| {
+            Some(Command::Resolve {
+                set: queries.set,
+                buffer: self.results?,
+                offset: queries.offset,
+            })
+        };
+        both.filter_map(resolve).collect()
+    }
+
+    /// Returns the size of all counts in the layout of [`Counting::copy`].
+    pub(crate) fn bytes(&self) -> u64 {
+        self.runs_start() + self.runs_bytes()
+    }
+
+    /// Query results come first.
+    fn runs_start(&self) -> u64 {
+        let both = self.occlusion.iter().chain(&self.statistics);
+        both.map(Queries::end).max().unwrap_or(0)
+    }
+
+    fn runs_bytes(&self) -> u64 {
+        let bytes = self.kinds.len() as u64 * self.stride;
+        self.runs.map_or(0, |_| bytes)
+    }
+
+    /// Returns the copies of all counts to a buffer.
+    pub(crate) fn copy(&self, to: usize, offset: u64) -> Vec<Command> {
+        let start = self.runs_start();
+        let copy = |from: Option<usize>, offset, size| {
+            from.map(|from| Command::CopyBuffer {
+                from,
+                to,
+                offset,
+                size,
+            })
+        };
+        let results = copy(self.results, offset, start);
+        let runs = copy(self.runs, offset + start, self.runs_bytes());
+        results.into_iter().chain(runs).collect()
+    }
+
+    /// Returns the places of the counts, in the order of the scene's counters, in a buffer that they were copied to.
+    pub(crate) fn readings(&self, first: u64) -> Vec<CounterReading> {
+        let queried = |queries: &Option<Queries>, counter| {
+            let queries = queries.as_ref();
+            queries.map_or(Vec::new(), |queries| queries.places(counter, first))
+        };
+        let reading = |(counter, kind): (usize, &CounterKind)| CounterReading {
+            parts: match kind {
+                CounterKind::AnySamplesPassed => queried(&self.occlusion, counter),
+                CounterKind::FragmentInvocations => queried(&self.statistics, counter),
+                CounterKind::ShaderRuns if self.runs.is_some() => vec![Place {
+                    offset: first + self.runs_start() + counter as u64 * self.stride,
+                    bytes: RUNS_BYTES,
+                }],
+                // No draw increments it, or it is denied.
+                CounterKind::ShaderRuns | CounterKind::SamplesPassed => Vec::new(),
+            },
+            any: *kind == CounterKind::AnySamplesPassed,
+        };
+        self.kinds.iter().enumerate().map(reading).collect()
+    }
+}

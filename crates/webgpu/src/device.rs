@@ -1,0 +1,103 @@
+//! What lowering must know of a device.
+
+use crate::calls::texture_usage::{COPY_DST, COPY_SRC, RENDER_ATTACHMENT, TEXTURE_BINDING};
+use etalon_frame::{ChannelEncoding, Limits, ReadPath, TextureFormat};
+
+/// WebGPU's only sample count above 1 (GPUTextureDescriptor, sampleCount).
+pub const SAMPLES: u32 = 4;
+
+/// A device as lowering sees it.
+#[derive(Clone, Debug)]
+pub struct Device {
+    /// What scenes may use.
+    pub limits: Limits,
+    /// What [`Limits`] do not tell.
+    pub abilities: Abilities,
+    /// The largest side of a two-dimensional texture.
+    pub max_texture_2d: u32,
+    /// The largest side of a three-dimensional texture.
+    pub max_texture_3d: u32,
+    /// The multiple that the offset of a bound uniform buffer must be.
+    pub uniform_alignment: u32,
+    /// The multiple that the offset of a bound storage buffer must be.
+    pub storage_alignment: u32,
+    /// True if the arguments of an indirect draw may name a first instance (feature `indirect-first-instance`).
+    pub indirect_first_instance: bool,
+}
+
+impl Device {
+    /// True if attachments of the format can be drawn to.
+    pub fn draws(&self, format: TextureFormat) -> bool {
+        let support = self.limits.formats.get(&format);
+        support.is_some_and(|support| !support.samples.is_empty())
+    }
+}
+
+/// Abilities of a device that [`Limits`] do not tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Abilities {
+    /// Depth and stencil can be copied to buffers.
+    pub copies: bool,
+    /// Textures can have views of other formats, such as sRGB without conversion.
+    pub casts: bool,
+}
+
+/// Returns the usages that a single-sample texture of this format needs besides rendering.
+pub fn texture_usages(format: TextureFormat) -> u32 {
+    let read = TEXTURE_BINDING | COPY_SRC;
+    if format.is_color() {
+        read | COPY_DST
+    } else {
+        read
+    }
+}
+
+/// Returns the usages of a texture for an attachment.
+pub(crate) fn attachment_usages(device: &Device, format: TextureFormat, samples: u32) -> u32 {
+    if samples > 1 {
+        return TEXTURE_BINDING | RENDER_ATTACHMENT;
+    }
+    let mut usages = texture_usages(format);
+    if device.draws(format) {
+        usages |= RENDER_ATTACHMENT;
+    }
+    // Copies of depth end in another texture of its format.
+    if device.abilities.copies {
+        usages |= COPY_DST;
+    }
+    usages
+}
+
+/// Returns the read path of a format's depth, or colour. WebGPU never copies the depth of
+/// `depth24plus` (26.1.2).
+pub fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
+    match format {
+        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => ReadPath::Shader,
+        TextureFormat::Depth16Unorm
+        | TextureFormat::Depth32Float
+        | TextureFormat::Depth32FloatStencil8
+            if !abilities.copies =>
+        {
+            ReadPath::Shader
+        }
+        _ => ReadPath::Copy,
+    }
+}
+
+/// Returns true if the codes of multisampled attachments, which only a shader can read, are as
+/// exact as [`read_path`] promises.
+///
+/// Floats are exact. For normalized integers the API allows an error of one part in 10^5 (Vulkan,
+/// Fundamentals; OpenGL 4.6, 2.3.5): that determines the code up to 10 bits, but not at 16. Two
+/// codes of a signed integer mean -1. An sRGB code is exact only in a view without conversion.
+pub fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
+    let exact = |encoding: &ChannelEncoding| match encoding {
+        ChannelEncoding::Snorm(_) => false,
+        ChannelEncoding::Srgb8 => abilities.casts,
+        ChannelEncoding::Unorm(bits) => *bits <= 10,
+        _ => true,
+    };
+    read_path(format, abilities) == ReadPath::Shader
+        || format.color_channels().iter().all(exact)
+            && (!format.has_depth() || format.depth_encodings() == [ChannelEncoding::Float32])
+}

@@ -1,0 +1,262 @@
+//! Draws: their inputs, their state and their commands.
+
+use crate::binding::Bound;
+use crate::calls::{DrawCommand, PassCommand, buffer_usage};
+use crate::counting::Counted;
+use crate::lower::Lowering;
+use crate::path;
+use crate::pipeline::{self, INSTANCE_SLOT};
+use etalon_frame::{PathDraws, PathState, PathValue, Requirement};
+use etalon_scene::{Call, Draw, Pass, Scene, Viewport};
+use std::ops::Range;
+
+/// The multiple of bytes that is copied to a buffer (writeBuffer).
+const COPY_ALIGNMENT: usize = 4;
+
+/// The vertices, indices and arguments of a scene, each in one buffer.
+pub(crate) struct Geometry {
+    vertices: Input,
+    indices: Input,
+    arguments: Input,
+}
+
+/// A buffer, if anything is in it, and its contents.
+struct Input {
+    usage: u32,
+    buffer: Option<usize>,
+    bytes: Vec<u8>,
+}
+
+impl Input {
+    fn new(usage: u32) -> Self {
+        Self {
+            usage,
+            buffer: None,
+            bytes: Vec::new(),
+        }
+    }
+
+    /// Adds bytes, and zeros up to the alignment of copies. Returns the buffer and the place of the bytes.
+    fn append(&mut self, lowering: &mut Lowering<'_>, bytes: &[u8]) -> (usize, Range<u64>) {
+        let usage = self.usage | buffer_usage::COPY_DST;
+        let buffer = *self.buffer.get_or_insert_with(|| lowering.buffer(usage, 0));
+        let first = self.bytes.len() as u64;
+        self.bytes.extend_from_slice(bytes);
+        let place = first..self.bytes.len() as u64;
+        let aligned = self.bytes.len().next_multiple_of(COPY_ALIGNMENT);
+        self.bytes.resize(aligned, 0);
+        (buffer, place)
+    }
+}
+
+impl Geometry {
+    pub(crate) fn new() -> Self {
+        Self {
+            vertices: Input::new(buffer_usage::VERTEX),
+            indices: Input::new(buffer_usage::INDEX),
+            arguments: Input::new(buffer_usage::INDIRECT),
+        }
+    }
+
+    /// Fills the buffers.
+    pub(crate) fn finish(self, lowering: &mut Lowering<'_>) {
+        for input in [self.vertices, self.indices, self.arguments] {
+            if let Some(buffer) = input.buffer {
+                lowering.fill(buffer, input.bytes);
+            }
+        }
+    }
+
+    /// Adds the arguments of a draw, behind others that would draw nothing. Returns the buffer and the first byte.
+    fn arguments(&mut self, lowering: &mut Lowering<'_>, call: &Call<'_>) -> (usize, u64) {
+        let words = match call.indices {
+            Some(_) => vec![
+                call.count,
+                call.instances,
+                call.first,
+                call.base_vertex.cast_unsigned(),
+                call.first_instance,
+            ],
+            None => vec![call.count, call.instances, call.first, call.first_instance],
+        };
+        let bytes =
+            |words: &[u32]| -> Vec<u8> { words.iter().flat_map(|w| w.to_le_bytes()).collect() };
+        let unused = bytes(&vec![0; words.len()]);
+        self.arguments.append(lowering, &unused);
+        let (buffer, place) = self.arguments.append(lowering, &bytes(&words));
+        (buffer, place.start)
+    }
+
+    /// Adds the vertices and the indices of a draw. Returns the commands that set them.
+    fn inputs(&mut self, lowering: &mut Lowering<'_>, call: &Call<'_>) -> Vec<DrawCommand> {
+        let mut commands = Vec::new();
+        let mut set = |slot, (buffer, place)| {
+            commands.push(DrawCommand::SetVertexBuffer {
+                slot,
+                buffer,
+                place,
+            });
+        };
+        set(0, self.vertices.append(lowering, call.vertex_bytes()));
+        if !call.colors.is_empty() {
+            let colors = self.vertices.append(lowering, call.color_bytes());
+            set(INSTANCE_SLOT, colors);
+        }
+        // All indices may have been restarts or incomplete primitives.
+        if call
+            .indices
+            .as_ref()
+            .is_some_and(|indices| !indices.is_empty())
+        {
+            let (buffer, place) = self.indices.append(lowering, &call.index_bytes());
+            commands.push(DrawCommand::SetIndexBuffer {
+                buffer,
+                place,
+                format: call.index,
+            });
+        }
+        commands
+    }
+}
+
+/// A draw, with what its pass needs to know of it.
+pub(crate) struct PreparedDraw {
+    pub(crate) counted: Counted,
+    /// The commands that bundles may hold, too.
+    pub(crate) commands: Vec<DrawCommand>,
+    viewport: Viewport,
+    scissor: [u32; 4],
+    blend_constant: [f32; 4],
+    stencil_reference: Option<u32>,
+}
+
+impl PreparedDraw {
+    pub(crate) fn new(
+        lowering: &mut Lowering<'_>,
+        scene: &Scene,
+        pass: &Pass,
+        draw: &Draw,
+        (bound, counted): (Option<Bound>, Counted),
+        geometry: &mut Geometry,
+    ) -> Result<Self, Requirement> {
+        let mut commands = Vec::new();
+        if scene.path.state == PathState::OtherPipeline {
+            let other = pipeline::of_draw(lowering, scene, pass, &path::other(draw))?;
+            commands.push(DrawCommand::SetPipeline(other));
+        }
+        let pipeline = pipeline::of_draw(lowering, scene, pass, draw)?;
+        commands.push(DrawCommand::SetPipeline(pipeline));
+        commands.extend(
+            bound.map(|Bound { group, offset }| DrawCommand::SetBindGroup { group, offset }),
+        );
+        // WebGPU restarts only strips.
+        let call = draw.call().without_list_restarts(draw.topology);
+        commands.extend(geometry.inputs(lowering, &call));
+        if scene.path.draws != PathDraws::Indirect {
+            commands.extend(drawn(&call));
+        } else if call.first_instance > 0 && !lowering.device.indirect_first_instance {
+            let value = PathValue::Draws(PathDraws::Indirect);
+            return Err(Requirement::Path(value));
+        } else {
+            let (buffer, offset) = geometry.arguments(lowering, &call);
+            commands.extend(match &call.indices {
+                None => Some(DrawCommand::DrawIndirect { buffer, offset }),
+                Some(indices) if indices.is_empty() => None,
+                Some(_) => Some(DrawCommand::DrawIndexedIndirect { buffer, offset }),
+            });
+        }
+        let [width, height] = scene.pass_size(pass);
+        Ok(Self {
+            counted,
+            commands,
+            viewport: draw.viewport,
+            scissor: draw.scissor.unwrap_or([0, 0, width, height]),
+            blend_constant: draw.blend_constant,
+            // WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.
+            stencil_reference: draw.stencil.map(|s| s.front.reference.into()),
+        })
+    }
+
+    /// Returns the commands of the state that no pipeline holds, on a path.
+    pub(crate) fn state(&self, path: PathState) -> Vec<PassCommand> {
+        let mut commands = Vec::new();
+        if path == PathState::Overwritten {
+            commands.extend(self.other_state());
+        }
+        commands.extend(self.dynamic_state());
+        commands
+    }
+
+    /// Returns the commands of the state that no pipeline holds.
+    pub(crate) fn dynamic_state(&self) -> Vec<PassCommand> {
+        let Viewport { rect, depth } = self.viewport;
+        let mut commands = vec![
+            PassCommand::SetViewport { rect, depth },
+            PassCommand::SetScissorRect(self.scissor),
+            PassCommand::SetBlendConstant(self.blend_constant),
+        ];
+        commands.extend(self.stencil_reference.map(PassCommand::SetStencilReference));
+        commands
+    }
+
+    /// Returns commands with other values of the state that no pipeline holds.
+    fn other_state(&self) -> Vec<PassCommand> {
+        let constant = self.blend_constant.map(|v| if v > 0.5 { 0.0 } else { 1.0 });
+        let mut commands = vec![
+            PassCommand::SetViewport {
+                rect: [0.0, 0.0, 1.0, 1.0],
+                depth: [0.25, 0.5],
+            },
+            PassCommand::SetScissorRect([0, 0, 1, 1]),
+            PassCommand::SetBlendConstant(constant),
+        ];
+        let reference = self.stencil_reference.map(|r| !r & 0xff);
+        commands.extend(reference.map(PassCommand::SetStencilReference));
+        commands
+    }
+
+    /// True if the state that no pipeline holds is the same, and neither draw is counted.
+    fn shares_state(&self, other: &Self) -> bool {
+        let state = |draw: &Self| {
+            (
+                draw.viewport,
+                draw.scissor,
+                draw.blend_constant,
+                draw.stencil_reference,
+            )
+        };
+        let counted = [self.counted, other.counted].map(Counted::is_queried);
+        state(self) == state(other) && counted == [false, false]
+    }
+}
+
+/// Returns the command that draws, if there is something to draw.
+fn drawn(call: &Call<'_>) -> Option<DrawCommand> {
+    let vertices = call.first..call.first + call.count;
+    let instances = call.first_instance..call.first_instance + call.instances;
+    match &call.indices {
+        None => Some(DrawCommand::Draw {
+            vertices,
+            instances,
+        }),
+        Some(indices) if indices.is_empty() => None,
+        Some(_) => Some(DrawCommand::DrawIndexed {
+            indices: vertices,
+            base_vertex: call.base_vertex,
+            instances,
+        }),
+    }
+}
+
+/// Returns the longest runs of draws that share the state that no pipeline holds.
+pub(crate) fn runs(draws: &[PreparedDraw]) -> Vec<Range<usize>> {
+    let mut first = 0;
+    draws
+        .chunk_by(PreparedDraw::shares_state)
+        .map(|run| {
+            let range = first..first + run.len();
+            first = range.end;
+            range
+        })
+        .collect()
+}

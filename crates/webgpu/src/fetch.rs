@@ -1,0 +1,136 @@
+//! Pipelines that render an attachment into a texture that can be copied.
+
+use crate::binding::texture;
+use crate::calls::{LayoutEntry, SampleType};
+use crate::format::Format;
+use crate::lower::Lowering;
+use crate::pipeline::{DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive};
+use etalon_frame::{Requirement, TextureFormat};
+use etalon_scene::{
+    CompareFunction, CullMode, FrontFace, PrimitiveTopology, StencilFace, StencilOperation,
+    StencilState,
+};
+
+/// The WGSL of all fetches.
+const WGSL: &str = include_str!("fetch.wgsl");
+
+/// The source and target of a fetch.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FetchKey {
+    /// Depth, as the bits of a float, into `r32uint`.
+    Depth,
+    /// A colour, as the bits of floats, into `rgba32uint`.
+    Texel,
+    /// A colour of integers into `rgba32uint`.
+    IntegerTexel,
+    /// One sample of colour or depth, as the bits of floats, into `rgba32uint`.
+    Sample,
+    /// One sample of stencil into the red channel of `rgba32uint`.
+    StencilSample,
+    /// One bit of stencil, as 0 or 1, into one channel of `rgba8unorm`: bits 0 to 3, or 4 to 7,
+    /// into red to alpha.
+    StencilBit {
+        /// The attachment's format.
+        format: TextureFormat,
+        /// The index of the bit.
+        bit: u8,
+    },
+}
+
+impl FetchKey {
+    /// The format that it renders to.
+    pub(crate) fn target(self) -> Result<Format, Requirement> {
+        match self {
+            Self::Depth => Ok(Format::R32Uint),
+            Self::StencilBit { .. } => Format::of(TextureFormat::Rgba8Unorm),
+            Self::Texel | Self::IntegerTexel | Self::Sample | Self::StencilSample => {
+                Ok(Format::Rgba32Uint)
+            }
+        }
+    }
+
+    /// The binding of the texture that it reads.
+    pub(crate) fn entries(self) -> Vec<LayoutEntry> {
+        let (sample_type, multisampled) = match self {
+            Self::Depth | Self::Texel => (SampleType::UnfilterableFloat, false),
+            Self::IntegerTexel => (SampleType::Uint, false),
+            Self::Sample => (SampleType::UnfilterableFloat, true),
+            Self::StencilSample => (SampleType::Uint, true),
+            Self::StencilBit { .. } => return Vec::new(),
+        };
+        vec![LayoutEntry {
+            binding: 1,
+            resource: texture(sample_type, multisampled),
+        }]
+    }
+
+    /// The entry points for vertices and fragments.
+    fn entry_points(self) -> [&'static str; 2] {
+        match self {
+            Self::Depth => ["everywhere", "depth"],
+            Self::Texel => ["everywhere", "texel"],
+            Self::IntegerTexel => ["everywhere", "integer_texel"],
+            Self::Sample => ["sampled", "floats"],
+            Self::StencilSample => ["sampled", "integers"],
+            Self::StencilBit { .. } => ["everywhere", "one"],
+        }
+    }
+}
+
+/// Returns the pipeline of a fetch.
+pub(crate) fn pipeline(lowering: &mut Lowering<'_>, key: FetchKey) -> Result<usize, Requirement> {
+    let shader = lowering.shader("fetch", WGSL.into());
+    let entries = key.entries();
+    let layout = (!entries.is_empty()).then(|| lowering.layout(entries));
+    let (write_mask, depth_stencil) = match key {
+        FetchKey::StencilBit { format, bit } => (1 << (bit % 4), Some(stencil_bit(format, bit)?)),
+        _ => (0xf, None),
+    };
+    let [vertex, fragment] = key.entry_points();
+    let state = PipelineState {
+        label: "fetch".into(),
+        vertex: vertex.into(),
+        fragment: Some(fragment.into()),
+        buffers: Vec::new(),
+        primitive: Primitive {
+            topology: PrimitiveTopology::TriangleList,
+            strip_index: None,
+            front_face: FrontFace::Ccw,
+            cull: CullMode::None,
+            unclipped_depth: false,
+        },
+        depth_stencil,
+        samples: 1,
+        mask: u32::MAX,
+        alpha_to_coverage: false,
+        targets: vec![PipelineTarget {
+            format: key.target()?,
+            blend: None,
+            write_mask,
+        }],
+    };
+    Ok(lowering.pipeline(shader, layout, state))
+}
+
+/// Returns a stencil test that passes if a bit is set and writes nothing.
+fn stencil_bit(format: TextureFormat, bit: u8) -> Result<DepthStencil, Requirement> {
+    let face = StencilFace {
+        compare: CompareFunction::Equal,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Keep,
+        reference: 0,
+        read_mask: 1 << bit,
+        write_mask: 0,
+    };
+    Ok(DepthStencil {
+        format: Format::of(format)?,
+        depth_write: format.has_depth().then_some(false),
+        depth_compare: CompareFunction::Always,
+        stencil: Some(StencilState {
+            front: face,
+            back: face,
+        }),
+        bias: DepthBiasState::default(),
+    })
+}

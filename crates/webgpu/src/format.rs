@@ -1,0 +1,75 @@
+//! WebGPU's texture formats.
+
+use etalon_frame::{Requirement, TextureFormat};
+use serde::{Deserialize, Serialize};
+
+/// The format of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Format {
+    /// That of an attachment, which WebGPU has.
+    Attachment(TextureFormat),
+    /// `r32uint`, between an attachment and a buffer.
+    R32Uint,
+    /// `rgba32uint`, between an attachment and a buffer.
+    Rgba32Uint,
+}
+
+impl Format {
+    /// Returns the format of an attachment.
+    ///
+    /// # Errors
+    /// If WebGPU lacks it.
+    pub fn of(format: TextureFormat) -> Result<Self, Requirement> {
+        if is_known(format) {
+            Ok(Self::Attachment(format))
+        } else {
+            Err(Requirement::Format(format))
+        }
+    }
+
+    /// The name (WebGPU: GPUTextureFormat).
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Attachment(format) => format.name(),
+            Self::R32Uint => "r32uint",
+            Self::Rgba32Uint => "rgba32uint",
+        }
+    }
+
+    /// The format whose texels are the codes of this one, if it is another.
+    pub(crate) fn without_srgb(self) -> Option<Self> {
+        let srgb = self == Self::Attachment(TextureFormat::Rgba8UnormSrgb);
+        srgb.then_some(Self::Attachment(TextureFormat::Rgba8Unorm))
+    }
+
+    /// True if it has depth.
+    pub(crate) fn has_depth(self) -> bool {
+        matches!(self, Self::Attachment(format) if format.has_depth())
+    }
+}
+
+/// Returns true if WebGPU has a format.
+pub fn is_known(format: TextureFormat) -> bool {
+    match format {
+        TextureFormat::R8Unorm
+        | TextureFormat::Rg8Unorm
+        | TextureFormat::Rgba8Unorm
+        | TextureFormat::Rgba8UnormSrgb
+        | TextureFormat::Bgra8Unorm
+        | TextureFormat::Rgba8Snorm
+        | TextureFormat::Rgb10a2Unorm
+        | TextureFormat::Rg11b10Ufloat
+        | TextureFormat::Rgba8Uint
+        | TextureFormat::Rgba16Float
+        | TextureFormat::Rgba32Float
+        | TextureFormat::Depth16Unorm
+        | TextureFormat::Depth24Plus
+        | TextureFormat::Depth24PlusStencil8
+        | TextureFormat::Depth32Float
+        | TextureFormat::Depth32FloatStencil8
+        | TextureFormat::Stencil8 => true,
+        TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm => {
+            false
+        }
+    }
+}

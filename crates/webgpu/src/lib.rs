@@ -1,0 +1,42 @@
+//! Scenes as plain lists of WebGPU calls.
+//!
+//! [`lower`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the commands that
+//! copy what is read back into one buffer, and a [`Reading`] that makes a [`Frame`](etalon_frame::Frame) of the bytes
+//! of that buffer. An executor creates the objects, records the commands and maps the buffer. It knows nothing of
+//! scenes.
+//!
+//! The suite's conventions are WebGPU's, so scenes are lowered as they are. The crate has no graphics API and no I/O.
+
+mod attachment;
+mod binding;
+mod calls;
+mod counting;
+mod device;
+mod draw;
+mod fetch;
+mod format;
+mod lower;
+mod path;
+mod pipeline;
+mod read;
+mod reading;
+mod recording;
+mod texel;
+
+pub use calls::{
+    Access, BindGroup, Binding, Buffer, CallList, ColorAttachment, Command, DepthStencilAttachment,
+    DrawCommand, Extent, Filled, LayoutEntry, LayoutResource, PassCommand, Query, QuerySet,
+    QueryType, RenderBundle, RenderPass, Rows, SampleType, Shader, Texture, TextureAspect,
+    TextureDimension, TexturePart, TextureView, buffer_usage, texture_usage,
+};
+pub use device::{Abilities, Device, SAMPLES, read_path, samples_are_exact, texture_usages};
+pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, StencilFace};
+pub use format::{Format, is_known};
+pub use lower::lower;
+pub use path::paths;
+pub use pipeline::{
+    DepthBiasState, DepthStencil, Pipeline, PipelineState, PipelineTarget, Primitive,
+    VertexAttribute, VertexBuffer,
+};
+pub use reading::{CounterReading, ImageReading, Place, ReadMethod, Reading};
+pub use recording::recording;

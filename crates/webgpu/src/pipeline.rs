@@ -1,0 +1,384 @@
+//! Render pipelines.
+
+use crate::binding::Bindings;
+use crate::format::Format;
+use crate::lower::Lowering;
+use etalon_frame::{Requirement, TextureFormat};
+use etalon_scene::{
+    BlendState, CompareFunction, CullMode, DepthBias, Draw, EarlyTests, FrontFace, IndexFormat,
+    Pass, PrimitiveTopology, Scene, Shader, StencilState, Vertex,
+};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// The size of a vertex.
+const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
+
+/// The slot of the colours of instances.
+pub(crate) const INSTANCE_SLOT: u32 = 1;
+
+/// The location of the colour.
+const COLOR: u32 = 1;
+
+/// A render pipeline.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Pipeline {
+    /// The shader module.
+    pub shader: usize,
+    /// The layout of the only bind group.
+    pub layout: Option<usize>,
+    /// Everything else.
+    pub state: PipelineState,
+}
+
+/// The state of a pipeline.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct PipelineState {
+    /// The shader's name, for messages.
+    pub label: Cow<'static, str>,
+    /// The entry point for vertices.
+    pub vertex: Cow<'static, str>,
+    /// The entry point for fragments.
+    pub fragment: Option<Cow<'static, str>>,
+    /// The vertex buffers.
+    pub buffers: Vec<VertexBuffer>,
+    /// The primitives.
+    pub primitive: Primitive,
+    /// Depth and stencil.
+    pub depth_stencil: Option<DepthStencil>,
+    /// Samples per texel.
+    pub samples: u32,
+    /// The sample mask.
+    pub mask: u32,
+    /// True for alpha to coverage.
+    pub alpha_to_coverage: bool,
+    /// The colour attachments.
+    pub targets: Vec<PipelineTarget>,
+}
+
+/// A vertex buffer.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct VertexBuffer {
+    /// The distance between elements, in bytes.
+    pub stride: u64,
+    /// True if an element is for an instance and not for a vertex.
+    pub per_instance: bool,
+    /// The attributes of an element.
+    pub attributes: Vec<VertexAttribute>,
+}
+
+/// An attribute of 32-bit floats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct VertexAttribute {
+    /// The location in the shader.
+    pub location: u32,
+    /// The first byte in the element.
+    pub offset: u64,
+    /// The number of floats: 2 or 4.
+    pub floats: u32,
+}
+
+impl VertexAttribute {
+    const fn of(location: u32, offset: u64, floats: u32) -> Self {
+        Self {
+            location,
+            offset,
+            floats,
+        }
+    }
+}
+
+/// The assembly and rasterization of primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Primitive {
+    /// The topology, which is no fan.
+    pub topology: PrimitiveTopology,
+    /// The size of the indices of an indexed strip.
+    pub strip_index: Option<IndexFormat>,
+    /// The orientation of front faces.
+    pub front_face: FrontFace,
+    /// The faces that are culled, not both.
+    pub cull: CullMode,
+    /// True if depth is clamped and not clipped.
+    pub unclipped_depth: bool,
+}
+
+/// Depth and stencil of a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct DepthStencil {
+    /// The attachment's format.
+    pub format: Format,
+    /// True if depth is written; `None` without depth.
+    pub depth_write: Option<bool>,
+    /// The comparison of depth.
+    pub depth_compare: CompareFunction,
+    /// The stencil test, whose references are 0 and whose faces have the same masks.
+    pub stencil: Option<StencilState>,
+    /// The depth bias.
+    pub bias: DepthBiasState,
+}
+
+/// A depth bias with floats as bits, for hashing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct DepthBiasState {
+    /// The constant.
+    pub constant: i32,
+    slope: u32,
+    clamp: u32,
+}
+
+impl DepthBiasState {
+    fn of(bias: DepthBias) -> Self {
+        Self {
+            constant: bias.constant,
+            slope: bias.slope.to_bits(),
+            clamp: bias.clamp.to_bits(),
+        }
+    }
+
+    /// The factor of the slope.
+    pub fn slope(&self) -> f32 {
+        f32::from_bits(self.slope)
+    }
+
+    /// The largest magnitude.
+    pub fn clamp(&self) -> f32 {
+        f32::from_bits(self.clamp)
+    }
+}
+
+/// A colour attachment of a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct PipelineTarget {
+    /// The format.
+    pub format: Format,
+    /// Blending.
+    pub blend: Option<BlendState>,
+    /// The channels that are written: bit 0 is red.
+    pub write_mask: u8,
+}
+
+/// Returns the pipeline of a draw.
+pub(crate) fn of_draw(
+    lowering: &mut Lowering<'_>,
+    scene: &Scene,
+    pass: &Pass,
+    draw: &Draw,
+) -> Result<usize, Requirement> {
+    let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
+    let (shader, early_tests) = shader_of(draw, depth_stencil);
+    let module = lowering.shader(shader.name(), shader.wgsl_with(early_tests));
+    // The bindings are those of the draw, of which the shader may use fewer.
+    let layout = lowering.layout(Bindings::of(draw.shader).entries());
+    let targets = pass.color.iter().zip(&draw.targets).map(|(index, target)| {
+        Ok(PipelineTarget {
+            format: Format::of(scene.attachments[*index].format)?,
+            blend: target.blend,
+            write_mask: target.write_mask,
+        })
+    });
+    let targets = targets.collect::<Result<Vec<_>, Requirement>>()?;
+    let depth_stencil = depth_stencil.map(|format| of_depth_stencil(format, draw));
+    let state = PipelineState {
+        label: shader.name().into(),
+        vertex: "vs".into(),
+        fragment: shader.has_fragment().then(|| "fs".into()),
+        buffers: vertex_buffers(shader, draw),
+        primitive: primitive(draw),
+        depth_stencil: depth_stencil.transpose()?,
+        samples: scene.pass_samples(pass),
+        mask: draw.multisample.mask,
+        alpha_to_coverage: draw.multisample.alpha_to_coverage,
+        targets: if shader.has_fragment() {
+            targets
+        } else {
+            Vec::new()
+        },
+    };
+    Ok(lowering.pipeline(module, Some(layout), state))
+}
+
+/// Returns the shader of a draw and its early tests, in a pass with this depth and stencil format.
+fn shader_of(draw: &Draw, depth_stencil: Option<TextureFormat>) -> (Shader, EarlyTests) {
+    let (mut shader, mut early_tests) = (draw.shader, draw.early_tests);
+    // WebGPU refuses a shader that writes depth without a depth attachment (10.3.6). The depth
+    // would be discarded, so another shader gives the same colours.
+    if !depth_stencil.is_some_and(TextureFormat::has_depth) {
+        shader = match shader {
+            Shader::FlatColorDepth => Shader::UniformColor,
+            Shader::CountedDepth => Shader::CountedColor,
+            Shader::MaskedDepth => Shader::MaskedColor,
+            Shader::FragCoordDepth => Shader::FlatColor,
+            Shader::ExpensiveDepth => Shader::ExpensiveColor,
+            Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
+            // Runs per sample, which a counter would reveal.
+            Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
+            other => other,
+        };
+        if early_tests.is_conservative() {
+            early_tests = EarlyTests::Implicit;
+        }
+    }
+    (shader, early_tests)
+}
+
+/// Returns the state of a draw. A disabled test always passes and writes nothing.
+fn of_depth_stencil(format: TextureFormat, draw: &Draw) -> Result<DepthStencil, Requirement> {
+    let depth = draw.depth;
+    Ok(DepthStencil {
+        format: Format::of(format)?,
+        depth_write: format.has_depth().then(|| depth.is_some_and(|d| d.write)),
+        depth_compare: depth.map_or(CompareFunction::Always, |d| d.compare),
+        stencil: draw.stencil.map(|mut stencil| {
+            stencil.front.reference = 0;
+            stencil.back.reference = 0;
+            stencil
+        }),
+        bias: match draw.topology {
+            // Only polygons have a bias, and WebGPU refuses it for other topologies (GPUDepthStencilState).
+            PrimitiveTopology::PointList
+            | PrimitiveTopology::LineList
+            | PrimitiveTopology::LineStrip => DepthBiasState::default(),
+            PrimitiveTopology::TriangleList
+            | PrimitiveTopology::TriangleStrip
+            | PrimitiveTopology::TriangleFan => DepthBiasState::of(draw.depth_bias),
+        },
+    })
+}
+
+fn primitive(draw: &Draw) -> Primitive {
+    let strips = [
+        PrimitiveTopology::LineStrip,
+        PrimitiveTopology::TriangleStrip,
+    ];
+    let indexed = draw.mesh.indices.is_some() && strips.contains(&draw.topology);
+    Primitive {
+        topology: draw.topology,
+        strip_index: indexed.then_some(draw.fetch.index),
+        front_face: draw.front_face,
+        cull: draw.cull,
+        unclipped_depth: draw.depth_clamp,
+    }
+}
+
+/// Returns the vertex buffers of a draw: if it has instances, their colours stand in a buffer of their own.
+fn vertex_buffers(shader: Shader, draw: &Draw) -> Vec<VertexBuffer> {
+    let instanced = draw.fetch.instances > 0;
+    let (apart, shared): (Vec<_>, Vec<_>) = attributes(shader)
+        .iter()
+        .copied()
+        .partition(|attribute| instanced && attribute.location == COLOR);
+    let mut buffers = vec![VertexBuffer {
+        stride: VERTEX_BYTES,
+        per_instance: false,
+        attributes: shared,
+    }];
+    if instanced {
+        buffers.push(VertexBuffer {
+            stride: size_of::<[f32; 4]>() as u64,
+            per_instance: true,
+            attributes: apart
+                .into_iter()
+                .map(|a| VertexAttribute::of(a.location, 0, a.floats))
+                .collect(),
+        });
+    }
+    buffers
+}
+
+/// Returns the vertex attributes that a shader reads. A validation layer warns of others.
+fn attributes(shader: Shader) -> &'static [VertexAttribute] {
+    const ALL: [VertexAttribute; 3] = [
+        VertexAttribute::of(0, 0, 4),
+        VertexAttribute::of(COLOR, 16, 4),
+        VertexAttribute::of(2, 32, 2),
+    ];
+    const TEXTURED: [VertexAttribute; 2] = [ALL[0], ALL[2]];
+    match shader {
+        Shader::ClipFlat | Shader::ClipUniform | Shader::EdgeAlpha => &ALL,
+        Shader::Centroid
+        | Shader::Fxaa
+        | Shader::SampledColor
+        | Shader::SampledDiscard
+        | Shader::SteppedLinear
+        | Shader::SteppedLinearCentroid
+        | Shader::SteppedLinearSample
+        | Shader::SteppedPerspective
+        | Shader::SteppedPerspectiveCentroid
+        | Shader::SteppedPerspectiveSample => &TEXTURED,
+        Shader::CountedDepth
+        | Shader::DualPeel
+        | Shader::ExpensiveColor
+        | Shader::ExpensiveDepth
+        | Shader::ExpensiveDiscard
+        | Shader::FlatColor
+        | Shader::FlatColorDepth
+        | Shader::FlatEither
+        | Shader::Fog
+        | Shader::FragCoordDepth
+        | Shader::LinearDepth
+        | Shader::ListAppend
+        | Shader::LogarithmicDepth
+        | Shader::MomentAbsorbance
+        | Shader::MomentTransmittance
+        | Shader::Peel
+        | Shader::Stochastic
+        | Shader::WeightedAccumulate => &ALL[..2],
+        Shader::CountedColor
+        | Shader::CountedDiscard
+        | Shader::DepthGrey
+        | Shader::DepthLinearized
+        | Shader::DepthRange
+        | Shader::ExportedColor
+        | Shader::ExportedDepth
+        | Shader::ExportedDiscard
+        | Shader::ExportedFacing
+        | Shader::ExportedSample
+        | Shader::FragCoordColor
+        | Shader::FrontFacing
+        | Shader::MaskedColor
+        | Shader::MaskedDepth
+        | Shader::MaskedDiscard
+        | Shader::MaskedSample
+        | Shader::ListCompose
+        | Shader::MomentResolve
+        | Shader::SampleDepth
+        | Shader::SampleIndex
+        | Shader::SteppedFragCoord
+        | Shader::TexelColor
+        | Shader::TexelColorAll
+        | Shader::TexelDiscard
+        | Shader::TexelDualSource
+        | Shader::UintColor
+        | Shader::UniformColor
+        | Shader::VertexOnly
+        | Shader::WeightedResolve => &ALL[..1],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The locations of a vertex entry point's arguments.
+    fn locations(wgsl: &str) -> Vec<u32> {
+        let (_, arguments) = wgsl.split_once("fn vs(").expect("a vertex entry point");
+        let (arguments, _) = arguments.split_once("->").expect("its result");
+        let parts = arguments.split("@location(").skip(1);
+        let number = |part: &str| part.split(')').next()?.parse().ok();
+        parts.filter_map(number).collect()
+    }
+
+    #[test]
+    fn attributes_are_those_that_the_shader_reads() {
+        for shader in Shader::ALL {
+            let given = attributes(*shader).iter();
+            let given: Vec<_> = given.map(|a| a.location).collect();
+            assert_eq!(given, locations(shader.wgsl()), "{}", shader.name());
+            for attribute in attributes(*shader) {
+                let offset = [0, 16, 32][attribute.location as usize];
+                assert_eq!(attribute.offset, offset, "{}", shader.name());
+            }
+        }
+    }
+}
