@@ -43,7 +43,7 @@ pub mod texture_usage {
 }
 
 /// A scene as WebGPU calls.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CallList {
     /// Shader modules.
     pub shaders: Vec<Shader>,

@@ -21,6 +21,8 @@ mod pipeline;
 mod read;
 mod reading;
 mod recording;
+#[cfg(test)]
+mod tests;
 mod texel;
 
 pub use calls::{

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 const SAMPLE_BYTES: usize = 16;
 
 /// The images and counters in a mapped buffer.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// The size of the buffer that is meant.
     pub bytes: u64,
