@@ -57,7 +57,7 @@ const TABLE: [(&str, &[&str], &[&str]); 27] = [
         ],
         &[],
     ),
-    ("bundle", &["backend", "frame"], &[]),
+    ("bundle", &["backend", "frame", "webgpu"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("dashboards", &["record"], &[]),
