@@ -252,7 +252,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
     const TEXTURED: [wgpu::VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
-        Shader::ClipFlat | Shader::ClipUniform | Shader::EdgeAlpha => &ALL,
+        Shader::ClipFlat | Shader::ClipUniform | Shader::CullFlat | Shader::EdgeAlpha => &ALL,
         Shader::Centroid
         | Shader::Fxaa
         | Shader::SampledColor
