@@ -5,10 +5,12 @@
 
 use crate::error::At;
 use etalon_frame::{
-    ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathStart, PathTarget, PathValue,
-    PathViewport, TextureFormat,
+    ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathLayers, PathStart, PathTarget,
+    PathValue, PathViewport, TextureFormat,
 };
-use etalon_scene::{Attachment, ClearTarget, ColorTarget, Contents, Draw, Pass, Scene, Shader};
+use etalon_scene::{
+    Attachment, ClearTarget, ColorTarget, Contents, Draw, Multisample, Pass, Scene, Shader, Vertex,
+};
 
 /// Checks that every value of a scene's path applies to something.
 pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
@@ -36,7 +38,24 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let draws = || scene.passes.iter().flat_map(|p| &p.draws);
     let made = || scene.on_path();
     let tessellated = draws().any(|d| d.tessellation.is_some());
+    let layered = || scene.layers() != PathLayers::One;
     let (applies, reason) = match value {
+        PathValue::Layers(_) => (
+            layered() && draws().next().is_some(),
+            "there is no draw, or one that counts, stores or is tessellated",
+        ),
+        PathValue::Target(_) if layered() => (false, "passes have layers"),
+        PathValue::Resolves(_) => (
+            !layered()
+                && scene.attachments.iter().all(has_two_values)
+                && scene.passes.iter().all(clears_to_two_values)
+                && draws().all(|d| writes_two_values(d) && fills_texels(d))
+                && scene
+                    .passes
+                    .iter()
+                    .any(|p| p.moved_resolves(&scene.path).next().is_some()),
+            "no color is resolved, passes have layers, or colors are others than 0 and 1 that fill texels",
+        ),
         // Only the last stage before rasterization chooses a viewport, and no restart parts patches.
         PathValue::Viewport(PathViewport::Array) | PathValue::Draws(PathDraws::Restart)
             if tessellated =>
@@ -48,7 +67,12 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             made().attachments != scene.attachments,
             "no attachment is drawn to first, from a clear value that is kept exactly",
         ),
-        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect | PathDraws::IndirectCount)
+        PathValue::Draws(
+            PathDraws::Direct
+            | PathDraws::Indirect
+            | PathDraws::IndirectCount
+            | PathDraws::IndirectBeside,
+        )
         | PathValue::State(_) => (draws().next().is_some(), "there is no draw"),
         PathValue::Draws(_) => {
             let called = |s: &Scene| -> Vec<_> {
@@ -89,6 +113,10 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             scene.attachments.iter().all(has_two_values)
                 && draws().all(writes_two_values)
                 && scene.passes.iter().all(clears_to_two_values)
+                && scene
+                    .passes
+                    .iter()
+                    .all(|p| p.resolve.iter().all(Option::is_none))
                 && any(&|i, a| read(i, a) && a.format.is_color()),
             "colors are others than 0 and 1, or none with a single sample are read back",
         ),
@@ -157,7 +185,35 @@ fn writes_two_values(draw: &Draw) -> bool {
         && draw.targets.iter().all(replaces)
 }
 
-/// True if a pass clears colors to zeros and ones, and resolves none.
+/// True if a draw fills whole texels, all samples of each: by a triangle far beyond its viewport.
+fn fills_texels(draw: &Draw) -> bool {
+    let corner = |vertex: &Vertex| {
+        let [x, y, _, w] = vertex.position;
+        [x / w, y / w]
+    };
+    let corners: Vec<[f32; 2]> = draw.mesh.vertices.iter().map(corner).collect();
+    let [a, b, c] = corners[..] else {
+        return false;
+    };
+    let side = |[from, to]: [[f32; 2]; 2], [x, y]: [f32; 2]| {
+        (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (x - from[0])
+    };
+    let far = [[-1.5, -1.5], [1.5, -1.5], [-1.5, 1.5], [1.5, 1.5]];
+    let edges = [[a, b], [b, c], [c, a]];
+    let within = |turn: f32| {
+        let mut pairs = edges
+            .iter()
+            .flat_map(|edge| far.map(|point| (*edge, point)));
+        pairs.all(|(edge, point)| turn * side(edge, point) > 0.0)
+    };
+    (within(1.0) || within(-1.0))
+        && draw.viewport.rect.iter().all(|side| side.fract() == 0.0)
+        && draw.multisample == Multisample::default()
+        && draw.depth.is_none()
+        && draw.stencil.is_none()
+}
+
+/// True if a pass clears colors to zeros and ones.
 fn clears_to_two_values(pass: &Pass) -> bool {
     let loads = (0..pass.color.len())
         .filter_map(|location| pass.color_operations(location).load.clear_value());
@@ -169,7 +225,6 @@ fn clears_to_two_values(pass: &Pass) -> bool {
         .chain(clears)
         .flatten()
         .all(|value| is_zero_or_one(&value))
-        && pass.resolve.iter().all(Option::is_none)
 }
 
 #[cfg(test)]

@@ -140,7 +140,7 @@ const GL: Lacks = Lacks {
 };
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
-        "advanced-blend advanced-blend-coherent depth-bias-clamp fragment-storage min-sample-shading \
+        "advanced-blend advanced-blend-coherent cull-distances depth-bias-clamp fragment-storage min-sample-shading \
         mirrored-viewport sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
@@ -172,7 +172,7 @@ const ES_SOFTPIPE: Lacks = Lacks {
 };
 
 const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one clear-commands \
-    clip-distance-mask fragment-shader-absent-with-color \
+    clip-distance-mask cull-distances fragment-shader-absent-with-color \
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
     depth-output-without-depth front-and-back-culling last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \

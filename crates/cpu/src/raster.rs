@@ -9,7 +9,7 @@ use crate::span::{Span, SpanState};
 use crate::steps::Steps;
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::{
-    Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, window_position,
+    Plain, Point, SnappedTriangle, front_facing, is_beyond, is_culled, signed_area, window_position,
 };
 use etalon_scene::{Draw, Interpolation, Pass, PolygonMode, PrimitiveVertices, Scene};
 
@@ -55,6 +55,9 @@ pub(crate) fn draw<S: Steps>(
     };
     let provoking = draw.provoking_vertices();
     for (primitive, provoking) in draw.primitives().into_iter().zip(provoking) {
+        if is_beyond(draw, primitive) {
+            continue;
+        }
         // The colour is flat.
         let color = vertices[provoking].color;
         let vertex = |i: usize| Vertex {

@@ -186,6 +186,8 @@ pub enum Rejection {
     NearFar,
     /// A clip distance clips it.
     ClipDistance,
+    /// All of its vertices have a negative cull distance.
+    CullDistance,
     /// Its face is culled.
     Culling,
     /// The scissor rectangle leaves the texel out.

@@ -27,6 +27,8 @@ state_enum! {
         ConservativeDepth = "conservative-depth",
         /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
         ConstantAlphaBlendFactor = "constant-alpha-blend-factor",
+        /// Shaders that discard primitives by distances of all their vertices.
+        CullDistances = "cull-distances",
         /// A limit on depth bias.
         DepthBiasClamp = "depth-bias-clamp",
         /// Rejecting fragments by the stored depth.

@@ -133,6 +133,8 @@ path_values! {
         Indirect = "indirect",
         /// Arguments from a buffer, and the number of draws from another place, less than the most that is stated.
         IndirectCount = "indirect-count",
+        /// Arguments from a buffer, while another one is bound for numbers of draws, which no call reads.
+        IndirectBeside = "indirect-beside",
         /// Lists as strips that the greatest index ends.
         Restart = "restart",
     }
@@ -190,6 +192,22 @@ path_values! {
         WithCount = "with-count",
         /// An array of which a shader names the second.
         Array = "array",
+    }
+    /// The layers of a pass.
+    Layers(PathLayers) = "layers" {
+        /// One.
+        One = "one",
+        /// Three: a shader names the layer, once the second and once the third, which are read in turns.
+        Written = "written",
+        /// Three, of which two are views: a draw reaches both, which are read in turns.
+        Multiview = "multiview",
+    }
+    /// The resolves of colors.
+    Resolves(PathResolves) = "resolves" {
+        /// With the pass.
+        Attached = "attached",
+        /// Commands behind the pass, each of a part that changes its place.
+        Moved = "moved",
     }
 }
 

@@ -1,6 +1,7 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::context::Context;
+use crate::pool::Target;
 use crate::surface::{Surface, upload};
 use etalon_frame::TextureFormat;
 use glow::HasContext;
@@ -9,6 +10,8 @@ pub(crate) struct Attachment {
     pub(crate) name: String,
     pub(crate) format: TextureFormat,
     pub(crate) surface: Surface,
+    /// The framebuffer of all layers, if passes have several.
+    pub(crate) layers: Option<Target>,
     /// The framebuffer of the last pass that draws to it, or its own, and its point there.
     pub(crate) drawn: (glow::Framebuffer, u32),
     pub(crate) initial: InitialContents,
@@ -24,6 +27,14 @@ pub(crate) enum InitialContents {
     DepthStencil(f32, u8),
 }
 
+impl Attachment {
+    /// Returns the framebuffer whose clears set the initial contents: of all layers, if passes have several.
+    fn cleared(&self) -> glow::Framebuffer {
+        let layers = self.layers.as_ref().map(|target| target.framebuffer);
+        layers.unwrap_or(self.surface.framebuffer)
+    }
+}
+
 /// Sets the initial contents of all attachments. Masks and scissor are open (`state::reset`).
 pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]) {
     let gl = &context.gl;
@@ -36,15 +47,15 @@ pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]
                 InitialContents::Uploaded => {}
                 InitialContents::Upload(bytes) => upload(context, format, surface, bytes),
                 InitialContents::Color(color) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
                 }
                 InitialContents::Integers(color) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
                 }
                 InitialContents::DepthStencil(depth, stencil) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     let stencil = i32::from(*stencil);
                     match (format.has_depth(), format.has_stencil()) {
                         (true, true) => {

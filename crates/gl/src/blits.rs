@@ -97,7 +97,7 @@ impl Reading<'_> {
             [surface] if !source.format.is_color() => (Vec::new(), Some(surface)),
             all => (all.iter().collect(), None),
         };
-        let target = self.pool.target(context, &color, depth_stencil)?;
+        let target = self.pool.target(context, &color, depth_stencil, false)?;
         state::reset(context);
         let value = PathValue::End(source.end);
         let missing = BackendError::NotSupported(Requirement::Path(value));

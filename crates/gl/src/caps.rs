@@ -6,6 +6,9 @@ use naga::back::glsl;
 /// The extension by which vertex shaders name a viewport.
 pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 
+/// The extensions by which vertex shaders name a layer.
+const VERTEX_LAYER: [&str; 2] = [SECOND_VIEWPORT, "GL_AMD_vertex_shader_layer"];
+
 /// The extension by which fragment shaders allow advanced blend equations.
 pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
 
@@ -50,6 +53,8 @@ pub(crate) struct Caps {
     pub(crate) early_tests: bool,
     /// Shaders have clip distances.
     pub(crate) clip_distances: bool,
+    /// Shaders have cull distances.
+    pub(crate) cull_distances: bool,
     /// The lines of a tessellation shader that name its extensions; `None` if there are none such.
     pub(crate) tessellation: Option<&'static str>,
     /// Shaders can declare conservative depth.
@@ -62,6 +67,8 @@ pub(crate) struct Caps {
     pub(crate) copy_image: bool,
     /// Vertex shaders name a viewport ([`SECOND_VIEWPORT`]).
     pub(crate) second_viewport: bool,
+    /// The extension by which vertex shaders name a layer; `None` without one.
+    pub(crate) vertex_layer: Option<&'static str>,
     /// `glInvalidateFramebuffer` exists.
     pub(crate) invalidate: bool,
     /// `GL_SAMPLES_PASSED` queries work.
@@ -134,6 +141,7 @@ impl Caps {
             conservative_depth: since((4, 2), NEVER)
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
+            cull_distances: since((4, 5), NEVER) || has("GL_EXT_clip_cull_distance"),
             clip_distances: !es || has("GL_EXT_clip_cull_distance"),
             tessellation: if since((4, 0), (3, 2)) {
                 Some("")
@@ -148,6 +156,7 @@ impl Caps {
             indirect: since((4, 0), (3, 1)) || (!es && has("GL_ARB_draw_indirect")),
             copy_image: since((4, 3), (3, 2)) || (!es && has("GL_ARB_copy_image")),
             second_viewport: !es && has(SECOND_VIEWPORT),
+            vertex_layer: VERTEX_LAYER.into_iter().find(|name| !es && has(name)),
             invalidate: since((4, 3), ALWAYS) || has("GL_ARB_invalidate_subdata"),
             // ES only has `GL_ANY_SAMPLES_PASSED`.
             samples_passed: !es,

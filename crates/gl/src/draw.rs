@@ -6,9 +6,12 @@ use crate::context::Context;
 use crate::pool::Target;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
 use crate::query::Query;
+use crate::read::spoil;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
 use crate::vertices::{self, Arguments, Fetched};
+use etalon_backend::Blits;
+use etalon_frame::{Aspect, PathEnd};
 use glow::HasContext;
 
 const PARAMETER_BUFFER: u32 = 0x80EE;
@@ -21,6 +24,8 @@ pub(crate) struct Inputs {
     pub(crate) params: Option<(glow::Buffer, usize)>,
     /// The arguments of indirect draws.
     pub(crate) arguments: Option<(glow::Buffer, usize)>,
+    /// The zeros that are bound as numbers of draws, beside calls that read none.
+    pub(crate) zeros: Option<(glow::Buffer, usize)>,
     /// The storage buffer that shaders count in.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
     /// The scene's pool.
@@ -35,6 +40,7 @@ impl Inputs {
             self.indices,
             self.params,
             self.arguments,
+            self.zeros,
             self.runs,
             self.pool,
         ];
@@ -54,11 +60,22 @@ pub(crate) struct Pass {
     /// The attachment points that are discarded at the end.
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
-    pub(crate) resolves: Vec<(usize, usize)>,
+    pub(crate) resolves: Vec<Resolve>,
+}
+
+/// The resolve of an attachment.
+pub(crate) struct Resolve {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    /// The surface that parts are resolved to, each to another place, and moved from; `None` if the attachment is resolved
+    /// at once.
+    pub(crate) between: Option<Surface>,
 }
 
 pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
+    /// The program of another draw, the same to the other of two layers.
+    pub(crate) again: Option<glow::Program>,
     pub(crate) state: DrawState,
     /// State that is set before the draw's own.
     pub(crate) other: Option<DrawState>,
@@ -135,11 +152,14 @@ pub(crate) fn draw_all(
             clear.apply(context);
             set = None;
         }
-        for (from, to) in &pass.resolves {
+        for Resolve { from, to, between } in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
                 // Blits are subject to the scissor test.
                 state::reset(context);
-                resolve(context, &from.surface, &to.surface);
+                match between {
+                    None => resolve(context, &from.surface, &to.surface),
+                    Some(between) => move_resolved(context, from, between, to),
+                }
                 closed = true;
             }
         }
@@ -195,15 +215,24 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
             gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
         }
         let place = arguments.map(|(place, _)| place);
-        // Mesa takes numbers of draws from a bound buffer for all indirect draws.
         let counted = place.is_some_and(Arguments::is_counted);
-        if let (true, Some((_, (buffer, _)))) = (counted, arguments) {
+        let numbers = if counted {
+            inputs.arguments
+        } else {
+            inputs.zeros
+        };
+        if let Some((buffer, _)) = numbers.filter(|_| place.is_some()) {
             gl.bind_buffer(PARAMETER_BUFFER, Some(buffer));
         }
         draw.state.begin_advanced(context);
         draw.fetched.draw(context, draw.mode, place);
+        if let Some(again) = draw.again {
+            gl.use_program(Some(again));
+            draw.fetched.draw(context, draw.mode, place);
+        }
         draw.state.end_advanced(context);
-        if counted {
+        if numbers.is_some() {
+            // Mesa takes numbers of draws from a bound buffer for all indirect draws.
             gl.bind_buffer(PARAMETER_BUFFER, None);
         }
         for query in &draw.queries {
@@ -229,5 +258,57 @@ fn resolve(context: &Context, from: &Surface, to: &Surface) {
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
         let (mask, filter) = (glow::COLOR_BUFFER_BIT, glow::NEAREST);
         gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, filter);
+    }
+}
+
+/// Resolves the parts of a color attachment to other places of a surface, and copies each to its place in an attachment.
+fn move_resolved(context: &Context, from: &Attachment, between: &Surface, to: &Attachment) {
+    let pieces = Blits::new(PathEnd::BlitPart, to.surface.size());
+    let pieces = pieces.map(|blits| blits.pieces(Aspect::Color));
+    let pieces = pieces.unwrap_or_default();
+    // What a resolve that is lost leaves behind is seen.
+    spoil(context, to.format, between);
+    for piece in &pieces {
+        let (source, target) = (&from.surface, between);
+        copy_part(
+            context,
+            (source, piece.to),
+            (target, piece.from),
+            piece.size,
+        );
+    }
+    for piece in &pieces {
+        let (source, target) = (between, &to.surface);
+        copy_part(
+            context,
+            (source, piece.from),
+            (target, piece.to),
+            piece.size,
+        );
+    }
+}
+
+/// Copies the colors of a part of a surface to a place of another.
+fn copy_part(
+    context: &Context,
+    (from, start): (&Surface, [u32; 2]),
+    (to, place): (&Surface, [u32; 2]),
+    size: [u32; 2],
+) {
+    let gl = &context.gl;
+    let corners = |[x, y]: [u32; 2]| {
+        let number = |place: u32| place as i32;
+        [x, y, x + size[0], y + size[1]].map(number)
+    };
+    let ([left, top, right, bottom], [to_left, to_top, to_right, to_bottom]) =
+        (corners(start), corners(place));
+    // SAFETY: the context is current and the framebuffers are its own.
+    unsafe {
+        gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
+        gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
+        let (mask, filter) = (glow::COLOR_BUFFER_BIT, glow::NEAREST);
+        gl.blit_framebuffer(
+            left, top, right, bottom, to_left, to_top, to_right, to_bottom, mask, filter,
+        );
     }
 }

@@ -9,6 +9,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let (caps, entry_points) = (&context.caps, &context.entry_points);
     let known = |feature: &Feature| match feature {
         Feature::ClipDistances | Feature::ClipDistanceMask => caps.clip_distances,
+        Feature::CullDistances => caps.cull_distances,
         // Part of version 3.
         Feature::CentroidInterpolation
         | Feature::ClearCommands

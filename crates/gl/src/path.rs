@@ -7,7 +7,7 @@ use crate::context::Context;
 use crate::support::{ReadPlan, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
-    PathPass, PathState, PathTarget, PathValue, PathViewport,
+    PathLayers, PathPass, PathResolves, PathState, PathTarget, PathValue, PathViewport,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
@@ -27,7 +27,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         }
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => caps.indirect,
-        PathValue::Draws(PathDraws::IndirectCount) => {
+        PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => {
             context.entry_points.draw_arrays_indirect_count.is_some()
         }
         PathValue::Draws(_) => true,
@@ -39,6 +39,9 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Clears(PathClears::Undefined) => caps.invalidate,
         PathValue::Viewport(PathViewport::Array) => arrays && caps.second_viewport,
         PathValue::Viewport(_) => arrays,
+        PathValue::Layers(PathLayers::Written) => caps.vertex_layer.is_some(),
+        // Several samples are resolved in their places in ES (OpenGL ES 3.2, 16.2.1).
+        PathValue::Resolves(PathResolves::Moved) => !caps.es,
         // OpenGL has neither passes with objects, nor pipelines, nor command buffers, nor render areas.
         PathValue::Pass(
             PathPass::DynamicRendering | PathPass::RenderPass | PathPass::SecondSubpass,
@@ -53,7 +56,9 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
         | PathValue::Area(PathArea::Full | PathArea::Part)
         | PathValue::Clears(PathClears::Each)
-        | PathValue::Clip(PathClip::Constant) => false,
+        | PathValue::Clip(PathClip::Constant)
+        | PathValue::Layers(PathLayers::One | PathLayers::Multiview)
+        | PathValue::Resolves(PathResolves::Attached) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
 }
@@ -88,6 +93,30 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
     } else {
         PathTarget::Plain
     }
+}
+
+/// The layers that are drawn to where passes have three, one of which is read.
+pub(crate) const DRAWN_LAYERS: [u8; 2] = [1, 2];
+
+/// True if passes draw to several layers: a layer is another one for shaders that read it, and of several samples only
+/// textures with one layer promise positions.
+pub(crate) fn is_layered(scene: &Scene) -> bool {
+    let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
+    let fetched = draws.any(|d| d.textures.iter().any(|index| is_drawn(scene, *index)));
+    let mut attachments = scene.attachments.iter();
+    scene.layers() == PathLayers::Written && !fetched && attachments.all(|a| a.samples == 1)
+}
+
+/// True if a pass draws to an attachment.
+fn is_drawn(scene: &Scene, index: usize) -> bool {
+    let mut passes = scene.passes.iter();
+    passes.any(|p| p.color.contains(&index) || p.depth_stencil == Some(index))
+}
+
+/// Returns the layer that is read of an attachment whose passes have several. They are read in turns.
+pub(crate) fn layer(scene: &Scene, index: usize) -> Option<u8> {
+    let layered = is_layered(scene) && is_drawn(scene, index);
+    layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])
 }
 
 fn by_shader(plan: ReadPlan) -> bool {
@@ -131,6 +160,8 @@ pub(crate) struct Variant {
     pub(crate) mirrored: bool,
     /// The shader names the second viewport.
     pub(crate) second_viewport: bool,
+    /// The layer that the shader names, if it names one.
+    pub(crate) layer: Option<u8>,
 }
 
 /// Returns the variant of a pass's n-th draw. Every second one takes the other origin, where it changes.
@@ -138,6 +169,7 @@ pub(crate) fn variant(path: &Path, number: usize) -> Variant {
     Variant {
         mirrored: path.clip == PathClip::Toggled && number % 2 == 1,
         second_viewport: path.viewport == PathViewport::Array,
+        layer: None,
     }
 }
 

@@ -6,8 +6,9 @@
 
 use etalon_backend::{CallFault, DrawNumbers, Fault, FaultyCalls};
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::ffi::{CStr, c_void};
-use std::ptr;
+use std::{ptr, slice};
 
 thread_local! {
     static PLANTED: RefCell<Option<Planted>> = const { RefCell::new(None) };
@@ -24,6 +25,14 @@ struct Planted {
     blits: u32,
     /// The framebuffer that is drawn to.
     framebuffer: u32,
+    /// The framebuffer that is read from.
+    source: u32,
+    /// The framebuffers of layers.
+    layered: HashSet<u32>,
+    /// The framebuffers of several samples.
+    multisampled: HashSet<u32>,
+    /// True behind a clear of the framebuffer that is drawn to.
+    cleared: bool,
     /// The buffer that is read.
     read: u32,
     /// True before the first clear behind what leaves contents undefined.
@@ -163,12 +172,29 @@ functions! {
         }
     }
     before glFramebufferTexture2D(target: u32, point: u32, image: u32, texture: u32, level: i32) |planted| {
+        if image == glow::TEXTURE_2D_MULTISAMPLE {
+            planted.multisampled.insert(planted.framebuffer);
+        }
         let faces = glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z;
         if planted.calls.has(CallFault::FaceDropped) && faces.contains(&image) {
             image = glow::TEXTURE_CUBE_MAP_POSITIVE_X;
         }
         if planted.calls.has(CallFault::LevelDropped) {
             level = 0;
+        }
+    }
+    before glFramebufferTexture(target: u32, point: u32, texture: u32, level: i32) |planted| {
+        planted.layered.insert(planted.framebuffer);
+    }
+    before glShaderSource(shader: u32, count: i32, strings: *const Pointer, lengths: *const i32) |planted| {
+        let text: String;
+        let (start, length): (Pointer, i32);
+        if planted.calls.has(CallFault::LayerUnwritten) && count == 1 && !lengths.is_null() {
+            // SAFETY: the string has this length.
+            let bytes = unsafe { slice::from_raw_parts((*strings).cast::<u8>(), *lengths as usize) };
+            text = String::from_utf8_lossy(bytes).replace("gl_Layer = ", "gl_Layer = 0 * ");
+            (start, length) = (text.as_ptr().cast(), text.len() as i32);
+            (strings, lengths) = (&start, &length);
         }
     }
     before glReadBuffer(buffer: u32) |planted| {
@@ -181,7 +207,7 @@ functions! {
     }
     before glScissorArrayv(first: u32, count: i32, rectangles: *const i32) |planted| {
         let both: [[i32; 4]; 2];
-        if planted.calls.has(CallFault::ScissorFirst) && count == 2 {
+        if planted.calls.has(CallFault::ScissorFirst) && count == 2 && planted.cleared {
             // SAFETY: a rectangle has four components.
             both = [unsafe { *rectangles.cast::<[i32; 4]>() }; 2];
             rectangles = both.as_ptr().cast();
@@ -190,7 +216,7 @@ functions! {
     before glColorMask(r: u8, g: u8, b: u8, a: u8) |planted| {}
     before glDrawBuffers(count: i32, buffers: *const u32) |planted| {
         // SAFETY: there are so many.
-        let mut all = unsafe { std::slice::from_raw_parts(buffers, count as usize) }.to_vec();
+        let mut all = unsafe { slice::from_raw_parts(buffers, count as usize) }.to_vec();
         if planted.calls.has(CallFault::ClearAllBuffers) && count > 1 {
             for (buffer, point) in all.iter_mut().zip(glow::COLOR_ATTACHMENT0..) {
                 *buffer = point;
@@ -233,6 +259,10 @@ functions! {
         }
         if target != glow::READ_FRAMEBUFFER {
             planted.framebuffer = framebuffer;
+            planted.cleared = false;
+        }
+        if target != glow::DRAW_FRAMEBUFFER {
+            planted.source = framebuffer;
         }
         if target == glow::FRAMEBUFFER {
             planted.calls.draws = 0;
@@ -298,8 +328,12 @@ functions! {
             (to_x0, to_y0) = (0, 0);
         }
         let alone = [glow::DEPTH_BUFFER_BIT, glow::STENCIL_BUFFER_BIT].contains(&mask);
-        if planted.calls.has(CallFault::BlitAspectAlone) && alone {
+        let moves = [x0, y0] != [to_x0, to_y0];
+        if planted.calls.has(CallFault::BlitAspectAlone) && alone && moves {
             return;
+        }
+        if planted.calls.has(CallFault::ResolvePlace) && planted.multisampled.contains(&planted.source) {
+            [to_x0, to_y0, to_x1, to_y1] = [x0, y0, x1, y1];
         }
     }
     instead glBeginQuery(target: u32, query: u32) |planted| {
@@ -475,6 +509,11 @@ impl Planted {
         if color.is_some_and(|color| self.calls.skips_equal_clear(image, color)) {
             return;
         }
+        // What is read is another layer, or is cleared there too.
+        if self.calls.has(CallFault::ClearFirstLayer) && self.layered.contains(&self.framebuffer) {
+            return;
+        }
+        self.cleared = true;
         let unbounded = self.calls.has(CallFault::ClearRect) && self.calls.scissor_on;
         if unbounded {
             driver!(self.driver, glDisable(glow::SCISSOR_TEST));

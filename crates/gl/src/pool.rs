@@ -23,7 +23,7 @@ pub(crate) struct Target {
     key: TargetKey,
 }
 
-type TargetKey = (Vec<u64>, Option<u64>);
+type TargetKey = (Vec<u64>, Option<u64>, bool);
 
 /// Unused objects.
 #[derive(Default)]
@@ -85,17 +85,19 @@ impl Pool {
         }
     }
 
-    /// Returns a framebuffer of these surfaces; `None` if the driver does not support the
+    /// Returns a framebuffer of these surfaces, of all layers of each if it is `layered`; `None` if the driver does not support the
     /// combination.
     pub(crate) fn target(
         &mut self,
         context: &Context,
         color: &[&Surface],
         depth_stencil: Option<&Surface>,
+        layered: bool,
     ) -> Result<Option<Target>, BackendError> {
         let key = (
             color.iter().map(|s| s.id).collect::<Vec<_>>(),
             depth_stencil.map(|s| s.id),
+            layered,
         );
         if let Some(framebuffer) = self.targets.get_mut(&key).and_then(Vec::pop) {
             return Ok(Some(Target { framebuffer, key }));
@@ -107,7 +109,7 @@ impl Pool {
         if let Some(surface) = depth_stencil {
             attachments.push((surface.storage, surface.attachment));
         }
-        let (framebuffer, status) = framebuffer(context, &attachments)?;
+        let (framebuffer, status) = framebuffer(context, &attachments, layered)?;
         if status == glow::FRAMEBUFFER_COMPLETE {
             return Ok(Some(Target { framebuffer, key }));
         }

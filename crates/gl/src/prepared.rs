@@ -5,10 +5,10 @@ use crate::clear::{self, ClearCall};
 use crate::codes;
 use crate::context::Context;
 use crate::counters::{self, Counters};
-use crate::draw::{self, DrawCall, Inputs, Pass};
+use crate::draw::{self, DrawCall, Inputs, Pass, Resolve};
 use crate::enums::topology;
 use crate::objects::Objects;
-use crate::path;
+use crate::path::{self, Variant};
 use crate::pool::Pool;
 use crate::program::FragmentForm;
 use crate::read::{Reading, Source};
@@ -92,8 +92,14 @@ impl<'a> PreparedScene<'a> {
             };
             let drawn = scene.passes.iter().any(is_drawn);
             let support = self.objects.formats.get(&attachment.format);
-            let target = path::target(scene, index, support);
-            self.attachment(&mut pool, attachment, target, drawn)?;
+            let kind = match path::layer(scene, index) {
+                Some(layer) => SurfaceKind::Layered(attachment.format, layer),
+                None => {
+                    let target = path::target(scene, index, support);
+                    SurfaceKind::Attachment(attachment.format, attachment.samples, target)
+                }
+            };
+            self.attachment(&mut pool, attachment, kind, drawn)?;
         }
         let mut unused = Unused {
             places: self.buffers(&mut pool, scene)?.into_iter(),
@@ -101,7 +107,7 @@ impl<'a> PreparedScene<'a> {
             params: 0,
         };
         for pass in &scene.passes {
-            self.pass(&mut pool, pass, &mut unused)?;
+            self.pass(&mut pool, pass, path::is_layered(scene), &mut unused)?;
         }
         Ok(())
     }
@@ -110,12 +116,11 @@ impl<'a> PreparedScene<'a> {
         &mut self,
         pool: &mut Pool,
         attachment: &etalon_scene::Attachment,
-        target: PathTarget,
+        kind: SurfaceKind,
         drawn: bool,
     ) -> Result<(), BackendError> {
         let context = self.context;
         let format = attachment.format;
-        let kind = SurfaceKind::Attachment(format, attachment.samples, target);
         let surface = pool.surface(context, kind, attachment.size)?;
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
@@ -147,17 +152,32 @@ impl<'a> PreparedScene<'a> {
             }
             initial => initial,
         };
+        let layers = if let SurfaceKind::Layered(..) = kind {
+            let (color, depth_stencil) = if format.is_color() {
+                (vec![&surface], None)
+            } else {
+                (Vec::new(), Some(&surface))
+            };
+            pool.target(context, &color, depth_stencil, true)?
+        } else {
+            None
+        };
+        let complete = complete && (layers.is_some() || !matches!(kind, SurfaceKind::Layered(..)));
         self.attachments.push(Attachment {
             name: attachment.name.clone(),
             format,
             drawn: (surface.framebuffer, surface.attachment),
             surface,
+            layers,
             initial,
         });
         if !complete && (drawn || format != TextureFormat::Rgba32Float) {
-            let requirement = match target {
-                PathTarget::Plain => Requirement::Format(format),
-                target => Requirement::Path(PathValue::Target(target)),
+            let requirement = match kind {
+                SurfaceKind::Layered(..) => Requirement::Path(PathValue::Layers(self.path.layers)),
+                kind => match kind.target() {
+                    PathTarget::Plain => Requirement::Format(format),
+                    target => Requirement::Path(PathValue::Target(target)),
+                },
             };
             return Err(BackendError::NotSupported(requirement));
         }
@@ -177,8 +197,10 @@ impl<'a> PreparedScene<'a> {
         let mut params = Vec::new();
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
             let fetched = geometry.place(draw);
-            let counted = scene.path.draws == PathDraws::IndirectCount;
-            let indirect = counted || scene.path.draws == PathDraws::Indirect;
+            let draws = scene.path.draws;
+            let counted = draws == PathDraws::IndirectCount;
+            let beside = draws == PathDraws::IndirectBeside;
+            let indirect = counted || beside || draws == PathDraws::Indirect;
             let arguments = indirect.then(|| geometry.place_arguments(&fetched, counted));
             places.push((fetched, arguments));
             if draw.shader.uses_params() {
@@ -200,6 +222,10 @@ impl<'a> PreparedScene<'a> {
             indices: buffer(&geometry.indices)?,
             params: buffer(&params)?,
             arguments: buffer(&geometry.arguments)?,
+            zeros: match scene.path.draws {
+                PathDraws::IndirectBeside => buffer(&[0; 16])?,
+                _ => None,
+            },
             runs: buffer(&vec![0; self.counters.storage_size()])?,
             pool: match scene.pool {
                 Some(pool) => buffer(&vec![0; pool.bytes() as usize])?,
@@ -213,6 +239,7 @@ impl<'a> PreparedScene<'a> {
         &mut self,
         pool: &mut Pool,
         pass: &etalon_scene::Pass,
+        layered: bool,
         unused: &mut Unused,
     ) -> Result<(), BackendError> {
         let context = self.context;
@@ -232,15 +259,23 @@ impl<'a> PreparedScene<'a> {
         };
         let format = any.format;
         let mut resolves = Vec::new();
-        for (from, to) in pass.color.iter().zip(&pass.resolve) {
-            if let Some(to) = to {
-                attachment(*to)?;
-                resolves.push((*from, *to));
-            }
+        let moved: Vec<usize> = pass.moved_resolves(&self.path).map(|(l, _)| l).collect();
+        for (location, (from, to)) in pass.color.iter().zip(&pass.resolve).enumerate() {
+            let (from, Some(to)) = (*from, *to) else {
+                continue;
+            };
+            let surface = &attachment(to)?.surface;
+            let between = moved.contains(&location);
+            let between = between.then(|| pool.surface(context, surface.kind, surface.size()));
+            resolves.push(Resolve {
+                from,
+                to,
+                between: between.transpose()?,
+            });
         }
         let surfaces: Vec<&Surface> = color.iter().map(|a| &a.surface).collect();
         let target = pool
-            .target(context, &surfaces, depth.map(|a| &a.surface))?
+            .target(context, &surfaces, depth.map(|a| &a.surface), layered)?
             .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;
         let integers: Vec<bool> = color.iter().map(|a| a.format.is_integer()).collect();
         let packed = depth.is_some_and(|a| a.format.has_depth() && a.format.has_stencil());
@@ -248,13 +283,16 @@ impl<'a> PreparedScene<'a> {
         let mut draws = Vec::new();
         for draw in &pass.draws {
             // On error the target is not returned to the pool; it is deleted with the context.
-            draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, unused)?);
+            draws.push(self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?);
         }
-        for (index, point) in pass.color.iter().zip(glow::COLOR_ATTACHMENT0..) {
-            self.attachments[*index].drawn = (target.framebuffer, point);
-        }
-        if let Some(index) = pass.depth_stencil {
-            self.attachments[index].drawn.0 = target.framebuffer;
+        // Of a framebuffer of layers, reads take the first.
+        if !layered {
+            for (index, point) in pass.color.iter().zip(glow::COLOR_ATTACHMENT0..) {
+                self.attachments[*index].drawn = (target.framebuffer, point);
+            }
+            if let Some(index) = pass.depth_stencil {
+                self.attachments[index].drawn.0 = target.framebuffer;
+            }
         }
         self.passes.push(Pass {
             target,
@@ -272,7 +310,7 @@ impl<'a> PreparedScene<'a> {
         &mut self,
         pool: &mut Pool,
         draw: &Draw,
-        read_only: bool,
+        (read_only, layered): (bool, bool),
         unused: &mut Unused,
     ) -> Result<DrawCall, BackendError> {
         let context = self.context;
@@ -292,17 +330,23 @@ impl<'a> PreparedScene<'a> {
             })
             .collect::<Result<_, _>>()?;
         let sampler = draw.sampler.map(|sampler| pool.sampler(context, sampler));
+        let form = FragmentForm {
+            tests: draw.early_tests,
+            blend: draw.targets.iter().find_map(|t| t.advanced),
+        };
+        let program = |layer| {
+            let mut programs = self.objects.programs.borrow_mut();
+            let variant = Variant { layer, ..variant };
+            programs.shader(context, draw.shader, form, variant, draw.tessellation)
+        };
+        let [again, layer] = if layered {
+            path::DRAWN_LAYERS.map(Some)
+        } else {
+            [None; 2]
+        };
         let call = DrawCall {
-            program: self.objects.programs.borrow_mut().shader(
-                context,
-                draw.shader,
-                FragmentForm {
-                    tests: draw.early_tests,
-                    blend: draw.targets.iter().find_map(|t| t.advanced),
-                },
-                variant,
-                draw.tessellation,
-            )?,
+            program: program(layer)?,
+            again: again.map(|_| program(again)).transpose()?,
             state: DrawState::new(context, draw, read_only, &self.path, variant)?,
             other: match self.path.state {
                 PathState::Overwritten => {
@@ -472,8 +516,22 @@ impl Drop for PreparedScene<'_> {
             } else {
                 pass.target.delete(context);
             }
+            for between in pass.resolves.into_iter().filter_map(|r| r.between) {
+                if self.reusable {
+                    pool.put_surface(context, between);
+                } else {
+                    between.delete(context);
+                }
+            }
         }
         for attachment in self.attachments.drain(..) {
+            if let Some(layers) = attachment.layers {
+                if self.reusable {
+                    pool.put_target(context, layers);
+                } else {
+                    layers.delete(context);
+                }
+            }
             if self.reusable {
                 pool.put_surface(context, attachment.surface);
             } else {

@@ -81,6 +81,7 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
             (Shader::ClipFlat, EarlyTests::Implicit),
             (Shader::ClipUniform, EarlyTests::Implicit),
         ],
+        Feature::CullDistances => &[(Shader::CullFlat, EarlyTests::Implicit)],
         Feature::ConservativeDepth => &[
             (shader, EarlyTests::GreaterEqual),
             (shader, EarlyTests::LessEqual),

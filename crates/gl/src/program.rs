@@ -87,7 +87,7 @@ impl Programs {
         }
         let fail = |message: String| BackendError::shader(shader.name(), message);
         let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
-        let vertex = varied(translated.vertex, variant);
+        let vertex = varied(context, translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
         let fragment = translated.fragment.map(|text| match form.blend {
             Some(mode) => allowing(context, &text, mode),
@@ -192,7 +192,7 @@ fn patches(context: &Context, order: FrontFace) -> [(u32, String); 2] {
 }
 
 /// Returns a vertex shader in the form that a draw's path asks for.
-fn varied(vertex: String, variant: Variant) -> String {
+fn varied(context: &Context, vertex: String, variant: Variant) -> String {
     let Some((head, body)) = vertex.split_once('\n') else {
         return vertex;
     };
@@ -200,8 +200,10 @@ fn varied(vertex: String, variant: Variant) -> String {
         return vertex;
     }
     let mut made = format!("{head}\n");
-    if variant.second_viewport {
-        made += &format!("#extension {SECOND_VIEWPORT} : require\n");
+    let viewport = variant.second_viewport.then_some(SECOND_VIEWPORT);
+    let layer = variant.layer.and(context.caps.vertex_layer);
+    for extension in viewport.into_iter().chain(layer) {
+        made += &format!("#extension {extension} : require\n");
     }
     made += &format!("#define main drawn\n{body}\n#undef main\nvoid main() {{\ndrawn();\n");
     if variant.mirrored {
@@ -209,6 +211,9 @@ fn varied(vertex: String, variant: Variant) -> String {
     }
     if variant.second_viewport {
         made += "gl_ViewportIndex = 1;\n";
+    }
+    if let Some(layer) = variant.layer {
+        made += &format!("gl_Layer = {layer};\n");
     }
     made + "}\n"
 }
@@ -264,6 +269,12 @@ impl Translated {
             textures: Vec::new(),
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
+        if shader.cull_distances() > 0 {
+            // WGSL has no word for them.
+            translated.vertex = translated
+                .vertex
+                .replace("gl_ClipDistance", "gl_CullDistance");
+        }
         if !shader.has_fragment() {
             return Ok(translated);
         }

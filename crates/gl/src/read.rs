@@ -274,7 +274,7 @@ impl Reading<'_> {
             ));
         }
         state::reset(context);
-        let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, ..) if f.has_stencil());
+        let has_stencil = surface.kind.format().is_some_and(|f| f.has_stencil());
         let set_mode = |mode: u32| {
             if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
                 // SAFETY: the texture is bound and the context has the parameter.

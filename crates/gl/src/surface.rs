@@ -3,6 +3,7 @@
 use crate::codes;
 use crate::context::Context;
 use crate::format::{GlFormat, gl_format};
+use crate::path::DRAWN_LAYERS;
 use etalon_backend::BackendError;
 use etalon_frame::{PathTarget, PathValue, Requirement, TextureFormat};
 use glow::HasContext;
@@ -13,6 +14,8 @@ use std::cell::Cell;
 pub(crate) enum SurfaceKind {
     /// A scene's attachment with this many samples per texel, and the part of a texture that it is.
     Attachment(TextureFormat, u32, PathTarget),
+    /// An attachment of three layers, and the one that is read.
+    Layered(TextureFormat, u8),
     /// The target of read-back shaders: four 32-bit unsigned integers per texel.
     Fetched,
 }
@@ -20,7 +23,7 @@ pub(crate) enum SurfaceKind {
 impl SurfaceKind {
     fn gl(self) -> Result<GlFormat, BackendError> {
         match self {
-            Self::Attachment(format, ..) => {
+            Self::Attachment(format, ..) | Self::Layered(format, _) => {
                 gl_format(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
             }
             Self::Fetched => Ok(GlFormat {
@@ -35,7 +38,7 @@ impl SurfaceKind {
     fn samples(self) -> u32 {
         match self {
             Self::Attachment(_, samples, _) => samples,
-            Self::Fetched => 1,
+            Self::Layered(..) | Self::Fetched => 1,
         }
     }
 
@@ -46,6 +49,7 @@ impl SurfaceKind {
                 codes::texel_bytes(format) as u64 * u64::from(samples)
             }
             Self::Attachment(_, samples, _) => 8 * u64::from(samples),
+            Self::Layered(format, _) => 3 * Self::Attachment(format, 1, PathTarget::Plain).bytes(),
             Self::Fetched => 16,
         }
     }
@@ -54,7 +58,16 @@ impl SurfaceKind {
     pub(crate) fn target(self) -> PathTarget {
         match self {
             Self::Attachment(_, _, target) => target,
+            Self::Layered(..) => PathTarget::ArrayLayer,
             Self::Fetched => PathTarget::Plain,
+        }
+    }
+
+    /// Returns the format of an attachment.
+    pub(crate) fn format(self) -> Option<TextureFormat> {
+        match self {
+            Self::Attachment(format, ..) | Self::Layered(format, _) => Some(format),
+            Self::Fetched => None,
         }
     }
 }
@@ -130,7 +143,7 @@ impl Surface {
     ) -> Result<Self, BackendError> {
         let format = kind.gl()?;
         let samples = kind.samples();
-        let stencil_only = matches!(kind, SurfaceKind::Attachment(TextureFormat::Stencil8, ..));
+        let stencil_only = kind.format() == Some(TextureFormat::Stencil8);
         // A shader reads stencil in ES and if multisampled, which takes a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
         let storage = match kind.target() {
@@ -141,7 +154,14 @@ impl Surface {
             }
             target => texture(context, format, size, target)?,
         };
-        let (framebuffer, status) = framebuffer(context, &[(storage, format.attachment)])?;
+        let storage = match (kind, storage) {
+            (SurfaceKind::Layered(_, layer), Storage::Texture(part)) => {
+                let layer = i32::from(layer);
+                Storage::Texture(Part { layer, ..part })
+            }
+            _ => storage,
+        };
+        let (framebuffer, status) = framebuffer(context, &[(storage, format.attachment)], false)?;
         let id = NEXT_ID.with(|next| next.replace(next.get() + 1));
         Ok(Self {
             storage,
@@ -395,22 +415,30 @@ pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(part.binding, Some(part.texture));
         let texels = glow::PixelUnpackData::Slice(Some(bytes));
-        let (image, level, layer) = (part.image(), part.level, part.layer);
+        let (image, level) = (part.image(), part.level);
         let (kind, format) = (words.kind, words.format);
-        if part.is_deep() {
+        if !part.is_deep() {
+            gl.tex_sub_image_2d(image, level, 0, 0, width, height, format, kind, texels);
+            return;
+        }
+        let layers = match surface.kind {
+            SurfaceKind::Layered(..) => DRAWN_LAYERS.map(i32::from).to_vec(),
+            _ => vec![part.layer],
+        };
+        for layer in layers {
+            let texels = glow::PixelUnpackData::Slice(Some(bytes));
             gl.tex_sub_image_3d(
                 image, level, 0, 0, layer, width, height, 1, format, kind, texels,
             );
-        } else {
-            gl.tex_sub_image_2d(image, level, 0, 0, width, height, format, kind, texels);
         }
     }
 }
 
-/// Creates a framebuffer, leaves it bound, and returns its status.
+/// Creates a framebuffer, of all layers if it is `layered`, leaves it bound, and returns its status.
 pub(crate) fn framebuffer(
     context: &Context,
     attachments: &[(Storage, u32)],
+    layered: bool,
 ) -> Result<(glow::Framebuffer, u32), BackendError> {
     let gl = &context.gl;
     // SAFETY: the context is current and the attachments are its own.
@@ -422,6 +450,12 @@ pub(crate) fn framebuffer(
         let mut buffers = Vec::new();
         for (storage, point) in attachments {
             match storage {
+                Storage::Texture(part) if layered => gl.framebuffer_texture(
+                    glow::FRAMEBUFFER,
+                    *point,
+                    Some(part.texture),
+                    part.level,
+                ),
                 Storage::Texture(part) if part.is_deep() => gl.framebuffer_texture_layer(
                     glow::FRAMEBUFFER,
                     *point,

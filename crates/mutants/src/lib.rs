@@ -20,6 +20,7 @@ mod clipping;
 mod combinations;
 mod counter;
 mod cull;
+mod cull_distance;
 mod depth;
 mod depth_range;
 mod discard;
@@ -78,7 +79,7 @@ const CLASSES: &[Class] = &[
     blend::precision::add, blend::advanced::add, mask::add, formats::add, targets::add, dual_source::add,
     logic::add, cull::add, topology::add, tessellation::add, provoking::add, samples::add,
     sample_shading::add, sample_coverage::add, resolve::add, scissor::add, viewport::add,
-    clip_distance::add, clipping::add, interpolation::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
+    clip_distance::add, cull_distance::add, clipping::add, interpolation::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
     hierarchy::add, sequence::add, size::add, shader_mask::add, stencil_export::add, held::add,
     combinations::add,

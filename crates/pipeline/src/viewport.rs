@@ -1,7 +1,8 @@
 //! The viewport transform, and culling by facing.
 
 use crate::arithmetic::Arithmetic;
-use etalon_scene::{CullMode, FrontFace, Viewport};
+use crate::shader::cull_distances;
+use etalon_scene::{CullMode, Draw, FrontFace, PrimitiveVertices, Viewport};
 
 /// Returns the window position of a clip-space position: x and y in texels from the top left corner, depth
 /// between the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip
@@ -48,6 +49,20 @@ pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
         FrontFace::Ccw => signed_area > 0,
         FrontFace::Cw => signed_area < 0,
     }
+}
+
+/// True if one of the cull distances is negative at all vertices of a primitive. Neither w nor the facing counts.
+pub fn is_beyond(draw: &Draw, primitive: PrimitiveVertices) -> bool {
+    let vertices: &[usize] = match &primitive {
+        PrimitiveVertices::Point(vertex) => std::slice::from_ref(vertex),
+        PrimitiveVertices::Line(vertices) => vertices,
+        PrimitiveVertices::Triangle(vertices) => vertices,
+    };
+    let distance = |vertex: usize, number: usize| {
+        cull_distances(draw.shader, &draw.mesh.vertices[vertex])[number]
+    };
+    let mut numbers = 0..draw.shader.cull_distances() as usize;
+    numbers.any(|number| vertices.iter().all(|v| distance(*v, number) < 0.0))
 }
 
 /// True if a face is culled.

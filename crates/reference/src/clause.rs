@@ -61,6 +61,9 @@ fn vulkan(rejection: Rejection, topology: PrimitiveTopology) -> &'static str {
         Rejection::ClipDistance => {
             "Primitive Clipping: clip half-space i holds the points whose distance is 0 or more"
         }
+        Rejection::CullDistance => {
+            "Primitive Clipping: a primitive with a cull distance that is negative at all of its vertices is discarded"
+        }
         Rejection::Culling => "Basic Polygon Rasterization: culled by facing and cullMode",
         Rejection::Scissor => {
             "Scissor Test: coverage of samples outside of the rectangle is set to 0"
@@ -90,6 +93,7 @@ fn webgpu(rejection: Rejection, topology: PrimitiveTopology) -> &'static str {
         Rejection::ClipDistance => {
             "Primitive Clipping: what has an interpolated distance below 0 is clipped"
         }
+        Rejection::CullDistance => "no cull distances",
         Rejection::Culling => "Polygon Rasterization: culled by facing and cullMode",
         Rejection::Scissor => {
             "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
@@ -134,6 +138,15 @@ fn opengl(
                 Es32 => "OpenGL ES 3.2: 14.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
             }
             .to_owned();
+    }
+    if rejection == Rejection::CullDistance {
+        return match edition {
+            Gl45 => "OpenGL 4.5: 13.5 Primitive Clipping: a primitive with a cull distance that is negative at all of its vertices is discarded",
+            Gl46 => "OpenGL 4.6: 13.7 Primitive Clipping: a primitive with a cull distance that is negative at all of its vertices is discarded",
+            Gl33 => "GL_ARB_cull_distance: a primitive with a cull distance that is negative at all of its vertices is discarded",
+            Es30 | Es31 | Es32 => "GL_EXT_clip_cull_distance: a primitive with a cull distance that is negative at all of its vertices is discarded",
+        }
+        .to_owned();
     }
     if rejection == Rejection::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
         return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"

@@ -41,6 +41,13 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
+        if place.primitive.beyond {
+            self.note_rejection(notes, place, Rejection::CullDistance, true, || {
+                Step::Clipping
+            });
+            result.push(world);
+            return;
+        }
         let front = front_facing(if positive_area { 1 } else { -1 }, draw.front_face);
         let polygon = matches!(
             place.primitive.shape,

@@ -61,6 +61,8 @@ pub(crate) enum Edge {
 #[derive(Clone, Debug)]
 pub(crate) struct SnappedPrimitive {
     pub(crate) shape: Shape,
+    /// True if a cull distance is negative at all vertices.
+    pub(crate) beyond: bool,
     /// The flat vertex colour.
     pub(crate) color: [Interval; 4],
     /// Texels it may touch: left, top, right, bottom, the last two excluded.

@@ -12,7 +12,7 @@ use crate::rules::Snap;
 use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
 use crate::varying::{Perspective, Varying};
-use etalon_pipeline::{Arithmetic, Plain, Point, shader, window_position};
+use etalon_pipeline::{Arithmetic, Plain, Point, is_beyond, shader, window_position};
 use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -171,6 +171,7 @@ fn primitive(
             (Some(_), Some(_)) => Some(geometry(draw, one, vertices.geometry.clone())),
             _ => None,
         },
+        beyond: is_beyond(draw, one),
         index,
     })
 }

@@ -318,7 +318,7 @@ impl Inputs {
             words.extend(bits(channel));
         }
         words.extend(bits(primitive.bias));
-        words.push(u64::from(primitive.geometry.is_some()));
+        words.push(u64::from(primitive.geometry.is_some()) | u64::from(primitive.beyond) << 1);
         words.extend(primitive.geometry);
         if (self.depth || self.depth_seen) && primitive.window_depth.is_flat() {
             words.extend(bits(primitive.window_depth.hull));

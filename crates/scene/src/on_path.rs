@@ -266,7 +266,10 @@ const UNUSED: u32 = 2;
 /// Makes a draw over to one with other draw calls, if it can be.
 fn call_by(draw: &mut Draw, draws: PathDraws) {
     match draws {
-        PathDraws::Direct | PathDraws::Indirect | PathDraws::IndirectCount => {}
+        PathDraws::Direct
+        | PathDraws::Indirect
+        | PathDraws::IndirectCount
+        | PathDraws::IndirectBeside => {}
         PathDraws::Indexed16 => index(draw, IndexFormat::Uint16),
         PathDraws::Indexed32 => index(draw, IndexFormat::Uint32),
         PathDraws::BaseVertex => {

@@ -5,7 +5,8 @@
 //! the draw before which it is executed.
 
 use crate::draw::Draw;
-use etalon_frame::{Aspect, state_enum};
+use crate::path::Path;
+use etalon_frame::{Aspect, PathResolves, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -178,6 +179,17 @@ impl Pass {
     pub fn color_operations(&self, location: usize) -> Operations<[f32; 4]> {
         let given = self.operations.color.get(location);
         given.copied().unwrap_or_default()
+    }
+
+    /// The locations whose resolves are commands behind the pass, with their targets, where the path has such commands.
+    /// Contents that the pass discards are resolved with it.
+    pub fn moved_resolves(&self, path: &Path) -> impl Iterator<Item = (usize, usize)> {
+        let moved = path.resolves == PathResolves::Moved;
+        let targets = self.resolve.iter().enumerate().filter(move |_| moved);
+        targets.filter_map(|(location, to)| {
+            let stored = self.color_operations(location).store == StoreOperation::Store;
+            to.filter(|_| stored).map(|to| (location, to))
+        })
     }
 
     /// Indices of the attachments that resolves write.

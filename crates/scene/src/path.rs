@@ -5,8 +5,8 @@
 //! its limits which values it has; each value that is not the default is a requirement.
 
 use etalon_frame::{
-    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart,
-    PathState, PathTarget, PathValue, PathViewport,
+    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
+    PathResolves, PathStart, PathState, PathTarget, PathValue, PathViewport,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,6 +37,10 @@ pub struct Path {
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
     pub viewport: PathViewport,
+    /// The layers of a pass.
+    pub layers: PathLayers,
+    /// The resolves of colors.
+    pub resolves: PathResolves,
 }
 
 impl Path {
@@ -55,6 +59,8 @@ impl Path {
             clears,
             clip,
             viewport,
+            layers,
+            resolves,
         } = *self;
         let all = [
             PathValue::Start(start),
@@ -68,6 +74,8 @@ impl Path {
             PathValue::Clears(clears),
             PathValue::Clip(clip),
             PathValue::Viewport(viewport),
+            PathValue::Layers(layers),
+            PathValue::Resolves(resolves),
         ];
         all.into_iter().filter(|v| !v.is_default()).collect()
     }

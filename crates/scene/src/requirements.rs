@@ -140,6 +140,7 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         draw.clipping_distances().count_ones() < distances,
         Feature::ClipDistanceMask,
     );
+    need(draw.shader.cull_distances() > 0, Feature::CullDistances);
     need(draw.tessellation.is_some(), Feature::Tessellation);
     need(
         draw.tessellation

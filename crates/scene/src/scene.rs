@@ -8,7 +8,7 @@ use crate::draw::Draw;
 use crate::pass::Pass;
 use crate::path::Path;
 use crate::pool::Pool;
-use etalon_frame::{CounterKind, TextureFormat};
+use etalon_frame::{CounterKind, PathLayers, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -51,6 +51,18 @@ impl Scene {
     pub fn pass_samples(&self, pass: &Pass) -> u32 {
         let first = pass.color.first().copied().or(pass.depth_stencil);
         first.map_or(1, |index| self.attachments[index].samples)
+    }
+
+    /// The layers of passes by the path: one if draws count or store, which they would do for each layer, or if the vertex
+    /// shader is not the last stage before rasterization.
+    pub fn layers(&self) -> PathLayers {
+        let mut draws = self.passes.iter().flat_map(|p| &p.draws);
+        let once = draws.any(|d| d.shader.uses_storage() || d.tessellation.is_some());
+        if once || !self.counters.is_empty() {
+            PathLayers::One
+        } else {
+            self.path.layers
+        }
     }
 
     /// The scene with something counted over all its draws, and nothing else.

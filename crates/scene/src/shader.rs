@@ -52,6 +52,8 @@ struct Facts {
     discards: bool,
     /// The number of clip distances that its vertices have.
     clip_distances: u32,
+    /// The number of cull distances that its vertices have.
+    cull_distances: u32,
     /// True if it counts its runs in a storage buffer.
     counter: bool,
     /// Its use of the scene's pool.
@@ -130,6 +132,7 @@ impl Facts {
         depth: Depth::Fixed,
         discards: false,
         clip_distances: 0,
+        cull_distances: 0,
         counter: false,
         pool: PoolUse::None,
         per_sample: false,
@@ -232,6 +235,11 @@ impl Shader {
     /// The number of clip distances that the shader's vertices have.
     pub fn clip_distances(self) -> u32 {
         self.facts().clip_distances
+    }
+
+    /// The number of cull distances that the shader's vertices have. Its WGSL calls them clip distances.
+    pub fn cull_distances(self) -> u32 {
+        self.facts().cull_distances
     }
 
     /// True if the shader counts its runs in a storage buffer.
@@ -342,6 +350,8 @@ shaders! {
     CountedDepth = "counted_depth" { params: true, depth: Depth::VertexRed, counter: true },
     /// As `texel_discard`; counts its runs.
     CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true, position_only: true },
+    /// The vertex colour, flat; culled by both texture coordinates.
+    CullFlat = "cull_flat" { cull_distances: 2 },
     /// The fragment's own window depth as grey.
     DepthGrey = "depth_grey" { reads_depth: true, position_only: true },
     /// The distance behind the window depth of a perspective projection as grey, between the near
@@ -508,10 +518,11 @@ mod tests {
             );
             assert_eq!(shader.has_fragment(), has("@fragment"), "{name}");
             assert_eq!(shader.has_second_source(), has("@blend_src(1)"), "{name}");
-            let distances = format!("distances: array<f32, {}>,", shader.clip_distances());
+            let count = shader.clip_distances() + shader.cull_distances();
+            let distances = format!("distances: array<f32, {count}>,");
             let clips = has("@builtin(clip_distances)");
             assert_eq!((clips, has(&distances)), (clips, clips), "{name}");
-            assert_eq!(clips, shader.clip_distances() > 0, "{name}");
+            assert_eq!(clips, count > 0, "{name}");
             let sampling = match (has(", centroid)"), has(", sample)")) {
                 (true, _) => InterpolationSampling::Centroid,
                 (_, true) => InterpolationSampling::Sample,

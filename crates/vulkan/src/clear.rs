@@ -2,8 +2,10 @@
 
 use crate::device::Device;
 use crate::error::internal;
+use crate::image::DRAWN_LAYERS;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathLayers;
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, StoreOperation};
 
 /// The load and store operation of one aspect.
@@ -63,6 +65,7 @@ impl ClearPlan {
     pub(crate) fn new(
         clear: &Clear,
         integer: bool,
+        layers: PathLayers,
         size: [u32; 2],
         area: vk::Rect2D,
     ) -> Result<Option<Self>, BackendError> {
@@ -104,12 +107,17 @@ impl ClearPlan {
             },
             extent: vk::Extent2D { width, height },
         };
+        let (base_array_layer, layer_count) = match layers {
+            // A view's own layer is its layer 0 (VUID-vkCmdClearAttachments-baseArrayLayer-00018).
+            PathLayers::One | PathLayers::Multiview => (0, 1),
+            PathLayers::Written => (DRAWN_LAYERS[0], DRAWN_LAYERS.len() as u32),
+        };
         Ok(intersection(rect, area).map(|rect| Self {
             attachments: vec![attachment],
             rects: vec![vk::ClearRect {
                 rect,
-                base_array_layer: 0,
-                layer_count: 1,
+                base_array_layer,
+                layer_count,
             }],
             targets: vec![clear.target],
         }))

@@ -40,6 +40,8 @@ pub(crate) struct Device {
     pub(crate) features: vk::PhysicalDeviceFeatures,
     /// True if a vertex shader may choose the second of two viewports.
     pub(crate) second_viewport: bool,
+    /// True if a vertex shader may choose a layer.
+    pub(crate) written_layer: bool,
     /// True if the number of indirect draws may be in a buffer.
     pub(crate) indirect_count: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
@@ -356,6 +358,7 @@ fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures
         pipeline_statistics_query: has.pipeline_statistics_query,
         sample_rate_shading: has.sample_rate_shading,
         shader_clip_distance: has.shader_clip_distance,
+        shader_cull_distance: has.shader_cull_distance,
         tessellation_shader: has.tessellation_shader,
         ..vk::PhysicalDeviceFeatures::default()
     }
@@ -402,9 +405,10 @@ impl Device {
             .queue_family_index(index)
             .queue_priorities(&priorities)];
         let enabled = used_features(&features);
-        let second_viewport = features.multi_viewport != 0
-            && properties.limits.max_viewports > 1
-            && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
+        let written_layer =
+            has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
+        let second_viewport =
+            features.multi_viewport != 0 && properties.limits.max_viewports > 1 && written_layer;
         let extended = has_extended(api, physical);
         let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
         let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
@@ -419,7 +423,7 @@ impl Device {
             ),
             (provoking.last, ash::ext::provoking_vertex::NAME),
             (dynamic_logic, ash::ext::extended_dynamic_state2::NAME),
-            (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
+            (written_layer, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
         ]
         .into_iter()
@@ -433,17 +437,20 @@ impl Device {
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
             .synchronization2(true);
+        // Mandatory since Vulkan 1.1.
+        let mut enabled11 = vk::PhysicalDeviceVulkan11Features::default().multiview(true);
         let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&enabled)
             .enabled_extension_names(&extensions)
-            .push_next(&mut enabled13);
+            .push_next(&mut enabled13)
+            .push_next(&mut enabled11);
         let indirect_count = has_indirect_count(api, physical, &properties.limits);
         // A device with the extension has both features of it (VUID-VkDeviceCreateInfo-ppEnabledExtensionNames-02835).
         let mut counted = vk::PhysicalDeviceVulkan12Features::default()
             .draw_indirect_count(true)
-            .shader_output_viewport_index(second_viewport)
-            .shader_output_layer(second_viewport);
+            .shader_output_viewport_index(written_layer)
+            .shader_output_layer(written_layer);
         if indirect_count {
             info = info.push_next(&mut counted);
         }
@@ -488,6 +495,7 @@ impl Device {
             compute: family.queue_flags.contains(compute),
             features: enabled,
             second_viewport,
+            written_layer,
             provoking,
             indirect_count,
             extended: extended.then(|| {

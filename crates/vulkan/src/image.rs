@@ -17,6 +17,8 @@ pub(crate) struct ImageKey {
     pub(crate) usage: vk::ImageUsageFlags,
     /// The part of the image that is used.
     pub(crate) target: PathTarget,
+    /// The layer that is read of three, if passes have several layers.
+    pub(crate) layered: Option<u32>,
 }
 
 /// The level, layer and slice of an image that is used.
@@ -25,7 +27,14 @@ pub(crate) struct Place {
     level: u32,
     layer: u32,
     slice: u32,
+    /// True if passes draw to all layers.
+    layered: bool,
 }
+
+/// The layers of an image whose passes have several.
+pub(crate) const LAYERS: u32 = 3;
+/// The layers that are drawn to, one of which is read.
+pub(crate) const DRAWN_LAYERS: [u32; 2] = [1, 2];
 
 /// The form of an image around the part that is used.
 pub(crate) struct Shape {
@@ -53,6 +62,11 @@ impl ImageKey {
             flags: vk::ImageCreateFlags::empty(),
             place: Place::default(),
         };
+        if let Some(layer) = self.layered {
+            shape.layers = LAYERS;
+            (shape.place.layer, shape.place.layered) = (layer, true);
+            return shape;
+        }
         match self.target {
             PathTarget::Plain | PathTarget::Renderbuffer => {}
             PathTarget::MipLevel => {
@@ -83,14 +97,46 @@ impl ImageKey {
 }
 
 impl Place {
-    /// Returns the place as barriers and clears name it: all slices of its level and layer.
+    /// Returns the place as barriers name it: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
+        let (base_array_layer, layer_count) = if self.layered {
+            (0, LAYERS)
+        } else {
+            (self.layer, 1)
+        };
         vk::ImageSubresourceRange {
             aspect_mask: mask,
             base_mip_level: self.level,
             level_count: 1,
-            base_array_layer: self.layer,
-            layer_count: 1,
+            base_array_layer,
+            layer_count,
+        }
+    }
+
+    /// Returns the place as clears name it: several layers are two ranges, of one layer and of the others.
+    pub(crate) fn cleared(self, mask: vk::ImageAspectFlags) -> Vec<vk::ImageSubresourceRange> {
+        let range = self.range(mask);
+        if self.layered {
+            let layers = |base_array_layer, layer_count| vk::ImageSubresourceRange {
+                base_array_layer,
+                layer_count,
+                ..range
+            };
+            vec![layers(0, 1), layers(1, LAYERS - 1)]
+        } else {
+            vec![range]
+        }
+    }
+
+    /// Returns the places that receive texels: those of all layers that are drawn to.
+    pub(crate) fn uploaded(self) -> Vec<Self> {
+        if self.layered {
+            DRAWN_LAYERS
+                .into_iter()
+                .map(|layer| Self { layer, ..self })
+                .collect()
+        } else {
+            vec![self]
         }
     }
 
@@ -98,6 +144,7 @@ impl Place {
     fn viewed(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             base_array_layer: self.layer + self.slice,
+            layer_count: 1,
             ..self.range(mask)
         }
     }
@@ -133,6 +180,8 @@ pub(crate) struct Image {
     views: Vec<(vk::ImageAspectFlags, vk::ImageView)>,
     /// A view without sRGB conversion, for a multisampled sRGB image that shaders read.
     unconverted: Option<vk::ImageView>,
+    /// A view of all layers, if passes have several.
+    layers: Option<vk::ImageView>,
 }
 
 impl Image {
@@ -144,6 +193,7 @@ impl Image {
             bytes: 0,
             views: Vec::new(),
             unconverted: None,
+            layers: None,
         };
         let created = image.create(device);
         if let Err(error) = created {
@@ -201,12 +251,22 @@ impl Image {
         if aspects == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
             masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
         }
+        let kind = vk::ImageViewType::TYPE_2D;
         for mask in masks {
-            let view = self.create_view(device, key.format, mask)?;
+            let range = self.place().viewed(mask);
+            let view = self.create_view(device, key.format, kind, range)?;
             self.views.push((mask, view));
         }
         if let Some(format) = unconverted {
-            self.unconverted = Some(self.create_view(device, format, aspects)?);
+            let range = self.place().viewed(aspects);
+            self.unconverted = Some(self.create_view(device, format, kind, range)?);
+        }
+        if key.layered.is_some() {
+            let (kind, range) = (
+                vk::ImageViewType::TYPE_2D_ARRAY,
+                self.place().range(aspects),
+            );
+            self.layers = Some(self.create_view(device, key.format, kind, range)?);
         }
         Ok(())
     }
@@ -215,13 +275,14 @@ impl Image {
         &self,
         device: &Device,
         format: vk::Format,
-        mask: vk::ImageAspectFlags,
+        kind: vk::ImageViewType,
+        range: vk::ImageSubresourceRange,
     ) -> Result<vk::ImageView, BackendError> {
         let info = vk::ImageViewCreateInfo::default()
             .image(self.raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
+            .view_type(kind)
             .format(format)
-            .subresource_range(self.place().viewed(mask));
+            .subresource_range(range);
         // SAFETY: the image is bound, lives as long as its views, and was made for this format.
         unsafe { device.raw.create_image_view(&info, None) }.check("an image view")
     }
@@ -247,6 +308,11 @@ impl Image {
         self.view(self.aspects())
     }
 
+    /// Returns the view of all aspects that passes draw to, of all layers if they have several.
+    pub(crate) fn attached(&self) -> Result<vk::ImageView, BackendError> {
+        self.layers.map_or_else(|| self.whole(), Ok)
+    }
+
     /// Returns the part of the image that is used.
     pub(crate) fn place(&self) -> Place {
         self.key.shape().place
@@ -261,7 +327,7 @@ impl Image {
         // SAFETY: the device is done with the image; null handles are ignored.
         unsafe {
             let views = self.views.iter().map(|(_, view)| view);
-            for view in views.chain(&self.unconverted) {
+            for view in views.chain(&self.unconverted).chain(&self.layers) {
                 device.raw.destroy_image_view(*view, None);
             }
             device.raw.destroy_image(self.raw, None);

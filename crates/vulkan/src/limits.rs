@@ -78,6 +78,8 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::AlphaToOne => features.alpha_to_one,
         // Every device with the feature has 8 of them (Required Limits, maxClipDistances).
         Feature::ClipDistances => features.shader_clip_distance,
+        // And 8 of these (maxCullDistances).
+        Feature::CullDistances => features.shader_cull_distance,
         Feature::DepthBiasClamp => features.depth_bias_clamp,
         Feature::DepthBounds => features.depth_bounds,
         Feature::DepthClamp => features.depth_clamp,

@@ -6,13 +6,14 @@
 use crate::device::Device;
 use crate::extended::{self, DynamicLogic, Further};
 use crate::format::{self, Native};
-use crate::image::ImageKey;
+use crate::image::{DRAWN_LAYERS, ImageKey};
+use crate::plan::Role;
 use crate::samples;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{
-    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathState, PathTarget,
-    PathValue, PathViewport, Requirement, TextureFormat,
+    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathLayers, PathState,
+    PathTarget, PathValue, PathViewport, Requirement, TextureFormat,
 };
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
@@ -24,10 +25,12 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
         PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
         PathValue::Draws(PathDraws::IndirectCount) => device.indirect_count,
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
+        PathValue::Layers(PathLayers::Written) => device.written_layer,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
         // Only OpenGL has them.
         PathValue::Target(PathTarget::Renderbuffer)
         | PathValue::Clip(PathClip::Toggled)
+        | PathValue::Draws(PathDraws::IndirectBeside)
         | PathValue::End(PathEnd::ReadBuffer) => false,
         _ => true,
     };
@@ -67,9 +70,20 @@ pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> Pa
     }
 }
 
+/// Returns the layer that is read of an attachment whose passes have several. They are read in turns.
+pub(crate) fn layer(scene: &Scene, index: usize, role: Role) -> Option<u32> {
+    let is_drawn = !matches!(role, Role::Fetched | Role::Idle);
+    let layered = is_drawn && scene.layers() != PathLayers::One;
+    layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])
+}
+
 /// Checks that the device makes images of a key that is not plain.
-pub(crate) fn check_target(device: &Device, key: &ImageKey) -> Result<(), BackendError> {
-    if key.target == PathTarget::Plain {
+pub(crate) fn check_target(
+    device: &Device,
+    path: &Path,
+    key: &ImageKey,
+) -> Result<(), BackendError> {
+    if key.target == PathTarget::Plain && key.layered.is_none() {
         return Ok(());
     }
     let shape = key.shape();
@@ -93,7 +107,11 @@ pub(crate) fn check_target(device: &Device, key: &ImageKey) -> Result<(), Backen
             && p.max_array_layers >= shape.layers
             && p.sample_counts.as_raw() & key.samples != 0
     });
-    let value = Requirement::Path(PathValue::Target(key.target));
+    let value = match key.layered {
+        None => PathValue::Target(key.target),
+        Some(_) => PathValue::Layers(path.layers),
+    };
+    let value = Requirement::Path(value);
     fits.then_some(()).ok_or(BackendError::NotSupported(value))
 }
 

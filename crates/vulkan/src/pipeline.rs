@@ -8,6 +8,7 @@ use crate::shader::Modules;
 use crate::state;
 use crate::targets::Targets;
 use crate::tessellation;
+use crate::viewport::Chosen;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::PathViewport;
@@ -42,6 +43,7 @@ struct Key {
     logic: Option<LogicOperation>,
     color: Vec<ColorTarget>,
     pass: Option<Compatible>,
+    layer: Option<u32>,
     setting: Setting,
     /// The rest of the state, as text, where it is not dynamic.
     fixed: Option<String>,
@@ -134,6 +136,8 @@ pub(crate) struct Pipelines {
 pub(crate) struct Way<'a> {
     /// The render pass, if the pass is one.
     pub(crate) pass: Option<&'a RenderPass>,
+    /// The layer that the vertex shader chooses, if it chooses one.
+    pub(crate) layer: Option<u32>,
     pub(crate) setting: Setting,
     /// The state of the draw; a pipeline holds it if the setting says so.
     pub(crate) state: &'a Dynamic,
@@ -201,6 +205,7 @@ impl Pipelines {
             last_provokes: draw.provoking == Some(ProvokingVertex::Last),
             instanced: draw.fetch.instances > 0,
             pass: way.pass.map(|p| p.compatible.clone()),
+            layer: way.layer,
             setting: way.setting,
             fixed: way.setting.fixed.then(|| way.state.text()),
             polygon_mode: draw.polygon_mode,
@@ -219,7 +224,10 @@ impl Pipelines {
             device,
             draw.shader,
             draw.early_tests,
-            way.setting.viewport == PathViewport::Array,
+            Chosen {
+                second_viewport: way.setting.viewport == PathViewport::Array,
+                layer: way.layer,
+            },
         )?;
         let layout = self.layout(device, Bindings::of(draw.shader))?;
         let stage = |stage, name| {
@@ -375,6 +383,7 @@ fn create(
     let states = way.setting.states(!key.color.is_empty());
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
+        .view_mask(key.targets.views())
         .color_attachment_formats(&key.targets.color)
         .depth_attachment_format(key.targets.depth)
         .stencil_attachment_format(key.targets.stencil);

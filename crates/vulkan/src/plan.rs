@@ -15,6 +15,7 @@ use crate::path;
 use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
+use crate::resolves::MovedResolve;
 use crate::state;
 use crate::targets::Targets;
 use ash::vk;
@@ -101,6 +102,8 @@ pub(crate) struct PassPlan {
     pub(crate) draws: Vec<DrawPlan>,
     /// Clear commands with the draws before which they are executed, in order.
     pub(crate) clears: Vec<(usize, ClearPlan)>,
+    /// The resolves behind the pass.
+    pub(crate) resolves: Vec<MovedResolve>,
 }
 
 /// The plan of a draw.
@@ -108,6 +111,8 @@ pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
     /// The pipeline that is bound between state and draw.
     pub(crate) other: Option<Rc<Pipeline>>,
+    /// The pipeline of another draw, the same to the other of two layers.
+    pub(crate) again: Option<Rc<Pipeline>>,
     /// True if the state is set to another before.
     pub(crate) overwritten: bool,
     /// The further dynamic state, where the path asks for it.
@@ -213,6 +218,7 @@ impl PassPlan {
             depth_stencil: None,
             draws: Vec::with_capacity(pass.draws.len()),
             clears: Vec::with_capacity(pass.clears.len()),
+            resolves: Vec::new(),
         };
         let integer = |location: usize| {
             let index = pass.color.get(location);
@@ -228,7 +234,8 @@ impl PassPlan {
         for clear in loads.iter().chain(&pass.clears) {
             let integer =
                 matches!(clear.target, ClearTarget::Color { location, .. } if integer(location));
-            let Some(planned) = ClearPlan::new(clear, integer, plan.size, area)? else {
+            let layers = scene.layers();
+            let Some(planned) = ClearPlan::new(clear, integer, layers, plan.size, area)? else {
                 continue;
             };
             let together = scene.path.clears == PathClears::Together;
@@ -239,7 +246,9 @@ impl PassPlan {
             }
         }
         for (location, index) in pass.color.iter().enumerate() {
-            let resolve = match pass.resolve.get(location).copied().flatten() {
+            let moved = pass.moved_resolves(&scene.path).any(|(l, _)| l == location);
+            let target = pass.resolve.get(location).copied().flatten();
+            let resolve = match target.filter(|_| !moved) {
                 Some(index) => {
                     let integer = scene
                         .attachments
@@ -251,7 +260,7 @@ impl PassPlan {
                     } else {
                         vk::ResolveModeFlags::AVERAGE
                     };
-                    Some((image(index)?.whole()?, mode))
+                    Some((image(index)?.attached()?, mode))
                 }
                 None => None,
             };
@@ -259,7 +268,7 @@ impl PassPlan {
                 color: color_value(color, integer(location)),
             };
             plan.color.push(ColorPlan {
-                view: image(*index)?.whole()?,
+                view: image(*index)?.attached()?,
                 ends: Ends::new(pass.color_operations(location), value),
                 resolve,
             });
@@ -267,7 +276,7 @@ impl PassPlan {
         if let Some(index) = pass.depth_stencil {
             let format = scene.attachments.get(index).map(|a| a.format);
             plan.depth_stencil = Some(DepthStencilPlan {
-                view: image(index)?.whole()?,
+                view: image(index)?.attached()?,
                 depth: format
                     .is_some_and(|f| f.has_depth())
                     .then(|| Ends::new(pass.operations.depth, |v| depth_stencil_value(v, 0))),
@@ -279,7 +288,7 @@ impl PassPlan {
                     None => None,
                     Some(resolve) => {
                         let modes = [resolve.depth, resolve.stencil].map(state::resolve_mode);
-                        Some((image(resolve.to)?.whole()?, modes))
+                        Some((image(resolve.to)?.attached()?, modes))
                     }
                 },
             });
@@ -307,6 +316,7 @@ impl DrawPlan {
         Ok(Self {
             pipeline,
             other: None,
+            again: None,
             overwritten: false,
             extended: None,
             set,
@@ -360,6 +370,13 @@ pub(crate) fn image_key(
     if read && path::is_copied(end) {
         usage |= vk::ImageUsageFlags::TRANSFER_SRC;
     }
+    let resolved = |pass: &Pass| {
+        let mut moved = pass.moved_resolves(&scene.path);
+        moved.any(|(location, _)| pass.color.get(location) == Some(&index))
+    };
+    if scene.passes.iter().any(resolved) {
+        usage |= vk::ImageUsageFlags::TRANSFER_SRC;
+    }
     match (read, attachment.samples) {
         (false, _) => {}
         (true, 1) => usage |= vk::ImageUsageFlags::TRANSFER_SRC,
@@ -372,6 +389,7 @@ pub(crate) fn image_key(
         samples: attachment.samples,
         usage,
         target: path::target(scene, index, attachment),
+        layered: path::layer(scene, index, role),
     })
 }
 
@@ -390,8 +408,18 @@ pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
         size,
         usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
         target: PathTarget::Plain,
+        layered: None,
         ..key
     })
+}
+
+/// Returns the key of the image between an attachment and the one that it is resolved to, whose key is given. It is of the
+/// same level or layer.
+pub(crate) fn resolve_key(key: ImageKey) -> ImageKey {
+    ImageKey {
+        usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
+        ..key
+    }
 }
 
 /// Returns the key of the image that an attachment is copied to before it is read.
@@ -406,6 +434,7 @@ pub(crate) fn copy_key(key: ImageKey, attachment: &Attachment) -> ImageKey {
             }
         },
         target: PathTarget::Plain,
+        layered: None,
         ..key
     }
 }
@@ -425,6 +454,7 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
         depth: vk::Format::UNDEFINED,
         stencil: vk::Format::UNDEFINED,
         samples: scene.pass_samples(pass),
+        layers: scene.layers(),
     };
     for index in &pass.color {
         targets.color.push(attachment(index)?.1);

@@ -4,6 +4,8 @@
 //! driver's own table and what was seen of the calls are kept per thread: a backend belongs to one thread.
 
 use crate::device::Device;
+use crate::spirv::{BUILT_IN, DECORATE, LOCATION};
+use crate::viewport::LAYER;
 use ash::ext::extended_dynamic_state3;
 use ash::vk::{self, Handle};
 use etalon_backend::{CallFault, DrawNumbers, FaultyCalls};
@@ -51,6 +53,8 @@ struct Planted {
     stencil: bool,
     /// True before the first clear of a pass that leaves contents undefined when it begins.
     undefined: bool,
+    /// True behind a clear of a pass.
+    cleared: bool,
     /// True before the first draw of a secondary command buffer.
     secondary: bool,
     topology: vk::PrimitiveTopology,
@@ -79,6 +83,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         in_render_pass: false,
         stencil: false,
         undefined: false,
+        cleared: false,
         secondary: false,
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
     }));
@@ -194,6 +199,7 @@ functions! {
     ) [scissors; count] |planted| {
         if let [first, second] = &mut scissors[..]
             && planted.calls.has(CallFault::ScissorFirst)
+            && planted.cleared
         {
             *second = *first;
         }
@@ -227,6 +233,9 @@ functions! {
         commands: vk::CommandBuffer, image: vk::Image, layout: vk::ImageLayout, colors: *const vk::ClearColorValue,
         count: u32, ranges: *const vk::ImageSubresourceRange
     ) [colors; 1] |planted| {
+        if planted.calls.has(CallFault::ClearFirstRange) {
+            count = count.min(1);
+        }
         // SAFETY: every bit pattern is one of integers.
         let color = unsafe { colors[0].uint32 };
         if planted.calls.skips_equal_clear(image.as_raw(), color) {
@@ -238,7 +247,11 @@ functions! {
         areas: *const vk::ClearRect
     ) [attachments; count] [areas; rectangles] |planted| {
         let undefined = mem::take(&mut planted.undefined);
+        planted.cleared = true;
         let calls = &planted.calls;
+        if calls.has(CallFault::ClearFirstLayer) {
+            areas.iter_mut().for_each(|area| area.layer_count = 1);
+        }
         if calls.has(CallFault::ClearSkipped) && (calls.passes > 1 || calls.draws > 0) {
             return;
         }
@@ -327,6 +340,10 @@ functions! {
             }
         }
         planted.in_render_pass = false;
+        planted.cleared = false;
+        if planted.calls.has(CallFault::ViewFirst) {
+            info.view_mask = first_view(info.view_mask);
+        }
         planted.change_attachments(&mut colors, &mut depth, &mut stencil);
         info.p_color_attachments = address(&colors);
         info.p_depth_attachment = address(&depth);
@@ -392,6 +409,35 @@ functions! {
             rasterization.cull_mode = vk::CullModeFlags::NONE;
         }
         infos[0].p_rasterization_state = &rasterization;
+        let chained = infos[0].p_next.cast::<vk::PipelineRenderingCreateInfo<'_>>();
+        // SAFETY: the caller's; the first structure of a chain, if there is one, begins with its type.
+        let first = unsafe { values(chained.cast::<vk::StructureType>(), 1) };
+        let rendering = vk::StructureType::PIPELINE_RENDERING_CREATE_INFO;
+        let chains = planted.calls.has(CallFault::ViewFirst) && first.contains(&rendering);
+        // SAFETY: the structure is of this type.
+        let mut rendered = if chains { unsafe { values(chained, 1) } } else { Vec::new() };
+        for rendering in &mut rendered {
+            rendering.view_mask = first_view(rendering.view_mask);
+            infos[0].p_next = ptr::from_ref(rendering).cast();
+        }
+    }
+    before v10 create_shader_module(
+        device: vk::Device, infos: *const vk::ShaderModuleCreateInfo<'_>,
+        allocator: *const vk::AllocationCallbacks<'_>, module: *mut vk::ShaderModule
+    ) -> vk::Result [infos; 1] |planted| {
+        // SAFETY: the caller's: the code has so many words.
+        let mut words = unsafe { values(infos[0].p_code, (infos[0].code_size / 4) as u32) };
+        if planted.calls.has(CallFault::LayerUnwritten) {
+            let mut start = 5;
+            while let Some(head) = words.get(start).copied() {
+                if head & 0xffff == DECORATE && words[start + 2..start + 4] == [BUILT_IN, LAYER] {
+                    // An output that nobody reads.
+                    words[start + 2..start + 4].copy_from_slice(&[LOCATION, 15]);
+                }
+                start += (head >> 16).max(1) as usize;
+            }
+        }
+        infos[0].p_code = words.as_ptr();
     }
     before v12 create_render_pass2(
         device: vk::Device, infos: *const vk::RenderPassCreateInfo2<'_>,
@@ -409,6 +455,13 @@ functions! {
             }
         }
         infos[0].p_attachments = address(&attachments);
+        // SAFETY: as above.
+        let mut subpasses = unsafe { values(infos[0].p_subpasses, infos[0].subpass_count) };
+        if planted.calls.has(CallFault::ViewFirst) {
+            let masks = subpasses.iter_mut().map(|subpass| &mut subpass.view_mask);
+            masks.for_each(|mask| *mask = first_view(*mask));
+        }
+        infos[0].p_subpasses = address(&subpasses);
     }
     before v10 cmd_begin_render_pass(
         commands: vk::CommandBuffer, infos: *const vk::RenderPassBeginInfo<'_>, contents: vk::SubpassContents
@@ -416,6 +469,17 @@ functions! {
         planted.calls.begin_pass();
         planted.calls.area = area(infos[0].render_area);
         planted.in_render_pass = true;
+        planted.cleared = false;
+    }
+    before v10 cmd_resolve_image(
+        commands: vk::CommandBuffer, source: vk::Image, source_layout: vk::ImageLayout, target: vk::Image,
+        target_layout: vk::ImageLayout, count: u32, regions: *const vk::ImageResolve
+    ) [regions; count] |planted| {
+        if planted.calls.has(CallFault::ResolvePlace) {
+            for vk::ImageResolve { src_offset, dst_offset, .. } in &mut regions {
+                (dst_offset.x, dst_offset.y) = (src_offset.x, src_offset.y);
+            }
+        }
     }
     before v10 cmd_blit_image(
         commands: vk::CommandBuffer, source: vk::Image, source_layout: vk::ImageLayout, target: vk::Image,
@@ -457,6 +521,11 @@ functions! {
             }
         }
     }
+}
+
+/// Returns the mask of the first of the views of a mask.
+fn first_view(views: u32) -> u32 {
+    views & views.wrapping_neg()
 }
 
 /// Returns the rectangle with this x, y, width and height.

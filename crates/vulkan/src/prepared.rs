@@ -9,23 +9,24 @@ use crate::error::internal;
 use crate::extended::{self, Extended};
 use crate::format;
 use crate::gpu::Gpu;
-use crate::image::Image;
+use crate::image::{DRAWN_LAYERS, Image};
 use crate::inputs::Inputs;
 use crate::path;
 use crate::pipeline::Way;
 use crate::plan::{
     AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, between_key, copy_key,
-    image_key, is_advanced, targets,
+    image_key, is_advanced, resolve_key, targets,
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
 use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
+use crate::resolves::MovedResolve;
 use crate::slot::{Needs, Slot};
 use crate::storage;
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
-    Feature, Frame, PathCommands, PathEnd, PathPass, PathState, PathValue, Requirement,
+    Feature, Frame, PathCommands, PathEnd, PathLayers, PathPass, PathState, PathValue, Requirement,
 };
 use etalon_scene::{Contents, Draw, Pass, Pool, Scene};
 use std::cell::RefCell;
@@ -113,7 +114,7 @@ impl<'a> PreparedScene<'a> {
             let native = format::native(&self.gpu.natives, attachment.format)?;
             let end = path::end(device, &scene.path, attachment, native)?;
             let key = image_key(self.gpu, scene, index, role, end)?;
-            path::check_target(device, &key)?;
+            path::check_target(device, &scene.path, &key)?;
             let image = pools.memory.image(device, key)?;
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,
@@ -147,6 +148,23 @@ impl<'a> PreparedScene<'a> {
                 *source = self.images.len();
                 self.images.push(image);
             }
+        }
+
+        let mut resolves = Vec::with_capacity(scene.passes.len());
+        for pass in &scene.passes {
+            let mut moved = Vec::new();
+            for (location, to) in pass.moved_resolves(&scene.path) {
+                let key = resolve_key(self.images[to].key);
+                let image = pools.memory.image(device, key)?;
+                moved.push(MovedResolve {
+                    from: pass.color[location],
+                    to,
+                    image: image.raw,
+                    place: image.place(),
+                });
+                self.images.push(image);
+            }
+            resolves.push(moved);
         }
 
         let areas = |pass: &Pass| path::areas(&scene.path, scene.pass_size(pass));
@@ -192,15 +210,15 @@ impl<'a> PreparedScene<'a> {
         };
         let pool = self.pool.as_ref().map(|(b, pool)| (b, pool.bytes()));
         let mut sets = Descriptors::new(input, self.counts.as_ref(), pool, &self.images);
-        let parts = scene.passes.iter().zip(&inputs.draws);
-        let parts = parts.flat_map(|(pass, places)| {
+        let parts = scene.passes.iter().zip(&inputs.draws).zip(&resolves);
+        let parts = parts.flat_map(|((pass, places), resolves)| {
             let areas = areas(pass);
             let whole = areas.len() == 1;
             areas
                 .into_iter()
-                .map(move |area| (pass, places, area, whole))
+                .map(move |area| (pass, places, resolves, area, whole))
         });
-        for (pass, places, area, whole) in parts {
+        for (pass, places, resolves, area, whole) in parts {
             let targets = targets(self.gpu, scene, pass)?;
             check_advanced(device, pass, setting)?;
             let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
@@ -208,6 +226,7 @@ impl<'a> PreparedScene<'a> {
             let Some(planned) = self.plan.passes.last_mut() else {
                 continue;
             };
+            planned.resolves = resolves.clone();
             if scene.path.pass != PathPass::DynamicRendering {
                 let second = scene.path.pass == PathPass::SecondSubpass;
                 let attached = (&planned.color[..], planned.depth_stencil.as_ref());
@@ -222,28 +241,39 @@ impl<'a> PreparedScene<'a> {
                 let made = (&mut *pipelines, &mut pools.samplers);
                 let set = sets.get(device, made, slot, counting, draw)?;
                 let dynamic = Dynamic::new(draw, area, whole, place.restarts, setting)?;
+                let [again, layer] = match targets.layers {
+                    PathLayers::One | PathLayers::Multiview => [None; 2],
+                    PathLayers::Written => DRAWN_LAYERS.map(Some),
+                };
                 let way = Way {
                     pass: planned.object.as_ref(),
+                    layer,
                     setting,
                     state: &dynamic,
                 };
-                let mut get = |draw: &Draw| pipelines.get(device, &targets, draw, way);
+                let mut get_to = |draw: &Draw, layer| {
+                    pipelines.get(device, &targets, draw, Way { layer, ..way })
+                };
+                let mut get = |draw: &Draw| {
+                    let again = again.map(|_| get_to(draw, again)).transpose()?;
+                    Ok((get_to(draw, layer)?, again))
+                };
                 let extended = setting
                     .further
                     .any()
                     .then(|| Extended::new(draw, targets.samples, setting.further));
-                let pipeline = match extended {
+                let (pipeline, again) = match extended {
                     Some(_) => get(&extended::held_by(setting.further, draw))?,
                     None => get(draw)?,
                 };
                 let other = match scene.path.state {
-                    PathState::OtherPipeline => Some(get(&path::other(draw))?),
+                    PathState::OtherPipeline => Some(get(&path::other(draw))?.0),
                     _ => None,
                 };
                 let queries = counting.queries(slot, draw)?;
                 let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, queries)?;
                 drawn.overwritten = scene.path.state == PathState::Overwritten;
-                (drawn.other, drawn.extended) = (other, extended);
+                (drawn.other, drawn.again, drawn.extended) = (other, again, extended);
                 planned.draws.push(drawn);
             }
         }

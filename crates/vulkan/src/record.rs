@@ -97,7 +97,7 @@ pub(crate) fn initial_contents(
     barriers(device, commands, &into);
     let layout = TRANSFER_DST.layout;
     for attachment in &plan.attachments {
-        let ranges = [attachment.place.range(attachment.aspects)];
+        let ranges = attachment.place.cleared(attachment.aspects);
         match &attachment.initial {
             InitialContents::Color(color) => {
                 // SAFETY: recording; the image is in this layout.
@@ -128,12 +128,11 @@ pub(crate) fn initial_contents(
                 }
             }
             InitialContents::Upload(offset) => {
-                let regions = [region(
-                    attachment,
-                    attachment.place,
-                    attachment.aspects,
-                    *offset,
-                )];
+                let places = attachment.place.uploaded();
+                let regions: Vec<_> = places
+                    .into_iter()
+                    .map(|place| region(attachment, place, attachment.aspects, *offset))
+                    .collect();
                 // SAFETY: as above; the input buffer holds all texels from the offset on.
                 unsafe {
                     device.raw.cmd_copy_buffer_to_image(
@@ -185,6 +184,11 @@ pub(crate) fn passes(
             pass.roles.iter().copied(),
         );
         self::pass(device, recorder, pass, input)?;
+        let commands = recorder.slot.commands();
+        for resolve in &pass.resolves {
+            // SAFETY: recording; the pass has ended, and its color attachments are in the layout of such.
+            unsafe { resolve.record(device, commands, &plan.attachments) };
+        }
     }
     let first = plan.attachments.iter().map(|a| a.role).enumerate();
     let commands = recorder.next_pass(device)?;
@@ -281,6 +285,7 @@ impl Recorder<'_> {
             return Ok(());
         }
         let mut rendering = vk::CommandBufferInheritanceRenderingInfo::default()
+            .view_mask(pass.targets.views())
             .color_attachment_formats(&pass.targets.color)
             .depth_attachment_format(pass.targets.depth)
             .stencil_attachment_format(pass.targets.stencil)
@@ -422,7 +427,8 @@ unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassP
     let stencil = aspect(|plan| plan.stencil.as_ref(), 1);
     let mut info = vk::RenderingInfo::default()
         .render_area(pass.area)
-        .layer_count(1)
+        .layer_count(pass.targets.layer_count())
+        .view_mask(pass.targets.views())
         .color_attachments(&color);
     if recorder.kind == PathCommands::Secondary {
         info = info.flags(vk::RenderingFlags::CONTENTS_SECONDARY_COMMAND_BUFFERS);
@@ -487,6 +493,11 @@ unsafe fn draws(
                 bind(pipeline);
             }
             self::draw(device, commands, draw, input);
+            if let Some(again) = &draw.again {
+                bind(again);
+                bound = Some(again);
+                self::draw(device, commands, draw, input);
+            }
         }
         for (_, clear) in clears {
             clear.record(device, commands);

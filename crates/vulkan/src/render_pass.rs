@@ -132,6 +132,7 @@ impl RenderPass {
         let described = |last: bool| {
             let mut subpass = vk::SubpassDescription2::default()
                 .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+                .view_mask(targets.views())
                 .color_attachments(&color);
             if let Some(tested) = &tested {
                 subpass = subpass.depth_stencil_attachment(tested);
@@ -174,7 +175,7 @@ impl RenderPass {
             .attachments(&attachments.views)
             .width(width)
             .height(height)
-            .layers(1);
+            .layers(targets.layer_count());
         // SAFETY: the views are of the render pass's formats and at least so large.
         let framebuffer =
             unsafe { device.raw.create_framebuffer(&info, None) }.check("a framebuffer");

@@ -1,10 +1,11 @@
 //! Shader modules, translated from WGSL by naga.
 
+use crate::cull_distance;
 use crate::device::Device;
 use crate::error::Check;
 use crate::mask_array;
 use crate::stencil_export;
-use crate::viewport;
+use crate::viewport::{self, Chosen};
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_scene::{EarlyTests, Shader};
@@ -27,10 +28,10 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// One module per shader, early-test mode and viewport. The set is closed, so all are kept.
+/// One module per shader, early-test mode, viewport and layer. The set is closed, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
-    modules: HashMap<(Shader, EarlyTests, bool), Module>,
+    modules: HashMap<(Shader, EarlyTests, Chosen), Module>,
 }
 
 /// Translates a WGSL file.
@@ -83,9 +84,9 @@ impl Modules {
         device: &Device,
         shader: Shader,
         tests: EarlyTests,
-        second_viewport: bool,
+        chosen: Chosen,
     ) -> Result<Module, BackendError> {
-        let key = (shader, tests, second_viewport);
+        let key = (shader, tests, chosen);
         if let Some(module) = self.modules.get(&key) {
             return Ok(module.clone());
         }
@@ -96,8 +97,11 @@ impl Modules {
         if shader.writes_reference() {
             translated.words = stencil_export::as_built_in(&translated.words);
         }
-        if second_viewport {
-            translated.words = viewport::choose_second(&translated.words);
+        if shader.cull_distances() > 0 {
+            translated.words = cull_distance::as_cull_distances(&translated.words);
+        }
+        if chosen != Chosen::default() {
+            translated.words = viewport::choose(&translated.words, chosen);
         }
         let module = Module {
             raw: create_module(device, shader.name(), &translated.words)?,

@@ -1,6 +1,8 @@
 //! The formats of a pass's attachments, as pipelines and render passes ask for them.
 
+use crate::image::{DRAWN_LAYERS, LAYERS};
 use ash::vk;
+use etalon_frame::PathLayers;
 
 /// The formats and sample count of a pass's attachments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -11,9 +13,27 @@ pub(crate) struct Targets {
     /// `UNDEFINED` without a stencil aspect.
     pub(crate) stencil: vk::Format,
     pub(crate) samples: u32,
+    /// The layers of the pass.
+    pub(crate) layers: PathLayers,
 }
 
 impl Targets {
+    /// Returns the layers that are views; 0 without views.
+    pub(crate) fn views(&self) -> u32 {
+        match self.layers {
+            PathLayers::One | PathLayers::Written => 0,
+            PathLayers::Multiview => DRAWN_LAYERS.iter().fold(0, |mask, layer| mask | 1 << layer),
+        }
+    }
+
+    /// Returns the number of layers that shaders choose from. Passes with views have one.
+    pub(crate) fn layer_count(&self) -> u32 {
+        match self.layers {
+            PathLayers::One | PathLayers::Multiview => 1,
+            PathLayers::Written => LAYERS,
+        }
+    }
+
     /// Returns the format of the depth-stencil attachment.
     pub(crate) fn depth_stencil(&self) -> vk::Format {
         match self.depth {

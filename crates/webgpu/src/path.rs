@@ -21,7 +21,7 @@ pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue
         PathValue::Commands(_) => true,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => indirect,
-        PathValue::Draws(PathDraws::IndirectCount) => false,
+        PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => false,
         PathValue::Draws(_) => true,
         PathValue::End(end) => matches!(
             end,
@@ -42,7 +42,9 @@ pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue
         | PathValue::Area(_)
         | PathValue::Clears(_)
         | PathValue::Clip(_)
-        | PathValue::Viewport(_) => false,
+        | PathValue::Viewport(_)
+        | PathValue::Layers(_)
+        | PathValue::Resolves(_) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
 }

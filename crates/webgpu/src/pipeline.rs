@@ -295,7 +295,7 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
     ];
     const TEXTURED: [VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
-        Shader::ClipFlat | Shader::ClipUniform | Shader::EdgeAlpha => &ALL,
+        Shader::ClipFlat | Shader::ClipUniform | Shader::CullFlat | Shader::EdgeAlpha => &ALL,
         Shader::Centroid
         | Shader::Fxaa
         | Shader::SampledColor

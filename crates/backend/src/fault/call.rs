@@ -167,7 +167,7 @@ faults! {
     BlitFilter = "blit-filter" in "paths/blits/end=blit-linear/*";
     /// Blits begin at the first texel of the destination.
     BlitPlace = "blit-place" in "paths/blits/end=blit-part/*";
-    /// Blits of depth alone are skipped, and those of stencil alone.
+    /// Blits of depth alone to another place are skipped, and those of stencil alone.
     BlitAspectAlone = "blit-aspect-alone" in "paths/blits-depth-stencil/end=blit-part/*" of OpenGl;
     /// Of the regions of a blit, only the first is copied.
     BlitFirstRegion = "blit-first-region" in "paths/blits/end=blit-part/*" of Vulkan;
@@ -185,7 +185,17 @@ faults! {
     InvalidateAll = "invalidate-all" in "paths/clears/clears=undefined/*" of OpenGl;
     /// Other attachments come with open masks, and without culling.
     StateForgotten = "state-forgotten" in "paths/state-kept/*";
-    /// The second scissor rectangle is the first.
+    /// Vertex shaders write no layer.
+    LayerUnwritten = "layer-unwritten" in "paths/layers/*/layers=written/*";
+    /// Of several views, only the first is drawn to.
+    ViewFirst = "view-first" in "paths/layers/*/layers=multiview/*" of Vulkan;
+    /// Of several layers, clears within passes reach the first.
+    ClearFirstLayer = "clear-first-layer" in "paths/layers/*/layers=written/*";
+    /// Of several ranges, only the first is cleared.
+    ClearFirstRange = "clear-first-range" in "paths/layers/*/layers=written/*" of Vulkan;
+    /// Resolved parts stay in their places.
+    ResolvePlace = "resolve-place" in "paths/resolves/*";
+    /// Behind a clear, the second scissor rectangle is the first.
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;

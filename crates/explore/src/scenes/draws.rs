@@ -46,6 +46,7 @@ impl Maker<'_> {
         self.textures_of(pass, shader, &mut draw);
         let area = self.viewport(shader, &mut draw);
         self.mesh(pass, shader, written, area, &mut draw);
+        self.factors(&mut draw);
         draw["params"] = self.params(shader);
         for state in ["cull", "front_face", "depth", "stencil"] {
             self.set(state, pass, shader, &mut draw);
@@ -83,6 +84,24 @@ impl Maker<'_> {
             }
         }
         draw
+    }
+
+    /// Gives the vertices of a mesh another w, seldom behind the eye. Outlines keep theirs.
+    fn factors(&mut self, draw: &mut Value) {
+        if draw["polygon_mode"] == "line" || !self.extra("w") {
+            return;
+        }
+        let lists: [&[f64]; 6] = [
+            &[2.0],
+            &[0.25, 4.0],
+            &[1.0, 2.0, 4.0],
+            &[8.0, 1.0, 0.5],
+            &[1.0, 65536.0, 1.0],
+            &[1.0, 1.0, -1.0],
+        ];
+        let number = self.choices.below(lists.len() as u32);
+        self.choices.note("w", number);
+        draw["w"] = json!(lists[number as usize]);
     }
 
     /// The draw before with another value of one state.

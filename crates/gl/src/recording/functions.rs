@@ -138,6 +138,7 @@ functions! {
     glFinish();
     glFlush();
     glFramebufferRenderbuffer(target: Enum, point: Enum, kind: Enum, renderbuffer: Renderbuffer);
+    glFramebufferTexture(target: Enum, point: Enum, texture: Texture, level: Int);
     glFramebufferTexture2D(target: Enum, point: Enum, kind: Enum, texture: Texture, level: Int);
     glFramebufferTextureLayer(target: Enum, point: Enum, texture: Texture, level: Int, layer: Int);
     glFrontFace(winding: Enum);

@@ -9,6 +9,7 @@ mod clip_uniform;
 mod counted_color;
 mod counted_depth;
 mod counted_discard;
+mod cull_flat;
 mod depth_grey;
 mod depth_linearized;
 mod depth_range;
@@ -87,6 +88,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::CountedColor => counted_color::fragment(a, input),
         Shader::CountedDepth => counted_depth::fragment(a, input),
         Shader::CountedDiscard => counted_discard::fragment(a, input),
+        Shader::CullFlat => cull_flat::fragment::<A>(input),
         Shader::DepthGrey => depth_grey::fragment(a, input),
         Shader::DepthLinearized => depth_linearized::fragment(a, input),
         Shader::DepthRange => depth_range::fragment(a, input),
@@ -149,6 +151,14 @@ pub fn clip_distances(shader: Shader, vertex: &Vertex) -> Vec<f32> {
     match shader {
         Shader::ClipFlat => clip_flat::distances(vertex).to_vec(),
         Shader::ClipUniform => clip_uniform::distances(vertex).to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+/// Returns the cull distances of a vertex.
+pub fn cull_distances(shader: Shader, vertex: &Vertex) -> Vec<f32> {
+    match shader {
+        Shader::CullFlat => cull_flat::distances(vertex).to_vec(),
         _ => Vec::new(),
     }
 }

@@ -146,8 +146,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Blending: factors are clamped for fixed-point attachments",
         ),
         resolve: permit(
-            // Render passes resolve by a mode. Only `vkCmdResolveImage`, which the backend does not call, may
-            // choose another.
+            // Render passes resolve by a mode. `vkCmdResolveImage` may choose one, which is the same where all samples of a
+            // texel are: paths that call it ask for that.
             Resolve::CoarseAverage,
             "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),

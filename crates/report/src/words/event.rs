@@ -346,6 +346,7 @@ pub(super) fn rejection_predicate(rejection: Rejection, detail: &str) -> String 
         Rejection::Coverage => "does not cover it".to_owned(),
         Rejection::Viewport | Rejection::Scissor => format!("is {detail}"),
         Rejection::NearFar | Rejection::ClipDistance => format!("is clipped there: {detail}"),
+        Rejection::CullDistance => "has a cull distance below 0 at all vertices".to_owned(),
         Rejection::Culling => format!("is culled: {detail}"),
         Rejection::SampleCoverage => format!("loses it to sample coverage: {detail}"),
         Rejection::SampleMask => format!("is masked: {detail}"),

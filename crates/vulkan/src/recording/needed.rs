@@ -4,7 +4,9 @@
 
 use ash::vk;
 use etalon_backend::{Argument, Call, VulkanNeeds};
-use etalon_frame::{Feature, PathDraws, PathState, PathViewport, Requirement, TextureFormat};
+use etalon_frame::{
+    Feature, PathDraws, PathLayers, PathState, PathViewport, Requirement, TextureFormat,
+};
 use etalon_scene::Scene;
 
 /// The features and extensions that a scene's device needs.
@@ -24,6 +26,7 @@ impl Needed {
         let mut needed = Self {
             all: scene.path.state != PathState::default()
                 || scene.path.viewport != PathViewport::default()
+                || scene.path.layers != PathLayers::default()
                 || scene.path.draws == PathDraws::IndirectCount,
             ..Self::default()
         };
@@ -97,6 +100,7 @@ impl Needed {
             "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT" => "VK_EXT_extended_dynamic_state3",
             "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" => "VK_EXT_extended_dynamic_state2",
             "VkPhysicalDeviceProvokingVertexFeaturesEXT" => "VK_EXT_provoking_vertex",
+            "VkPhysicalDeviceVulkan11Features" => "VK_KHR_multiview",
             "VkPhysicalDeviceVulkan12Features" => "VK_KHR_draw_indirect_count",
             "VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT" => {
                 "VK_EXT_blend_operation_advanced"
@@ -121,6 +125,7 @@ fn member(feature: Feature) -> Option<&'static str> {
     Some(match feature {
         Feature::AlphaToOne => "alphaToOne",
         Feature::ClipDistances => "shaderClipDistance",
+        Feature::CullDistances => "shaderCullDistance",
         Feature::DepthBiasClamp => "depthBiasClamp",
         Feature::DepthBounds => "depthBounds",
         Feature::DepthClamp => "depthClamp",

@@ -373,6 +373,15 @@ functions! {
         pRegions: *const c_void = Array(&Struct(&VkImageBlit), By("regionCount")),
         filter: vk::Filter = named!(vk::Filter),
     }
+    vkCmdResolveImage {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        srcImage: vk::Image = Handle("VkImage"),
+        srcImageLayout: vk::ImageLayout = named!(vk::ImageLayout),
+        dstImage: vk::Image = Handle("VkImage"),
+        dstImageLayout: vk::ImageLayout = named!(vk::ImageLayout),
+        regionCount: u32 = U32,
+        pRegions: *const c_void = Array(&Struct(&VkImageResolve), By("regionCount")),
+    }
     vkCmdClearColorImage {
         commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
         image: vk::Image = Handle("VkImage"),
@@ -1240,6 +1249,13 @@ structures! {
         dstSubresource = dst_subresource: Struct(&VkImageSubresourceLayers),
         dstOffsets = dst_offsets: Values(&Struct(&VkOffset3D), 2),
     }
+    VkImageResolve: vk::ImageResolve {
+        srcSubresource = src_subresource: Struct(&VkImageSubresourceLayers),
+        srcOffset = src_offset: Struct(&VkOffset3D),
+        dstSubresource = dst_subresource: Struct(&VkImageSubresourceLayers),
+        dstOffset = dst_offset: Struct(&VkOffset3D),
+        extent = extent: Struct(&VkExtent3D),
+    }
     VkClearDepthStencilValue: vk::ClearDepthStencilValue {
         depth = depth: F32,
         stencil = stencil: U32,
@@ -1261,6 +1277,22 @@ structures! {
         srcAlphaBlendFactor = src_alpha_blend_factor: named!(vk::BlendFactor),
         dstAlphaBlendFactor = dst_alpha_blend_factor: named!(vk::BlendFactor),
         alphaBlendOp = alpha_blend_op: named!(vk::BlendOp),
+    }
+    VkPhysicalDeviceVulkan11Features: vk::PhysicalDeviceVulkan11Features {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        storageBuffer16BitAccess = storage_buffer16_bit_access: U32,
+        uniformAndStorageBuffer16BitAccess = uniform_and_storage_buffer16_bit_access: U32,
+        storagePushConstant16 = storage_push_constant16: U32,
+        storageInputOutput16 = storage_input_output16: U32,
+        multiview = multiview: U32,
+        multiviewGeometryShader = multiview_geometry_shader: U32,
+        multiviewTessellationShader = multiview_tessellation_shader: U32,
+        variablePointersStorageBuffer = variable_pointers_storage_buffer: U32,
+        variablePointers = variable_pointers: U32,
+        protectedMemory = protected_memory: U32,
+        samplerYcbcrConversion = sampler_ycbcr_conversion: U32,
+        shaderDrawParameters = shader_draw_parameters: U32,
     }
     VkPhysicalDeviceVulkan12Features: vk::PhysicalDeviceVulkan12Features {
         sType = s_type: named!(vk::StructureType),
@@ -1454,6 +1486,7 @@ unions! {
 }
 
 chained! {
+    VkPhysicalDeviceVulkan11Features: PHYSICAL_DEVICE_VULKAN_1_1_FEATURES,
     VkPhysicalDeviceVulkan12Features: PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
     VkPhysicalDeviceVulkan13Features: PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
     VkPhysicalDeviceProvokingVertexFeaturesEXT: PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT,

@@ -121,8 +121,8 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
             }
         }
         Test::Same { methods: [a, b] } => {
-            records.push(setting(a, 1.0).off(0.02));
-            records.push(setting(b, 1.0).off(if good { 0.02 } else { 0.0201 }));
+            records.push(setting(a, values[0]).off(0.02));
+            records.push(setting(b, values[0]).off(if good { 0.02 } else { 0.0201 }));
         }
         Test::Trend {
             quantity,
