@@ -77,9 +77,9 @@ mod tests {
             assert_eq!(all.len(), (SIZE[0] * SIZE[1]) as usize * channels.len());
             for (c, encoding) in channels.iter().enumerate() {
                 let own = || all.iter().skip(c).step_by(channels.len()).copied();
-                let due = encoding.mask();
-                assert_eq!(own().fold(0, |a, b| a | b), due, "{format} {c}: ones");
-                assert_eq!(own().fold(due, |a, b| a & b), 0, "{format} {c}: zeros");
+                let expected = encoding.mask();
+                assert_eq!(own().fold(0, |a, b| a | b), expected, "{format} {c}: ones");
+                assert_eq!(own().fold(expected, |a, b| a & b), 0, "{format} {c}: zeros");
                 if encoding.is_float() {
                     for code in own() {
                         let value = encoding.value_of_order(encoding.order_of_code(code));
@@ -89,7 +89,11 @@ mod tests {
                 } else {
                     let different = own().collect::<BTreeSet<_>>().len() as u32;
                     let left_out = matches!(encoding, ChannelEncoding::Snorm(_));
-                    assert_eq!(different, due + 1 - u32::from(left_out), "{format} {c}");
+                    assert_eq!(
+                        different,
+                        expected + 1 - u32::from(left_out),
+                        "{format} {c}"
+                    );
                 }
             }
         }

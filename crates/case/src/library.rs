@@ -171,10 +171,10 @@ mod tests {
         assert_eq!(quick, ["t/a=1/side=large", "t/a=2/side=small"]);
         for case in good.cases(Profile::Full) {
             let scene = case.build().expect("builds").scene;
-            let due = scene.attachments[0].size[0] / 2;
+            let expected = scene.attachments[0].size[0] / 2;
             assert_eq!(
                 scene.passes[0].draws[0].scissor,
-                Some([0, 0, due, due]),
+                Some([0, 0, expected, expected]),
                 "{}",
                 case.id()
             );

@@ -192,13 +192,13 @@ mod tests {
             .into_iter()
             .map(|w| (w.line, w.key))
             .collect();
-        let due = [
+        let expected = [
             (5, "derived.none"),
             (3, "axes.idle"),
             (8, "scene.passes[0].draws[0]"),
             (9, "scene.passes[0].draws[1]"),
         ];
-        assert_eq!(told, due.map(|(line, key)| (line, key.to_owned())));
+        assert_eq!(told, expected.map(|(line, key)| (line, key.to_owned())));
     }
 
     #[test]

@@ -170,9 +170,9 @@ mod tests {
                     for value in 0..*length {
                         let found = rows.iter().filter(|r| r[axis] == value).count();
                         // A value of one axis meets no more than all of the others.
-                        let due = times.min(all / length).min(3);
+                        let expected = times.min(all / length).min(3);
                         assert!(
-                            found >= due,
+                            found >= expected,
                             "{lengths:?}: value {value} of axis {axis} stands {found} times"
                         );
                     }

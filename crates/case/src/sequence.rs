@@ -164,10 +164,10 @@ mod tests {
     #[test]
     fn steps_take_turns_in_a_pass_in_passes_and_on_framebuffers() {
         use CompareFunction::{Always, Less};
-        let due = [Some(Always), Some(Less), None, Some(Less)];
+        let expected = [Some(Always), Some(Less), None, Some(Less)];
         let draw = made("draw");
         assert_eq!(draw.passes.len(), 1);
-        assert_eq!(compares(&draw.passes[0]), due);
+        assert_eq!(compares(&draw.passes[0]), expected);
         let z = |i: usize| draw.passes[0].draws[i].mesh.vertices[0].position[2];
         assert_eq!([z(1), z(2), z(3)], [0.0, 0.25, 0.0]);
         // What a step leaves out is the common draw's.
@@ -175,13 +175,19 @@ mod tests {
 
         let pass = made("pass");
         let all: Vec<_> = pass.passes.iter().map(compares).collect();
-        assert_eq!(all, [&due[..2], &due[2..3], &due[3..]]);
+        assert_eq!(all, [&expected[..2], &expected[2..3], &expected[3..]]);
 
         let framebuffer = made("framebuffer");
         let all: Vec<_> = framebuffer.passes.iter().map(compares).collect();
         assert_eq!(
             all,
-            [&due[..1], &due[..1], &due[1..2], &due[2..3], &due[3..]]
+            [
+                &expected[..1],
+                &expected[..1],
+                &expected[1..2],
+                &expected[2..3],
+                &expected[3..]
+            ]
         );
         let name = |i: usize| framebuffer.attachments[i].name.as_str();
         let drawn: Vec<_> = framebuffer

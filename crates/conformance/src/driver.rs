@@ -90,11 +90,11 @@ impl Driver<'_> {
             (false, _) => println!("{}: skipped, for lack of {}", check.name, names.join(", ")),
         }
         if let Some(lacks) = &self.known.lacks {
-            let due = lacks.limits(subject.limits().api);
+            let expected = lacks.limits(subject.limits().api);
             // The driver offers what the tests leave out.
             let denied = |r: &&Requirement| subject.backend.limits().missing(&[**r]).is_some();
             let unknown = missing.iter().filter(denied);
-            let unknown = unknown.filter(|r| due.missing(&[**r]).is_none());
+            let unknown = unknown.filter(|r| expected.missing(&[**r]).is_none());
             let unknown: Vec<_> = unknown.map(Requirement::to_string).collect();
             assert!(
                 unknown.is_empty(),
@@ -102,8 +102,8 @@ impl Driver<'_> {
                 self.known.name
             );
         }
-        if let Some(due) = predict(check, &self.known) {
-            let skips = due == Prediction::Skips;
+        if let Some(expected) = predict(check, &self.known) {
+            let skips = expected == Prediction::Skips;
             assert_eq!(ran, !skips, "{} on {}", check.name, self.known.name);
         }
     }

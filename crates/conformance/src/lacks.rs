@@ -71,14 +71,14 @@ impl Lacks {
     /// # Panics
     /// When they do not.
     pub fn check(&self, limits: &Limits) {
-        let due = self.limits(limits.api);
+        let expected = self.limits(limits.api);
         let only = |by: &Limits, not_by: &Limits| -> Vec<String> {
             let all = requirements().into_iter();
             let only =
                 all.filter(|r| by.missing(&[*r]).is_some() && not_by.missing(&[*r]).is_none());
             only.map(|r| r.to_string()).collect()
         };
-        let (lost, gained) = (only(limits, &due), only(&due, limits));
+        let (lost, gained) = (only(limits, &expected), only(&expected, limits));
         let same = lost.is_empty() && gained.is_empty();
         assert!(same, "lost: {lost:#?}, gained: {gained:#?}");
     }

@@ -406,8 +406,8 @@ impl LegalSetBuilder {
     /// If a group has too few or too many samples: a bug of the judge.
     pub fn build(self) -> LegalSet {
         for group in &self.groups {
-            let due = group.size[0] as usize * group.size[1] as usize * group.samples as usize;
-            assert_eq!(group.len(), due, "a group's samples are not complete");
+            let expected = group.size[0] as usize * group.size[1] as usize * group.samples as usize;
+            assert_eq!(group.len(), expected, "a group's samples are not complete");
         }
         LegalSet {
             statistics: LegalSet::count(&self.images, &self.groups),

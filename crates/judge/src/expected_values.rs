@@ -20,11 +20,11 @@ pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, reco
         let mut channels = Vec::new();
         for (c, value) in expect.value.iter().enumerate() {
             let encoding = info.channels[c];
-            let due = encoding.nearest_code(*value);
+            let expected = encoding.nearest_code(*value);
             let at = info.first_channel + c;
             let legal_here = set
                 .hull(at)
-                .is_none_or(|hull| hull.contains(encoding.order_of_code(due)));
+                .is_none_or(|hull| hull.contains(encoding.order_of_code(expected)));
             if !legal_here {
                 record.verdict = Verdict::InternalError;
                 record.message = format!(
@@ -33,14 +33,14 @@ pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, reco
                 return;
             }
             let actual = frame.images[index].sample(x, y, 0)[c];
-            if actual != due {
+            if actual != expected {
                 channels.push(ChannelMismatch {
                     attachment: name.clone(),
                     aspect: Aspect::Color,
                     channel: c as u8,
                     encoding,
-                    low: due,
-                    high: due,
+                    low: expected,
+                    high: expected,
                     actual,
                 });
             }

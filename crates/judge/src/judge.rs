@@ -310,7 +310,7 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
         .filter(|c| c.band.is_some())
         .map(|c| {
             let legal = c.range();
-            let due = match c.band {
+            let expected = match c.band {
                 Some(Band::Fail) => format!("{legal} is legal"),
                 Some(Band::RequiredByCts) => {
                     format!("the text leaves it open, but the Khronos CTS requires {legal}")
@@ -319,7 +319,7 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
                 _ => format!("{legal} is legal, but the yardstick wants another"),
             };
             format!(
-                "counter {} ({}) is {}, {due}",
+                "counter {} ({}) is {}, {expected}",
                 c.name,
                 c.kind.name(),
                 c.actual

@@ -89,13 +89,13 @@ mod tests {
         for mantissa in [5, 6] {
             let encoding = ChannelEncoding::Ufloat(mantissa);
             for code in 0..32 << mantissa {
-                let (value, due) = (
+                let (value, expected) = (
                     f64::from(lengthened(code, mantissa)),
                     encoding.value_of_order(code.into()),
                 );
                 assert!(
-                    value == due || value.is_nan() && due.is_nan(),
-                    "{code:#x}: {value} {due}"
+                    value == expected || value.is_nan() && expected.is_nan(),
+                    "{code:#x}: {value} {expected}"
                 );
                 let again = shortened(value as f32, mantissa);
                 assert!(again == code || value.is_nan() && encoding.is_nan(again));
@@ -114,15 +114,15 @@ mod tests {
                     for near in [0, 1, 2, 1000, step as u32 - 1] {
                         let value = f32::from_bits(exponent << 23 | bits | near);
                         let code = shortened(value, mantissa);
-                        let due = encoding.nearest_code(value.into());
+                        let expected = encoding.nearest_code(value.into());
                         let distance = |code: u32| {
                             let nearest = encoding.value_of_order(code.into());
                             (nearest - f64::from(value)).abs()
                         };
-                        let equal = distance(code) == distance(due);
+                        let equal = distance(code) == distance(expected);
                         assert!(
-                            code == due || equal && code.is_multiple_of(2),
-                            "{value}: {code} {due}"
+                            code == expected || equal && code.is_multiple_of(2),
+                            "{value}: {code} {expected}"
                         );
                         assert_eq!(shortened(-value, mantissa), 0);
                     }
@@ -140,8 +140,12 @@ mod tests {
     #[test]
     fn all_16_bit_floats_have_their_value() {
         for code in 0..=u16::MAX {
-            let due = f16::from_bits(code).to_f32();
-            assert_eq!(widened(code.into()).to_bits(), due.to_bits(), "{code:#x}");
+            let expected = f16::from_bits(code).to_f32();
+            assert_eq!(
+                widened(code.into()).to_bits(),
+                expected.to_bits(),
+                "{code:#x}"
+            );
         }
     }
 
@@ -155,8 +159,8 @@ mod tests {
         for mantissa in mantissas.chain((0..1 << 23).step_by(977)) {
             for upper in 0..512_u32 {
                 let value = f32::from_bits(upper << 23 | mantissa);
-                let due = u32::from(f16::from_f32(value).to_bits());
-                assert_eq!(narrowed(value), due, "{:#x}", value.to_bits());
+                let expected = u32::from(f16::from_f32(value).to_bits());
+                assert_eq!(narrowed(value), expected, "{:#x}", value.to_bits());
             }
         }
     }

@@ -923,8 +923,8 @@ mod tests {
         let mut a = Judging::new(&rules);
         for value in [0.0, 1e-30, 0.3, 0.99999994, 1.0_f32] {
             let v = a.constant(value);
-            let due = CodeInterval::exact(i64::from(value.to_bits()));
-            assert_eq!(a.encode(ChannelEncoding::Float32, v), due);
+            let expected = CodeInterval::exact(i64::from(value.to_bits()));
+            assert_eq!(a.encode(ChannelEncoding::Float32, v), expected);
         }
     }
 }

@@ -453,11 +453,11 @@ mod tests {
 
     #[test]
     fn all_draw_calls_draw_the_same_primitives() {
-        let due = drawn(PathDraws::Direct);
+        let expected = drawn(PathDraws::Direct);
         let primitives = |draw: &Draw| draw.mesh.primitives(draw.topology);
         for draws in PathDraws::ALL {
             let draw = drawn(*draws);
-            assert_eq!(primitives(&draw), primitives(&due), "{draws}");
+            assert_eq!(primitives(&draw), primitives(&expected), "{draws}");
         }
         let short = drawn(PathDraws::Indexed16);
         assert_eq!(short.fetch.index, IndexFormat::Uint16);

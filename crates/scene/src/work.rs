@@ -266,13 +266,13 @@ mod tests {
         };
         let all = 32 * 16;
         let work = scene(vec![pass.clone(), pass]).work();
-        let due = Work {
+        let expected = Work {
             triangles: 4,
             texels: 4 * all,
             cleared: 2 * all,
             resolved: 2 * all,
             read: all,
         };
-        assert_eq!(work, due);
+        assert_eq!(work, expected);
     }
 }

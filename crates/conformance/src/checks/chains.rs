@@ -137,8 +137,12 @@ pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
             continue;
         };
         for (x, y) in texels([4, 2]) {
-            let due = [56 * x + 14, 120 * y + 30, 7, 255].map(|v| f64::from(v) / 255.0);
-            check_near(&values(color(&frame, "small"), x, y), &due, 1.01 / 255.0);
+            let expected = [56 * x + 14, 120 * y + 30, 7, 255].map(|v| f64::from(v) / 255.0);
+            check_near(
+                &values(color(&frame, "small"), x, y),
+                &expected,
+                1.01 / 255.0,
+            );
         }
     }
     Ok(())

@@ -98,7 +98,7 @@ pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
 
 /// Every second triangle of a strip is turned over.
 pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
-    for (positions, due) in [
+    for (positions, expected) in [
         ([[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]], RED),
         ([[-1, 1, 0], [-1, -1, 0], [1, 1, 0], [1, -1, 0]], RED),
         ([[-1, -1, 0], [-1, 1, 0], [1, -1, 0], [1, 1, 0]], GREEN),
@@ -106,7 +106,7 @@ pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
         let frame = s.show(over_blue(json!({
             "mesh": { "kind": "vertices", "positions": positions }, "topology": "triangle-strip",
             "shader": "front_facing", "params": red_or_green() })))?;
-        frame.color_is("color", |_, _| due);
+        frame.color_is("color", |_, _| expected);
     }
     Ok(())
 }
@@ -149,10 +149,10 @@ pub(crate) fn blending_weighs_source_and_destination(s: &Subject) -> Checked {
         let [rgb, alpha] = [rgb, alpha].map(|[op, src, dst]| component(op, src, dst));
         json!({ "blend": { "color": rgb, "alpha": alpha }, "blend_constant": constant })
     };
-    for (rgb, alpha, constant, due) in BLENDS {
+    for (rgb, alpha, constant, expected) in BLENDS {
         let state = state(rgb, alpha, constant);
         if let Ok(texel) = drawn_over(s, [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.6], state) {
-            check_within_one(&texel, due);
+            check_within_one(&texel, expected);
         }
     }
     let alpha = ["add", "constant-alpha", "one-minus-constant-alpha"];
@@ -174,8 +174,9 @@ pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
             ([1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]),
         ] {
             let texel = drawn_over(s, clear, source, json!({ "write_mask": mask }))?;
-            let due = [0, 1, 2, 3].map(|i| if on(i) { source[i] } else { clear[i] } as u32 * 255);
-            assert_eq!(texel, due, "{mask}");
+            let expected =
+                [0, 1, 2, 3].map(|i| if on(i) { source[i] } else { clear[i] } as u32 * 255);
+            assert_eq!(texel, expected, "{mask}");
         }
     }
     Ok(())

@@ -80,21 +80,21 @@ pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
     for (format, _) in colors(s) {
         let (scene, _) = whole_range(format, false);
         let frame = s.draw(&scene)?;
-        let due = &scene.attachments[0].contents;
+        let expected = &scene.attachments[0].contents;
         let mut codes = color(&frame, "source").codes.clone();
         // OpenGL reads through floats (4.6, 18.2.8), in which both codes of -1 are one value.
         let is_gl = matches!(s.limits().api, Api::OpenGl | Api::OpenGlEs);
         if is_gl && format == TextureFormat::Rgba8Snorm {
-            let Contents::Texels(due) = due else {
+            let Contents::Texels(expected) = expected else {
                 panic!("texels are uploaded")
             };
-            for (code, due) in codes.iter_mut().zip(due) {
-                if (*code, *due) == (0x81, 0x80) {
+            for (code, expected) in codes.iter_mut().zip(expected) {
+                if (*code, *expected) == (0x81, 0x80) {
                     *code = 0x80;
                 }
             }
         }
-        assert_eq!(&Contents::Texels(codes), due, "{format}");
+        assert_eq!(&Contents::Texels(codes), expected, "{format}");
     }
     Ok(())
 }
@@ -137,12 +137,12 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
         let channels = format.color_channels();
         for (texel, orders) in orders.chunks(channels.len()).enumerate() {
             let (x, y) = (texel as u32 % 16, texel as u32 / 16);
-            let mut due = [0.0, 0.0, 0.0, 1.0];
-            for ((due, e), order) in due.iter_mut().zip(channels).zip(orders) {
-                *due = e.value_of_order(*order);
+            let mut expected = [0.0, 0.0, 0.0, 1.0];
+            for ((expected, e), order) in expected.iter_mut().zip(channels).zip(orders) {
+                *expected = e.value_of_order(*order);
             }
             let seen = values(color(&frame, "seen"), x, y);
-            for (c, (seen, due)) in seen.into_iter().zip(due).enumerate() {
+            for (c, (seen, expected)) in seen.into_iter().zip(expected).enumerate() {
                 let near = match channels.get(c) {
                     // A texture unit may be half a code off (Direct3D allows as much), and software
                     // drivers make use of it.
@@ -150,9 +150,12 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
                         let position = e.position(seen).unwrap();
                         (position - orders[c] as f64).abs() <= 0.5
                     }
-                    _ => (seen - due).abs() <= 1e-5 * due.abs().max(1e-3),
+                    _ => (seen - expected).abs() <= 1e-5 * expected.abs().max(1e-3),
                 };
-                assert!(near, "{format} ({x}, {y}): {seen}, and {due} is stored");
+                assert!(
+                    near,
+                    "{format} ({x}, {y}): {seen}, and {expected} is stored"
+                );
             }
         }
     }
@@ -175,10 +178,10 @@ pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
                 if *samples > 1 && (on_border(x) || on_border(y)) {
                     continue;
                 }
-                let due = codes(format.color_channels(), VALUES[x as usize / 4]);
+                let expected = codes(format.color_channels(), VALUES[x as usize / 4]);
                 for sample in 0..*samples {
                     let came = image.sample(x, y, sample);
-                    assert_eq!(came, due, "{format} ({x}, {y}) {sample}");
+                    assert_eq!(came, expected, "{format} ({x}, {y}) {sample}");
                 }
             }
         }
@@ -224,9 +227,9 @@ pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
             "attachments": { "a": cleared("rgba8unorm-srgb"), "b": cleared("rgba8unorm") },
             "passes": [{ "color": ["a"], "draws": draws }, { "color": ["b"], "draws": draws }],
         }))?;
-        for (name, due) in [("a", [188, 188, 188, 128]), ("b", [128; 4])] {
+        for (name, expected) in [("a", [188, 188, 188, 128]), ("b", [128; 4])] {
             for y in [1, 6] {
-                check_within_one(color(&frame, name).sample(3, y, samples - 1), due);
+                check_within_one(color(&frame, name).sample(3, y, samples - 1), expected);
             }
         }
         let drawn = color(&frame, "a").sample(3, 1, samples - 1);

@@ -52,12 +52,12 @@ pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
     ];
     let frame = s.show(listed(&layers, 48))?;
     for (x, y) in texels([4, 4]) {
-        let due = if x < 2 {
+        let expected = if x < 2 {
             [0.25, 0.5, 0.25, 1.0]
         } else {
             [0.5, 0.0, 0.5, 1.0]
         };
-        check_near(&shown(&frame, (x, y)), &due, 1.01 / 255.0);
+        check_near(&shown(&frame, (x, y)), &expected, 1.01 / 255.0);
     }
     Ok(())
 }

@@ -89,11 +89,11 @@ pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
             })) else {
                 continue;
             };
-            let due = match (depth, stencil) {
+            let expected = match (depth, stencil) {
                 (false, true) => RED,
                 _ => BLUE,
             };
-            frame.color_is("color", |_, _| due);
+            frame.color_is("color", |_, _| expected);
             frame.depth_is("depth", |_, _| if depth { 0.0 } else { 1.0 });
             frame.stencil_is("depth", |_, _| if stencil { 5 } else { 9 });
         }

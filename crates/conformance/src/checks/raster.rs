@@ -79,8 +79,8 @@ pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &Subject) 
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 6, 8, -4]))?;
     frame.is_red(|x, y| (4..8).contains(&x) && (4..6).contains(&y));
-    for (rect, due) in [([0, 0, 16, 16], RED), ([0, 16, 16, -16], GREEN)] {
-        faces(s, viewport(whole(), rect))?.color_is("color", |_, _| due);
+    for (rect, expected) in [([0, 0, 16, 16], RED), ([0, 16, 16, -16], GREEN)] {
+        faces(s, viewport(whole(), rect))?.color_is("color", |_, _| expected);
     }
     Ok(())
 }
@@ -260,8 +260,12 @@ pub(crate) fn fans_turn_about_their_first_vertex(s: &Subject) -> Checked {
     ] {
         let frame = faces(s, fan)?;
         for (x, y) in texels([16, 16]).filter(|(x, y)| x != y && x + y != 15) {
-            let due = if y < x && x + y < 15 { BLUE } else { RED };
-            assert_eq!(color(&frame, "color").sample(x, y, 0), due, "({x}, {y})");
+            let expected = if y < x && x + y < 15 { BLUE } else { RED };
+            assert_eq!(
+                color(&frame, "color").sample(x, y, 0),
+                expected,
+                "({x}, {y})"
+            );
         }
     }
     let corners = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.25], [0.0, 8.25]];
@@ -275,9 +279,13 @@ pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &Subject) -> Checked {
     let edges = |positions: &[[f64; 2]], red: &[(u32, u32)], blue: &[(u32, u32)]| -> Checked {
         let line = json!({ "polygon_mode": "line" });
         let frame = drawn(s, with(vertices("triangle-list", positions), line))?;
-        for (texels, due) in [(red, RED), (blue, BLUE)] {
+        for (texels, expected) in [(red, RED), (blue, BLUE)] {
             for (x, y) in texels {
-                assert_eq!(color(&frame, "color").sample(*x, *y, 0), due, "({x}, {y})");
+                assert_eq!(
+                    color(&frame, "color").sample(*x, *y, 0),
+                    expected,
+                    "({x}, {y})"
+                );
             }
         }
         Ok(())

@@ -125,23 +125,25 @@ pub(crate) fn averages_are_drawn_over_and_taken_again(s: &Subject) -> Checked {
 }
 
 pub(crate) fn alpha_takes_all_samples_or_none_away(s: &Subject) -> Checked {
-    for (alpha, mask, due) in [(0.0, 15, 0), (1.0, 15, 15), (1.0, 6, 6)] {
+    for (alpha, mask, expected) in [(0.0, 15, 0), (1.0, 15, 15), (1.0, 6, 6)] {
         let multisample = json!({ "mask": mask, "alpha_to_coverage": true });
         let frame = averaged(s, covered([1.0, 0.0, 0.0, alpha], multisample))?;
-        check_red(color(&frame, "m"), |_, _, sample| due >> sample & 1 == 1);
+        check_red(color(&frame, "m"), |_, _, sample| {
+            expected >> sample & 1 == 1
+        });
     }
     Ok(())
 }
 
 pub(crate) fn alpha_counts_as_one_where_asked(s: &Subject) -> Checked {
-    for (alpha, to_one, due) in [
+    for (alpha, to_one, expected) in [
         (0.0, false, 0),
         (0.0, true, 255),
         (0.25, false, 64),
         (0.25, true, 255),
     ] {
         let draw = covered([1.0, 0.0, 0.0, alpha], json!({ "alpha_to_one": to_one }));
-        averaged(s, draw)?.color_is("m", |_, _| [255, 0, 0, due]);
+        averaged(s, draw)?.color_is("m", |_, _| [255, 0, 0, expected]);
     }
     Ok(())
 }
@@ -264,10 +266,10 @@ pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
                 if distance.abs() > 0.1 {
                     assert_eq!(inside, distance > 0.0, "({x}, {y}) sample {sample}");
                 }
-                let due = if inside { (0.25_f32, 4) } else { (1.0, 3) };
+                let expected = if inside { (0.25_f32, 4) } else { (1.0, 3) };
                 let came = depth(&frame, "ds").sample(x, y, sample);
-                assert_eq!(came, [due.0.to_bits()]);
-                assert_eq!(stencil(&frame, "ds").sample(x, y, sample), [due.1]);
+                assert_eq!(came, [expected.0.to_bits()]);
+                assert_eq!(stencil(&frame, "ds").sample(x, y, sample), [expected.1]);
             }
             partly += u32::from(covered > 0 && covered < count);
         }

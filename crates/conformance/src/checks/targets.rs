@@ -95,8 +95,8 @@ pub(crate) fn targets_of_different_formats_take_one_draw(s: &Subject) -> Checked
         "read": targets.map(|(name, _)| name),
     }))?;
     for (name, format) in targets {
-        let due = codes(format.color_channels(), [1.0, 0.0, 1.0, 1.0]);
-        frame.color_is(name, |_, _| &due);
+        let expected = codes(format.color_channels(), [1.0, 0.0, 1.0, 1.0]);
+        frame.color_is(name, |_, _| &expected);
     }
     Ok(())
 }
@@ -123,7 +123,7 @@ const OPERATIONS: [(&str, u32); 16] = [
 
 pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked {
     assert_eq!(OPERATIONS.len(), LogicOperation::ALL.len());
-    for (name, due) in OPERATIONS {
+    for (name, expected) in OPERATIONS {
         for mask in ["rgba", "rba"] {
             let frame = s.show(json!({
                 "attachments": { "color": filled([0x55, 0x55, 0xaa, 0x55]),
@@ -132,9 +132,9 @@ pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked
                             "logic": name, "write_mask": mask }],
             }))?;
             // Of 0xcc and 0xaa the table stands the other way round, from the highest bit.
-            let turned = u32::from((due as u8).reverse_bits());
-            let green = if mask == "rgba" { due } else { 0x55 };
-            frame.color_is("color", |_, _| [due, green, turned, due]);
+            let turned = u32::from((expected as u8).reverse_bits());
+            let green = if mask == "rgba" { expected } else { 0x55 };
+            frame.color_is("color", |_, _| [expected, green, turned, expected]);
         }
     }
     // Nothing of it is left for the next scene.

@@ -106,13 +106,13 @@ mod tests {
                 assert_eq!(field.code(texel[field.word]), code(c), "{format} {c}");
                 let other = field.replaced(texel[field.word], !code(c));
                 for (d, rest) in layout.fields().iter().enumerate() {
-                    let due = if c == d {
+                    let expected = if c == d {
                         !code(c) & encodings[c].mask()
                     } else {
                         code(d)
                     };
                     if rest.word == field.word {
-                        assert_eq!(rest.code(other), due, "{format} {c} {d}");
+                        assert_eq!(rest.code(other), expected, "{format} {c} {d}");
                     }
                 }
             }

@@ -144,7 +144,7 @@ mod tests {
     fn the_lines_of_a_strip_are_joined_by_lines_of_a_few_texels() {
         let points = lines(3, 8);
         let texels = points.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
-        let due = [
+        let expected = [
             [[1.5, 0.5], [6.5, 0.5]],
             [[6.5, 1.5], [1.5, 1.5]],
             [[1.5, 2.5], [6.5, 2.5]],
@@ -154,7 +154,7 @@ mod tests {
             [[17.5, 0.5], [22.5, 0.5]],
             [[22.5, 1.5], [17.5, 1.5]],
         ];
-        assert_eq!(texels, due.concat());
+        assert_eq!(texels, expected.concat());
     }
 
     #[test]
