@@ -64,8 +64,8 @@ pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::{shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
-    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart,
-    PathState, PathTarget, PathValue, PathViewport,
+    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathResults,
+    PathStart, PathState, PathTarget, PathValue, PathViewport,
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;

@@ -9,6 +9,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let (caps, entry_points) = (&context.caps, &context.entry_points);
     let known = |feature: &Feature| match feature {
         Feature::ClipDistances | Feature::ClipDistanceMask => caps.clip_distances,
+        // There are no command buffers.
+        Feature::InheritedQueries => false,
         // Part of version 3.
         Feature::CentroidInterpolation
         | Feature::ClearCommands
@@ -18,6 +20,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::LastProvokingVertex
         | Feature::MaskedClears
         | Feature::MinMaxBlendFactors
+        | Feature::QueriesOverPasses
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
         | Feature::SampleCoverage

@@ -333,6 +333,7 @@ mod tests {
     use super::*;
     use crate::attachment::Attachment;
     use crate::path::Path;
+    use crate::query_scope::QueryScope;
     use etalon_frame::TextureFormat;
 
     fn scene(path: Path) -> Scene {
@@ -374,6 +375,7 @@ mod tests {
             passes: vec![pass.clone(), pass],
             read: vec![0],
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: None,
             path,
         }

@@ -5,8 +5,8 @@
 //! its limits which values it has; each value that is not the default is a requirement.
 
 use etalon_frame::{
-    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart,
-    PathState, PathTarget, PathValue, PathViewport,
+    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathResults,
+    PathStart, PathState, PathTarget, PathValue, PathViewport,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,8 @@ pub struct Path {
     pub area: PathArea,
     /// The calls that clear within passes.
     pub clears: PathClears,
+    /// The reading of queries.
+    pub results: PathResults,
     /// The clip volume's convention.
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
@@ -53,6 +55,7 @@ impl Path {
             end,
             area,
             clears,
+            results,
             clip,
             viewport,
         } = *self;
@@ -66,6 +69,7 @@ impl Path {
             PathValue::End(end),
             PathValue::Area(area),
             PathValue::Clears(clears),
+            PathValue::Results(results),
             PathValue::Clip(clip),
             PathValue::Viewport(viewport),
         ];

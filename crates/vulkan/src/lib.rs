@@ -42,6 +42,8 @@ mod render_pass;
 mod samplers;
 mod samples;
 mod shader;
+mod single;
+mod single_state;
 mod slot;
 mod spirv;
 mod state;

@@ -2,7 +2,7 @@
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
-use crate::counting::{Counting, Query};
+use crate::counting::{Counting, Enclosing};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
 use crate::extended::Extended;
@@ -15,6 +15,7 @@ use crate::path;
 use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
+use crate::single::Single;
 use crate::state;
 use crate::targets::Targets;
 use ash::vk;
@@ -101,6 +102,8 @@ pub(crate) struct PassPlan {
     pub(crate) draws: Vec<DrawPlan>,
     /// Clear commands with the draws before which they are executed, in order.
     pub(crate) clears: Vec<(usize, ClearPlan)>,
+    /// The queries that begin before the pass, and those that end after it.
+    pub(crate) queries: Enclosing,
 }
 
 /// The plan of a draw.
@@ -112,6 +115,8 @@ pub(crate) struct DrawPlan {
     pub(crate) overwritten: bool,
     /// The further dynamic state, where the path asks for it.
     pub(crate) extended: Option<Extended>,
+    /// The state that is dynamic alone, where the path asks for one.
+    pub(crate) single: Option<Single>,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
     pub(crate) set: vk::DescriptorSet,
@@ -123,8 +128,8 @@ pub(crate) struct DrawPlan {
     pub(crate) colors: Option<u64>,
     pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
-    /// The queries around the draw.
-    pub(crate) queries: Vec<Query>,
+    /// The queries that begin before the draw, and those that end after it.
+    pub(crate) queries: Enclosing,
 }
 
 impl Role {
@@ -213,6 +218,7 @@ impl PassPlan {
             depth_stencil: None,
             draws: Vec::with_capacity(pass.draws.len()),
             clears: Vec::with_capacity(pass.clears.len()),
+            queries: Enclosing::default(),
         };
         let integer = |location: usize| {
             let index = pass.color.get(location);
@@ -302,13 +308,14 @@ impl DrawPlan {
         dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
         set: vk::DescriptorSet,
-        queries: Vec<Query>,
+        queries: Enclosing,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
             other: None,
             overwritten: false,
             extended: None,
+            single: None,
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,
             vertices: inputs.vertices,

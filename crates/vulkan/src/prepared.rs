@@ -1,7 +1,7 @@
 //! A scene prepared for drawing.
 
 use crate::buffer::{Buffer, BufferUse};
-use crate::counting::Counting;
+use crate::counting::{Counting, Enclosing};
 use crate::descriptors::Descriptors;
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
@@ -21,6 +21,8 @@ use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
 use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
+use crate::single::Single;
+use crate::single_state::SingleState;
 use crate::slot::{Needs, Slot};
 use crate::storage;
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
@@ -192,15 +194,16 @@ impl<'a> PreparedScene<'a> {
         };
         let pool = self.pool.as_ref().map(|(b, pool)| (b, pool.bytes()));
         let mut sets = Descriptors::new(input, self.counts.as_ref(), pool, &self.images);
-        let parts = scene.passes.iter().zip(&inputs.draws);
-        let parts = parts.flat_map(|(pass, places)| {
+        let queries = counting.queries(slot, scene)?;
+        let parts = scene.passes.iter().zip(&inputs.draws).enumerate();
+        let parts = parts.flat_map(|(number, (pass, places))| {
             let areas = areas(pass);
             let whole = areas.len() == 1;
             areas
                 .into_iter()
-                .map(move |area| (pass, places, area, whole))
+                .map(move |area| (number, pass, places, area, whole))
         });
-        for (pass, places, area, whole) in parts {
+        for (number, pass, places, area, whole) in parts {
             let targets = targets(self.gpu, scene, pass)?;
             check_advanced(device, pass, setting)?;
             let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
@@ -208,13 +211,18 @@ impl<'a> PreparedScene<'a> {
             let Some(planned) = self.plan.passes.last_mut() else {
                 continue;
             };
+            planned.queries = Enclosing::new(
+                &queries,
+                |query| query.begins_before(number),
+                |query| query.ends_behind(number),
+            );
             if scene.path.pass != PathPass::DynamicRendering {
                 let second = scene.path.pass == PathPass::SecondSubpass;
                 let attached = (&planned.color[..], planned.depth_stencil.as_ref());
                 let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
                 planned.object = Some(object);
             }
-            for (draw, place) in pass.draws.iter().zip(places) {
+            for (index, (draw, place)) in pass.draws.iter().zip(places).enumerate() {
                 if draw.targets.len() != pass.color.len() {
                     return Err(internal("a draw lacks a target for each colour attachment"));
                 }
@@ -238,12 +246,21 @@ impl<'a> PreparedScene<'a> {
                 };
                 let other = match scene.path.state {
                     PathState::OtherPipeline => Some(get(&path::other(draw))?),
+                    state if SingleState::of(state).is_some() => Some(get(&path::other(draw))?),
                     _ => None,
                 };
-                let queries = counting.queries(slot, draw)?;
-                let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, queries)?;
+                let enclosing = Enclosing::new(
+                    &queries,
+                    |query| query.begins_at((number, index)),
+                    |query| query.ends_at((number, index)),
+                );
+                let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
                 drawn.overwritten = scene.path.state == PathState::Overwritten;
                 (drawn.other, drawn.extended) = (other, extended);
+                drawn.single = setting
+                    .further
+                    .single
+                    .map(|state| Single::new(state, draw, targets.samples));
                 planned.draws.push(drawn);
             }
         }
@@ -304,7 +321,13 @@ impl Prepared for PreparedScene<'_> {
         slot.timestamp(device, 0);
         let kind = self.kind;
         let kept = self.keeps_state.then(RefCell::default);
-        let mut recorder = Recorder { slot, kind, kept };
+        let over_passes = self.plan.passes.iter().any(|pass| !pass.queries.is_empty());
+        let mut recorder = Recorder {
+            slot,
+            kind,
+            kept,
+            over_passes,
+        };
         record::passes(device, &mut recorder, &self.plan, input.raw)?;
         slot.timestamp(device, 1);
         counting.end(device, slot.commands());

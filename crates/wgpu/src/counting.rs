@@ -7,8 +7,8 @@ use crate::gpu::{BufferLease, Gpu};
 use crate::layout::RUNS_BYTES;
 use crate::recording::{Recorder, Rows};
 use etalon_backend::{CounterPart, RecordedCounter};
-use etalon_frame::CounterKind;
-use etalon_scene::{Draw, Scene};
+use etalon_frame::{CounterKind, PathResults};
+use etalon_scene::{Query, Scene};
 use wgpu::BufferUsages;
 
 /// The size of a query result.
@@ -25,9 +25,11 @@ pub(crate) struct Counting<'a> {
     runs: Option<BufferLease<'a>>,
     /// The distance between two places.
     stride: u64,
+    /// True if results are read twice.
+    twice: bool,
 }
 
-/// The queries of one type, one per draw and counter.
+/// The queries of one type.
 struct Queries {
     set: wgpu::QuerySet,
     /// The counter of each query.
@@ -36,21 +38,49 @@ struct Queries {
     offset: u64,
 }
 
-/// The queries and the counter of a draw.
+/// The queries that begin and end at a draw, and its counter.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Counted {
     /// The occlusion query.
-    occlusion: Option<u32>,
+    occlusion: Enclosed,
     /// The pipeline statistics query.
-    statistics: Option<u32>,
+    statistics: Enclosed,
     /// The counter that the shader increments.
     pub(crate) runs: Option<usize>,
 }
 
+/// A query that encloses a draw, and perhaps others.
+#[derive(Clone, Copy, Default)]
+struct Enclosed {
+    /// The query, if it begins before the draw.
+    begins: Option<u32>,
+    /// True if it ends after the draw.
+    ends: bool,
+}
+
+impl Enclosed {
+    /// Returns the part of a draw in queries of one type, of which no two enclose it.
+    fn new<'q>(draw: (usize, usize), queries: impl Iterator<Item = &'q Query>) -> Self {
+        let mut enclosed = Self::default();
+        for (number, query) in (0..).zip(queries) {
+            if query.begins_at(draw) {
+                enclosed.begins = Some(number);
+            }
+            enclosed.ends |= query.ends_at(draw);
+        }
+        enclosed
+    }
+
+    /// True if a query begins before the draw or ends after it.
+    fn is_edge(self) -> bool {
+        self.begins.is_some() || self.ends
+    }
+}
+
 impl Counted {
-    /// True if a query stands around the draw.
-    pub(crate) fn is_queried(self) -> bool {
-        self.occlusion.is_some() || self.statistics.is_some()
+    /// True if a query begins before the draw or ends after it.
+    pub(crate) fn is_edge(self) -> bool {
+        self.occlusion.is_edge() || self.statistics.is_edge()
     }
 }
 
@@ -82,23 +112,26 @@ impl Queries {
 impl<'a> Counting<'a> {
     /// Returns the counters of a scene and the queries of each draw of all passes.
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> (Self, Vec<Counted>) {
-        let (mut occlusion, mut statistics) = (Vec::new(), Vec::new());
-        let mut add = |draw: &Draw| {
-            let number = |counters: &mut Vec<usize>, counter: usize| {
-                counters.push(counter);
-                counters.len() as u32 - 1
-            };
-            let counter = |kind| draw.counter(scene, |k| k == kind);
-            Counted {
-                occlusion: counter(CounterKind::AnySamplesPassed)
-                    .map(|c| number(&mut occlusion, c)),
-                statistics: counter(CounterKind::FragmentInvocations)
-                    .map(|c| number(&mut statistics, c)),
-                runs: counter(CounterKind::ShaderRuns),
-            }
+        let queries = scene.queries();
+        let of_kind = |kind| {
+            let is_of_kind = move |query: &&Query| scene.counters[query.counter].kind == kind;
+            queries.iter().filter(is_of_kind)
         };
-        let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
-        let counted: Vec<_> = draws.map(&mut add).collect();
+        let occlusion = || of_kind(CounterKind::AnySamplesPassed);
+        let statistics = || of_kind(CounterKind::FragmentInvocations);
+        let draws = scene.passes.iter().enumerate().flat_map(|(number, pass)| {
+            let draws = pass.draws.iter().enumerate();
+            draws.map(move |(index, draw)| ((number, index), draw))
+        });
+        let counted: Vec<_> = draws
+            .map(|(place, draw)| Counted {
+                occlusion: Enclosed::new(place, occlusion()),
+                statistics: Enclosed::new(place, statistics()),
+                runs: draw.counter(scene, |kind| kind == CounterKind::ShaderRuns),
+            })
+            .collect();
+        let occlusion = occlusion().map(|query| query.counter).collect();
+        let statistics = statistics().map(|query| query.counter).collect();
         let occlusion = Queries::new(gpu, wgpu::QueryType::Occlusion, occlusion, 0);
         let behind = occlusion.as_ref().map_or(0, Queries::end);
         let statistics = Queries::new(
@@ -119,6 +152,7 @@ impl<'a> Counting<'a> {
             results: (end > 0).then(|| gpu.buffer(resolved, end)),
             runs: runs.then(|| gpu.buffer(stored, scene.counters.len() as u64 * stride)),
             stride,
+            twice: scene.path.results == PathResults::Twice,
             kinds: scene.counters.iter().map(|c| c.kind).collect(),
             occlusion,
             statistics,
@@ -144,22 +178,22 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Records the start of a draw's queries.
+    /// Records the start of queries before a draw.
     pub(crate) fn begin(&self, pass: &mut wgpu::RenderPass<'_>, counted: Counted) {
-        if let Some(query) = counted.occlusion {
+        if let Some(query) = counted.occlusion.begins {
             pass.begin_occlusion_query(query);
         }
-        if let (Some(query), Some(queries)) = (counted.statistics, &self.statistics) {
+        if let (Some(query), Some(queries)) = (counted.statistics.begins, &self.statistics) {
             pass.begin_pipeline_statistics_query(&queries.set, query);
         }
     }
 
-    /// Records the end of a draw's queries.
+    /// Records the end of queries after a draw.
     pub(crate) fn end(&self, pass: &mut wgpu::RenderPass<'_>, counted: Counted) {
-        if counted.statistics.is_some() {
+        if counted.statistics.ends {
             pass.end_pipeline_statistics_query();
         }
-        if counted.occlusion.is_some() {
+        if counted.occlusion.ends {
             pass.end_occlusion_query();
         }
     }
@@ -167,8 +201,11 @@ impl<'a> Counting<'a> {
     /// Records the resolve of all queries.
     pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(results) = &self.results {
+            let twice = usize::from(self.twice);
             for queries in self.occlusion.iter().chain(&self.statistics) {
-                queries.resolve(encoder, results);
+                for _ in 0..=twice {
+                    queries.resolve(encoder, results);
+                }
             }
         }
     }
