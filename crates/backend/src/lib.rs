@@ -21,7 +21,7 @@ mod recording;
 
 pub use blits::{Blit, Blits, Piece, doubled};
 pub use fault::{
-    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, ProcessFault, ReadFault,
+    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, OpenQuery, ProcessFault, ReadFault,
 };
 pub use halves::halves;
 pub use recording::{

@@ -22,6 +22,7 @@ mod pairwise;
 mod pass_operations;
 mod path;
 mod place;
+mod queries;
 mod random;
 mod relation;
 mod resolve;

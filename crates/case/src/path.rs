@@ -5,8 +5,8 @@
 
 use crate::error::At;
 use etalon_frame::{
-    ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathLayers, PathStart, PathTarget,
-    PathValue, PathViewport, TextureFormat,
+    ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathLayers, PathStart, PathState,
+    PathTarget, PathValue, PathViewport, TextureFormat,
 };
 use etalon_scene::{
     Attachment, ClearTarget, ColorTarget, Contents, Draw, Multisample, Pass, Scene, Shader, Vertex,
@@ -62,6 +62,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
         {
             (false, "a draw is tessellated")
         }
+        PathValue::State(PathState::DynamicOrigin) => (tessellated, "no draw is tessellated"),
         PathValue::Start(PathStart::Transfer) => return None,
         PathValue::Start(_) => (
             made().attachments != scene.attachments,
@@ -147,6 +148,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                 .any(|p| !p.cleared().is_empty() || p.clears.iter().any(|c| !c.target.is_masked())),
             "nothing is cleared without a mask",
         ),
+        PathValue::Results(_) => (!made().queries().is_empty(), "no query counts"),
         PathValue::Area(PathArea::Part) => (
             scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
             "a draw in two parts counts twice, or nothing has two columns",
@@ -269,6 +271,14 @@ mod tests {
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
                 json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);
+            if value.name() == "dynamic-origin" {
+                scene["passes"][0]["draws"][0]["tessellation"] =
+                    json!({ "order": "ccw", "origin": "lower-left" });
+            }
+            if value.key() == "results" {
+                scene["counters"] = json!({ "passed": "any-samples-passed" });
+                scene["passes"][0]["draws"][0]["counters"] = json!(["passed"]);
+            }
             let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");
         }

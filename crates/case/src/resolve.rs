@@ -5,6 +5,7 @@ use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
 use crate::path::check_path;
+use crate::queries::check_queries;
 use crate::tiles::tiles;
 use crate::values::typed;
 use crate::wire::{DepthStencilResolveWire, PassWire, SceneWire};
@@ -71,9 +72,11 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
         passes,
         read,
         counters,
+        query_scope: wire.queries,
         pool: wire.pool,
         path: wire.path,
     };
+    check_queries(&scene).map_err(|e| e.key("queries"))?;
     check_path(&scene).map_err(|e| e.key("path"))?;
     Ok(scene)
 }

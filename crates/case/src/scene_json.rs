@@ -7,8 +7,8 @@
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{
     Attachment, Clear, ClearTarget, Contents, DepthBias, Draw, EarlyTests, Fetch, IndexFormat,
-    Mesh, Multisample, Operations, Params, Pass, Path, PolygonMode, PrimitiveTopology, RESTART,
-    ResolveMode, Scene, StencilFace, Viewport,
+    Mesh, Multisample, Operations, Params, Pass, Path, PolygonMode, PrimitiveTopology, QueryScope,
+    RESTART, ResolveMode, Scene, StencilFace, Viewport,
 };
 use etalon_scene::{CullMode, FrontFace, PassOperations};
 use serde::Serialize;
@@ -40,6 +40,7 @@ pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
         let counters = counters.map(|c| (c.name.clone(), plain(&c.kind)));
         all.add("counters", counters.collect::<Map<_, _>>());
     }
+    all.differing("queries", &scene.query_scope, &QueryScope::Draw);
     if let Some(pool) = &scene.pool {
         all.add("pool", plain(pool));
     }

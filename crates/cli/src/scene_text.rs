@@ -4,7 +4,8 @@
 //! draws shows here without being named.
 
 use etalon_scene::{
-    Attachment, ColorTarget, Contents, Draw, Mesh, PassOperations, Path, Scene, Shader, Viewport,
+    Attachment, ColorTarget, Contents, Draw, Mesh, PassOperations, Path, QueryScope, Scene, Shader,
+    Viewport,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -68,6 +69,9 @@ pub(crate) fn lines(scene: &Scene) -> Vec<String> {
             counter.kind.name(),
             counter.name
         ));
+    }
+    if scene.query_scope != QueryScope::Draw {
+        lines.push(format!("a query encloses a {}", scene.query_scope.name()));
     }
     lines
 }

@@ -133,14 +133,17 @@ const RESOLVES: &str = "depth-resolve-average depth-resolve-max depth-resolve-mi
 /// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
 /// tells 24 bits for certain.
 const GL: Lacks = Lacks {
-    features: &["depth-bounds mirrored-viewport upper-left-domain", RESOLVES],
+    features: &[
+        "depth-bounds inherited-queries mirrored-viewport upper-left-domain",
+        RESOLVES,
+    ],
     formats: &["bgra8unorm"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
 };
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
-        "advanced-blend advanced-blend-coherent cull-distances depth-bias-clamp fragment-storage min-sample-shading \
+        "advanced-blend advanced-blend-coherent cull-distances depth-bias-clamp fragment-storage inherited-queries min-sample-shading \
         mirrored-viewport sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
@@ -150,7 +153,7 @@ const GL_SOFTPIPE: Lacks = Lacks {
 };
 
 const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
-    forced-early-tests-with-depth fragment-invocations fragment-shader-absent fragment-shader-absent-with-color linear-interpolation logic-operations \
+    forced-early-tests-with-depth fragment-invocations fragment-shader-absent fragment-shader-absent-with-color inherited-queries linear-interpolation logic-operations \
     mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion stencil-export \
     upper-left-domain";
 /// OpenGL ES of llvmpipe and zink.
@@ -174,9 +177,9 @@ const ES_SOFTPIPE: Lacks = Lacks {
 const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one clear-commands \
     clip-distance-mask cull-distances fragment-shader-absent-with-color \
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
-    depth-output-without-depth front-and-back-culling last-provoking-vertex \
+    depth-output-without-depth front-and-back-culling inherited-queries last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
-    mixed-provoking-vertices polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
+    mixed-provoking-vertices polygon-mode-line precise-occlusion queries-over-passes rasterizer-discard reversed-depth-range \
     sample-coverage scissor-outside separate-stencil-masks stencil-export tessellation triangle-fans \
     upper-left-domain";
 /// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.

@@ -71,6 +71,8 @@ state_enum! {
         IndependentResolve = "independent-resolve",
         /// Resolving one of depth and stencil, and not the other.
         IndependentResolveNone = "independent-resolve-none",
+        /// Queries that go on in secondary command buffers.
+        InheritedQueries = "inherited-queries",
         /// Flat attributes of a primitive's last vertex.
         LastProvokingVertex = "last-provoking-vertex",
         /// Attributes that are interpolated linearly in the window.
@@ -91,6 +93,8 @@ state_enum! {
         PolygonModeLine = "polygon-mode-line",
         /// Occlusion queries that count samples exactly.
         PreciseOcclusion = "precise-occlusion",
+        /// Queries that enclose passes.
+        QueriesOverPasses = "queries-over-passes",
         /// Throwing primitives away before rasterization.
         RasterizerDiscard = "rasterizer-discard",
         /// A viewport whose near depth is above its far depth.

@@ -92,6 +92,16 @@ path_values! {
         OtherPipeline = "other-pipeline",
         /// Only if it differs from that of the draw before, also of another pass.
         Kept = "kept",
+        /// Between the draws, with the number of samples too.
+        DynamicSamples = "dynamic-samples",
+        /// Between the draws, with alpha to one too.
+        DynamicAlphaToOne = "dynamic-alpha-to-one",
+        /// Between the draws, with depth clipping too.
+        DynamicDepthClip = "dynamic-depth-clip",
+        /// Between the draws, with the provoking vertex too.
+        DynamicProvoking = "dynamic-provoking",
+        /// Between the draws, with the origin of the tessellated domain too.
+        DynamicOrigin = "dynamic-origin",
     }
     /// The part of a texture that an attachment is.
     Target(PathTarget) = "target" {
@@ -176,6 +186,13 @@ path_values! {
         Together = "together",
         /// Each behind a call that leaves undefined what it clears.
         Undefined = "undefined",
+    }
+    /// The reading of queries.
+    Results(PathResults) = "results" {
+        /// Once.
+        Once = "once",
+        /// Twice, and what comes second counts.
+        Twice = "twice",
     }
     /// The clip volume's convention.
     Clip(PathClip) = "clip" {

@@ -5,8 +5,8 @@ use crate::pool::Pool;
 use crate::query::{Query, query_target};
 use crate::recording;
 use etalon_backend::BackendError;
-use etalon_frame::CounterKind;
-use etalon_scene::{Counter, Draw};
+use etalon_frame::{CounterKind, PathResults};
+use etalon_scene::{Draw, Scene};
 use glow::HasContext;
 
 /// The counters of a scene.
@@ -17,16 +17,19 @@ pub(crate) struct Counters {
     queries: Vec<(usize, Query)>,
     /// The distance between two counters in the storage buffer, in bytes.
     stride: usize,
+    /// True if results are read twice.
+    twice: bool,
 }
 
 impl Counters {
     /// Returns a scene's counters, without queries yet.
-    pub(crate) fn new(context: &Context, counters: &[Counter]) -> Self {
+    pub(crate) fn new(context: &Context, scene: &Scene) -> Self {
         let alignment = context.caps.storage_alignment.unwrap_or(1);
         Self {
-            kinds: counters.iter().map(|c| c.kind).collect(),
+            kinds: scene.counters.iter().map(|c| c.kind).collect(),
             queries: Vec::new(),
             stride: size_of::<u32>().next_multiple_of(alignment),
+            twice: scene.path.results == PathResults::Twice,
         }
     }
 
@@ -39,19 +42,20 @@ impl Counters {
         }
     }
 
-    /// Returns the queries of a draw.
+    /// Returns the queries of a scene.
     pub(crate) fn queries(
         &mut self,
         context: &Context,
         pool: &mut Pool,
-        draw: &Draw,
-    ) -> Result<Vec<Query>, BackendError> {
+        scene: &Scene,
+    ) -> Result<Vec<(etalon_scene::Query, Query)>, BackendError> {
         let mut made = Vec::new();
-        for index in &draw.counters {
-            if let Some(target) = self.kinds.get(*index).copied().and_then(query_target) {
-                let query = pool.query(context, target)?;
-                self.queries.push((*index, query));
-                made.push(query);
+        for query in scene.queries() {
+            let kind = self.kinds.get(query.counter).copied();
+            if let Some(target) = kind.and_then(query_target) {
+                let object = pool.query(context, target)?;
+                self.queries.push((query.counter, object));
+                made.push((query, object));
             }
         }
         Ok(made)
@@ -77,6 +81,9 @@ impl Counters {
             None => vec![0; self.kinds.len()],
         };
         for (index, query) in &self.queries {
+            if self.twice {
+                context.query_result(query.object);
+            }
             let result = context.query_result(query.object);
             recording::counter_part(*index, 0, recording::WHOLE);
             let count = &mut counts[*index];

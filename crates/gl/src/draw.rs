@@ -5,7 +5,7 @@ use crate::clear::{ClearCall, discard};
 use crate::context::Context;
 use crate::pool::Target;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
-use crate::query::Query;
+use crate::query::Enclosing;
 use crate::read::spoil;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
@@ -61,6 +61,8 @@ pub(crate) struct Pass {
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<Resolve>,
+    /// The queries that begin before the pass, and those that end after it.
+    pub(crate) queries: Enclosing,
 }
 
 /// The resolve of an attachment.
@@ -82,8 +84,8 @@ pub(crate) struct DrawCall {
     pub(crate) textures: Vec<glow::Texture>,
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
-    /// The queries around the draw.
-    pub(crate) queries: Vec<Query>,
+    /// The queries that begin before the draw, and those that end after it.
+    pub(crate) queries: Enclosing,
     /// The offset of the counter, if the shader counts.
     pub(crate) runs: Option<i32>,
     /// True if the shader uses the pool.
@@ -134,6 +136,7 @@ pub(crate) fn draw_all(
         }
         // SAFETY: the framebuffer is the context's own.
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
+        pass.queries.begin(context);
         for clear in &pass.loads {
             clear.apply(context);
             set = None;
@@ -168,6 +171,7 @@ pub(crate) fn draw_all(
             unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
             discard(context, &pass.discards);
         }
+        pass.queries.end(context);
     }
 }
 
@@ -207,9 +211,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
                 size as i32,
             );
         }
-        for query in &draw.queries {
-            gl.begin_query(query.target, query.object);
-        }
+        draw.queries.begin(context);
         let arguments = draw.arguments.zip(inputs.arguments);
         if let Some((_, (buffer, _))) = arguments {
             gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
@@ -235,9 +237,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
             // Mesa takes numbers of draws from a bound buffer for all indirect draws.
             gl.bind_buffer(PARAMETER_BUFFER, None);
         }
-        for query in &draw.queries {
-            gl.end_query(query.target);
-        }
+        draw.queries.end(context);
         if storage.is_some() {
             // The next draw may use the same counter, or read the pool.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);

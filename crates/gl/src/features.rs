@@ -10,6 +10,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let known = |feature: &Feature| match feature {
         Feature::ClipDistances | Feature::ClipDistanceMask => caps.clip_distances,
         Feature::CullDistances => caps.cull_distances,
+        // There are no command buffers.
+        Feature::InheritedQueries => false,
         // Part of version 3.
         Feature::CentroidInterpolation
         | Feature::ClearCommands
@@ -19,6 +21,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::LastProvokingVertex
         | Feature::MaskedClears
         | Feature::MinMaxBlendFactors
+        | Feature::QueriesOverPasses
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
         | Feature::SampleCoverage

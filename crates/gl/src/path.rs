@@ -7,7 +7,7 @@ use crate::context::Context;
 use crate::support::{ReadPlan, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
-    PathLayers, PathPass, PathResolves, PathState, PathTarget, PathValue, PathViewport,
+    PathLayers, PathPass, PathResolves, PathResults, PathState, PathTarget, PathValue, PathViewport,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
@@ -35,7 +35,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::End(_) => true,
         PathValue::Clip(PathClip::Toggled) => caps.clip_control,
         PathValue::State(PathState::Overwritten | PathState::Kept) => true,
-        PathValue::Clears(PathClears::Together) => true,
+        PathValue::Clears(PathClears::Together) | PathValue::Results(PathResults::Twice) => true,
         PathValue::Clears(PathClears::Undefined) => caps.invalidate,
         PathValue::Viewport(PathViewport::Array) => arrays && caps.second_viewport,
         PathValue::Viewport(_) => arrays,
@@ -51,11 +51,17 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
             | PathState::Static
             | PathState::ExtendedDynamic3
             | PathState::DynamicLogic
-            | PathState::OtherPipeline,
+            | PathState::OtherPipeline
+            | PathState::DynamicSamples
+            | PathState::DynamicAlphaToOne
+            | PathState::DynamicDepthClip
+            | PathState::DynamicProvoking
+            | PathState::DynamicOrigin,
         )
         | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
         | PathValue::Area(PathArea::Full | PathArea::Part)
         | PathValue::Clears(PathClears::Each)
+        | PathValue::Results(PathResults::Once)
         | PathValue::Clip(PathClip::Constant)
         | PathValue::Layers(PathLayers::One | PathLayers::Multiview)
         | PathValue::Resolves(PathResolves::Attached) => false,
@@ -250,7 +256,7 @@ mod tests {
     use super::*;
     use crate::support::ShaderStencil;
     use etalon_frame::{FormatSupport, ReadPath, TextureFormat};
-    use etalon_scene::{Attachment, Mesh, Pass, Shader};
+    use etalon_scene::{Attachment, Mesh, Pass, QueryScope, Shader};
 
     fn support(read: ReadPlan) -> Support {
         Support {
@@ -278,6 +284,7 @@ mod tests {
             passes: vec![Pass::default()],
             read: vec![0],
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: None,
             path: Path {
                 target,

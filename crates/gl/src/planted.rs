@@ -266,6 +266,9 @@ functions! {
         }
         if target == glow::FRAMEBUFFER {
             planted.calls.draws = 0;
+            for open in planted.calls.queries_after_pass() {
+                driver!(planted.driver, glEndQuery(open.owner as u32));
+            }
         }
     }
     instead glClearBufferfv(buffer: u32, index: i32, value: *const f32) |planted| {
@@ -340,21 +343,29 @@ functions! {
         driver!(planted.driver, glBeginQuery(target, query));
         if target != glow::TIME_ELAPSED {
             planted.calls.begin_query(query);
+            planted.calls.open_query(target.into(), query, true);
             if planted.calls.ends_query_early() {
                 driver!(planted.driver, glEndQuery(target));
             }
         }
     }
     before glEndQuery(target: u32) |planted| {
-        if target != glow::TIME_ELAPSED && planted.calls.ends_query_early() {
+        let ended = planted.calls.close_query(target.into(), None);
+        if target != glow::TIME_ELAPSED && (ended || planted.calls.ends_query_early()) {
             return;
         }
     }
-    before glGetQueryObjectui64v | glGetQueryObjectui64vEXT(query: u32, what: u32, result: *mut u64) |planted| {
-        query = planted.answering(query);
+    instead glGetQueryObjectui64v | glGetQueryObjectui64vEXT(query: u32, what: u32, result: *mut u64) |planted| {
+        let answering = planted.answering(query);
+        driver!(planted.driver, glGetQueryObjectui64v(answering, what, result));
+        // SAFETY: the caller's; the driver has written it.
+        unsafe { *result = planted.calls.result(0, query, *result) };
     }
-    before glGetQueryObjectuiv(query: u32, what: u32, result: *mut u32) |planted| {
-        query = planted.answering(query);
+    instead glGetQueryObjectuiv(query: u32, what: u32, result: *mut u32) |planted| {
+        let answering = planted.answering(query);
+        driver!(planted.driver, glGetQueryObjectuiv(answering, what, result));
+        // SAFETY: as above.
+        unsafe { *result = planted.calls.result(0, query, (*result).into()) as u32 };
     }
     before glFinish() |planted| {
         planted.calls.end_submission();
@@ -482,12 +493,19 @@ impl Planted {
         }
         self.blits = 0;
         let driver = self.driver;
+        for open in self.calls.queries_before_draw() {
+            driver!(driver, glEndQuery(open.owner as u32));
+            driver!(driver, glBeginQuery(open.owner as u32, open.query));
+        }
         let set_scissor = |[x, y, w, h]: [i32; 4]| {
             driver!(driver, glEnable(glow::SCISSOR_TEST));
             driver!(driver, glScissor(x, y, w, h));
         };
         let draw = |numbers: &DrawNumbers| draw(&driver, numbers);
         self.calls.draw(numbers, set_scissor, draw);
+        for open in self.calls.queries_after_draw() {
+            driver!(driver, glEndQuery(open.owner as u32));
+        }
         if self.calls.scissor_on {
             set_scissor(self.calls.scissor);
         } else {
@@ -501,6 +519,7 @@ impl Planted {
         if self.calls.has(CallFault::ClearSkipped) && self.calls.passes > 0 {
             return;
         }
+        self.calls.note_clear();
         let undefined = std::mem::take(&mut self.undefined);
         if undefined && self.calls.has(CallFault::ClearUndefinedSkipped) {
             return;

@@ -11,6 +11,7 @@ use crate::objects::Objects;
 use crate::path::{self, Variant};
 use crate::pool::Pool;
 use crate::program::FragmentForm;
+use crate::query::{Enclosing, Query};
 use crate::read::{Reading, Source};
 use crate::recording;
 use crate::state::{self, DrawState};
@@ -50,6 +51,8 @@ struct Unused {
     number: usize,
     /// The offset of the next parameter block.
     params: i32,
+    /// The queries of the scene.
+    queries: Vec<(etalon_scene::Query, Query)>,
 }
 
 impl<'a> PreparedScene<'a> {
@@ -67,7 +70,7 @@ impl<'a> PreparedScene<'a> {
             pool: scene.pool,
             read: ends(objects, scene),
             inputs: Inputs::default(),
-            counters: Counters::new(context, &scene.counters),
+            counters: Counters::new(context, scene),
             submitted: false,
             reusable: false,
         };
@@ -105,6 +108,7 @@ impl<'a> PreparedScene<'a> {
             places: self.buffers(&mut pool, scene)?.into_iter(),
             number: 0,
             params: 0,
+            queries: self.counters.queries(context, &mut pool, scene)?,
         };
         for pass in &scene.passes {
             self.pass(&mut pool, pass, path::is_layered(scene), &mut unused)?;
@@ -281,9 +285,18 @@ impl<'a> PreparedScene<'a> {
         let packed = depth.is_some_and(|a| a.format.has_depth() && a.format.has_stencil());
         let clears = pass.clears.iter();
         let mut draws = Vec::new();
-        for draw in &pass.draws {
+        let number = self.passes.len();
+        for (index, draw) in pass.draws.iter().enumerate() {
+            let enclosing = Enclosing::new(
+                &unused.queries,
+                |query| query.begins_at((number, index)),
+                |query| query.ends_at((number, index)),
+            );
             // On error the target is not returned to the pool; it is deleted with the context.
-            draws.push(self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?);
+            draws.push(DrawCall {
+                queries: enclosing,
+                ..self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?
+            });
         }
         // Of a framebuffer of layers, reads take the first.
         if !layered {
@@ -302,6 +315,11 @@ impl<'a> PreparedScene<'a> {
             keeps_state: self.path.state == PathState::Kept,
             discards: clear::discards(pass, packed),
             resolves,
+            queries: Enclosing::new(
+                &unused.queries,
+                |query| query.begins_before(number),
+                |query| query.ends_behind(number),
+            ),
         });
         Ok(())
     }
@@ -359,7 +377,7 @@ impl<'a> PreparedScene<'a> {
             },
             textures,
             sampler: sampler.transpose()?,
-            queries: self.counters.queries(context, pool, draw)?,
+            queries: Enclosing::default(),
             runs: self.counters.runs(draw),
             uses_pool: draw.shader.uses_pool(),
             params: block,

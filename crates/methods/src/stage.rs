@@ -4,8 +4,8 @@ use crate::polygon::cover;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     AddressMode, Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState,
-    CompareFunction, Contents, DepthState, Draw, FilterMode, Mesh, Pass, Path, Pool, Sampler,
-    Scene, Shader, Viewport,
+    CompareFunction, Contents, DepthState, Draw, FilterMode, Mesh, Pass, Path, Pool, QueryScope,
+    Sampler, Scene, Shader, Viewport,
 };
 
 /// Width and height of a method's picture in texels, where a scene does not ask for another.
@@ -195,6 +195,7 @@ impl Stage {
             passes: self.passes,
             read: read.to_vec(),
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: self.pool,
             path: Path::default(),
         }

@@ -159,11 +159,19 @@ impl<'a> Tally<'a> {
 
     /// Returns the legal range of each counter.
     pub(crate) fn finish(self) -> impl Iterator<Item = CounterSet> + use<'a> {
-        let each = self.scene.counters.iter().zip(self.counts);
-        each.map(|(counter, count)| {
+        let queries = self.scene.queries();
+        let each = self.scene.counters.iter().zip(self.counts).enumerate();
+        each.map(move |(index, (counter, count))| {
+            let encloses_operations = || {
+                let mut own = queries.iter().filter(|q| q.counter == index);
+                own.any(|query| query.encloses_operations(self.scene))
+            };
+            let unlimited = counter.kind.is_occlusion()
+                && encloses_operations()
+                && !self.rules.operations_count_nothing.value();
             let range = CountRange {
                 low: count.low,
-                high: count.high,
+                high: count.high.filter(|_| !unlimited),
             };
             CounterSet {
                 name: counter.name.clone(),

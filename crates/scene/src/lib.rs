@@ -21,6 +21,8 @@ mod pass;
 mod path;
 mod pool;
 mod provoking;
+mod query;
+mod query_scope;
 mod rasterization;
 mod requirements;
 mod sampler;
@@ -50,6 +52,8 @@ pub use pass::{
 };
 pub use path::Path;
 pub use pool::Pool;
+pub use query::Query;
+pub use query_scope::QueryScope;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex,
     SampleCoverage, Viewport,

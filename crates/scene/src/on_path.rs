@@ -336,6 +336,7 @@ mod tests {
     use super::*;
     use crate::attachment::Attachment;
     use crate::path::Path;
+    use crate::query_scope::QueryScope;
     use etalon_frame::TextureFormat;
 
     fn scene(path: Path) -> Scene {
@@ -377,6 +378,7 @@ mod tests {
             passes: vec![pass.clone(), pass],
             read: vec![0],
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: None,
             path,
         }

@@ -6,7 +6,7 @@
 
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
-    PathResolves, PathStart, PathState, PathTarget, PathValue, PathViewport,
+    PathResolves, PathResults, PathStart, PathState, PathTarget, PathValue, PathViewport,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,8 @@ pub struct Path {
     pub area: PathArea,
     /// The calls that clear within passes.
     pub clears: PathClears,
+    /// The reading of queries.
+    pub results: PathResults,
     /// The clip volume's convention.
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
@@ -57,6 +59,7 @@ impl Path {
             end,
             area,
             clears,
+            results,
             clip,
             viewport,
             layers,
@@ -72,6 +75,7 @@ impl Path {
             PathValue::End(end),
             PathValue::Area(area),
             PathValue::Clears(clears),
+            PathValue::Results(results),
             PathValue::Clip(clip),
             PathValue::Viewport(viewport),
             PathValue::Layers(layers),

@@ -10,7 +10,7 @@ use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology, ProvokingVe
 use crate::scene::Scene;
 use crate::shader::{Interpolation, InterpolationSampling};
 use crate::tessellation::DomainOrigin;
-use etalon_frame::{CounterKind, Feature, Requirement};
+use etalon_frame::{CounterKind, Feature, PathCommands, Requirement};
 use std::collections::BTreeSet;
 
 impl Scene {
@@ -44,6 +44,12 @@ impl Scene {
                     Some(Requirement::Feature(Feature::FragmentInvocations))
                 }
             });
+        }
+        if self.queries().iter().any(|query| query.over_passes) {
+            needed.insert(Requirement::Feature(Feature::QueriesOverPasses));
+            if self.path.commands == PathCommands::Secondary {
+                needed.insert(Requirement::Feature(Feature::InheritedQueries));
+            }
         }
         for pass in &self.passes {
             let size = self.pass_size(pass);

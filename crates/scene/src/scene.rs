@@ -8,6 +8,7 @@ use crate::draw::Draw;
 use crate::pass::Pass;
 use crate::path::Path;
 use crate::pool::Pool;
+use crate::query_scope::QueryScope;
 use etalon_frame::{CounterKind, PathLayers, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -23,6 +24,9 @@ pub struct Scene {
     pub read: Vec<usize>,
     /// The counters, by name in ascending order. All are read back; each starts from 0.
     pub counters: Vec<Counter>,
+    /// The part of the scene that one query encloses.
+    #[serde(default)]
+    pub query_scope: QueryScope,
     /// The pool that fragment shaders fill and read, if any does.
     #[serde(default)]
     pub pool: Option<Pool>,

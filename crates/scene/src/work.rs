@@ -204,6 +204,7 @@ mod tests {
             passes,
             read: vec![1],
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: None,
             path: Default::default(),
         }

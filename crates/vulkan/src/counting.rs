@@ -9,7 +9,7 @@ use crate::slot::{Needs, Slot};
 use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::CounterKind;
+use etalon_frame::{CounterKind, PathResults};
 use etalon_scene::{Draw, Scene};
 use std::mem::size_of;
 
@@ -24,14 +24,72 @@ pub(crate) struct Counting {
     /// The counter of each query in the slot's pools.
     occlusion: Vec<usize>,
     statistics: Vec<usize>,
+    /// True if results are read twice.
+    twice: bool,
 }
 
-/// A query around a draw.
+/// A query of a pool.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Query {
     pub(crate) pool: vk::QueryPool,
     pub(crate) index: u32,
     pub(crate) flags: vk::QueryControlFlags,
+}
+
+/// Queries that begin before a draw or pass, and those that end after it.
+#[derive(Debug, Default)]
+pub(crate) struct Enclosing {
+    begun: Vec<Query>,
+    ended: Vec<Query>,
+}
+
+impl Enclosing {
+    /// Returns those of all queries that begin and end there.
+    pub(crate) fn new(
+        queries: &[(etalon_scene::Query, Query)],
+        begins: impl Fn(&etalon_scene::Query) -> bool,
+        ends: impl Fn(&etalon_scene::Query) -> bool,
+    ) -> Self {
+        let begun = queries.iter().filter(|(query, _)| begins(query));
+        let ended = queries.iter().rev().filter(|(query, _)| ends(query));
+        Self {
+            begun: begun.map(|(_, made)| *made).collect(),
+            ended: ended.map(|(_, made)| *made).collect(),
+        }
+    }
+
+    /// True if no query begins or ends there.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.begun.is_empty() && self.ended.is_empty()
+    }
+
+    /// Records the beginning of queries.
+    ///
+    /// # Safety
+    /// `commands` is being recorded, and each query is begun once, inside or outside of the pass in which it ends.
+    pub(crate) unsafe fn begin(&self, device: &Device, commands: vk::CommandBuffer) {
+        for query in &self.begun {
+            // SAFETY: the caller's; the pool was reset and outlives the commands.
+            unsafe {
+                device
+                    .raw
+                    .cmd_begin_query(commands, query.pool, query.index, query.flags);
+            }
+        }
+    }
+
+    /// Records the end of queries.
+    ///
+    /// # Safety
+    /// As for [`Enclosing::begin`]; the queries have begun.
+    pub(crate) unsafe fn end(&self, device: &Device, commands: vk::CommandBuffer) {
+        for query in &self.ended {
+            // SAFETY: the caller's.
+            unsafe {
+                device.raw.cmd_end_query(commands, query.pool, query.index);
+            }
+        }
+    }
 }
 
 impl Counting {
@@ -51,14 +109,14 @@ impl Counting {
             bytes: offsets.allocate(0, 1),
             occlusion: Vec::new(),
             statistics: Vec::new(),
+            twice: scene.path.results == PathResults::Twice,
         }
     }
 
-    /// Adds one query for each draw and query counter to the needs of a slot.
+    /// Adds the queries of a scene to the needs of a slot.
     pub(crate) fn add_needs(&self, scene: &Scene, needs: &mut Needs) {
-        let draws = scene.passes.iter().flat_map(|p| &p.draws);
-        for kind in draws.flat_map(|d| &d.counters).map(|c| self.kinds.get(*c)) {
-            match kind {
+        for query in scene.queries() {
+            match self.kinds.get(query.counter) {
                 Some(kind) if kind.is_occlusion() => needs.occlusion += 1,
                 Some(CounterKind::FragmentInvocations) => needs.statistics += 1,
                 _ => {}
@@ -66,14 +124,18 @@ impl Counting {
         }
     }
 
-    /// Returns the queries of a draw, the next ones of a slot that has room for all.
-    pub(crate) fn queries(&mut self, slot: &Slot, draw: &Draw) -> Result<Vec<Query>, BackendError> {
+    /// Returns the queries of a scene, as queries of a slot that has room for all.
+    pub(crate) fn queries(
+        &mut self,
+        slot: &Slot,
+        scene: &Scene,
+    ) -> Result<Vec<(etalon_scene::Query, Query)>, BackendError> {
         let mut queries = Vec::new();
-        for counter in &draw.counters {
+        for query in scene.queries() {
             let kind = self
                 .kinds
-                .get(*counter)
-                .ok_or_else(|| internal("a draw names no counter"))?;
+                .get(query.counter)
+                .ok_or_else(|| internal("a query names no counter"))?;
             let (pool, owners, flags) = match kind {
                 CounterKind::SamplesPassed => (
                     &slot.occlusion,
@@ -92,12 +154,13 @@ impl Counting {
                 ),
                 CounterKind::ShaderRuns => continue,
             };
-            queries.push(Query {
+            let made = Query {
                 pool: pool.raw,
                 index: count(owners)?,
                 flags,
-            });
-            owners.push(*counter);
+            };
+            owners.push(query.counter);
+            queries.push((query, made));
         }
         Ok(queries)
     }
@@ -158,6 +221,10 @@ impl Counting {
         let mut totals = vec![0_u64; self.kinds.len()];
         let any = |kind: &CounterKind| *kind == CounterKind::AnySamplesPassed;
         recording::counters(self.kinds.iter().map(any));
+        if self.twice {
+            slot.occlusion.results(device, self.occlusion.len())?;
+            slot.statistics.results(device, self.statistics.len())?;
+        }
         let passed = slot.occlusion.results(device, self.occlusion.len())?;
         let note = |owners: &[usize]| {
             for (counter, offset) in owners.iter().zip((0..).step_by(8)) {

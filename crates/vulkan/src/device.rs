@@ -3,6 +3,7 @@
 use crate::error::{Check, describe};
 use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::recording;
+use crate::single_state::SingleState;
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
 use etalon_frame::{ApiVersion, Property};
@@ -46,6 +47,10 @@ pub(crate) struct Device {
     pub(crate) indirect_count: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::DeviceFn>,
+    /// True if all of the further dynamic states are.
+    pub(crate) all_extended: bool,
+    /// The states that can be dynamic one by one.
+    pub(crate) singles: Vec<SingleState>,
     /// The function behind dynamic logic operations, where the device has them.
     pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
     /// True if logic operations can be enabled between draws.
@@ -183,6 +188,51 @@ fn has_all(features: &vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>) ->
     ]
     .into_iter()
     .all(|has| has != vk::FALSE)
+}
+
+/// Returns the feature behind a state that is dynamic alone.
+fn single_feature<'f>(
+    features: &'f mut vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>,
+    state: SingleState,
+) -> &'f mut vk::Bool32 {
+    match state {
+        SingleState::Samples => &mut features.extended_dynamic_state3_rasterization_samples,
+        SingleState::AlphaToOne => &mut features.extended_dynamic_state3_alpha_to_one_enable,
+        SingleState::DepthClip => &mut features.extended_dynamic_state3_depth_clip_enable,
+        SingleState::Provoking => &mut features.extended_dynamic_state3_provoking_vertex_mode,
+        SingleState::Origin => &mut features.extended_dynamic_state3_tessellation_domain_origin,
+    }
+}
+
+/// Returns the states that can be dynamic one by one, and take both values.
+fn singles(
+    api: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    enabled: &vk::PhysicalDeviceFeatures,
+    provoking: Provoking,
+) -> Vec<SingleState> {
+    if !has_extension(api, physical, ash::ext::extended_dynamic_state3::NAME) {
+        return Vec::new();
+    }
+    let clips = has_extension(api, physical, ash::ext::depth_clip_enable::NAME);
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
+    let mut clip = vk::PhysicalDeviceDepthClipEnableFeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    if clips {
+        both = both.push_next(&mut clip);
+    }
+    // SAFETY: the chained structures are of extensions that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    let has_both = |state: &SingleState| match state {
+        SingleState::Samples => true,
+        SingleState::AlphaToOne => enabled.alpha_to_one != vk::FALSE,
+        SingleState::DepthClip => clip.depth_clip_enable != vk::FALSE,
+        SingleState::Provoking => provoking.last,
+        SingleState::Origin => enabled.tessellation_shader != vk::FALSE,
+    };
+    let mut all = SingleState::ALL.to_vec();
+    all.retain(|state| has_both(state) && *single_feature(&mut offered, *state) != vk::FALSE);
+    all
 }
 
 /// True if a device has extended dynamic state 3, as far as the suite sets it.
@@ -352,6 +402,7 @@ fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures
         fill_mode_non_solid: has.fill_mode_non_solid,
         fragment_stores_and_atomics: has.fragment_stores_and_atomics,
         independent_blend: has.independent_blend,
+        inherited_queries: has.inherited_queries,
         logic_op: has.logic_op,
         multi_viewport: has.multi_viewport,
         occlusion_query_precise: has.occlusion_query_precise,
@@ -409,10 +460,13 @@ impl Device {
             has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
         let second_viewport =
             features.multi_viewport != 0 && properties.limits.max_viewports > 1 && written_layer;
-        let extended = has_extended(api, physical);
-        let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
-        let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
+        let all_extended = has_extended(api, physical);
         let provoking = Provoking::of(api, physical);
+        let singles = singles(api, physical, &enabled, provoking);
+        let clips = singles.contains(&SingleState::DepthClip);
+        let extended = all_extended || !singles.is_empty();
+        let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
+        let logic_enable = dynamic_logic && all_extended && has_dynamic_logic_enable(api, physical);
         let advanced_blend = advanced_blend(api, physical);
         let stencil_export = has_extension(api, physical, ash::ext::shader_stencil_export::NAME);
         let extensions: Vec<_> = [
@@ -425,12 +479,18 @@ impl Device {
             (dynamic_logic, ash::ext::extended_dynamic_state2::NAME),
             (written_layer, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
+            (clips, ash::ext::depth_clip_enable::NAME),
         ]
         .into_iter()
         .filter_map(|(used, name)| used.then_some(name.as_ptr()))
         .collect();
         let mut enabled_extended =
-            extended_features(extended).extended_dynamic_state3_logic_op_enable(logic_enable);
+            extended_features(all_extended).extended_dynamic_state3_logic_op_enable(logic_enable);
+        for single in &singles {
+            *single_feature(&mut enabled_extended, *single) = vk::TRUE;
+        }
+        let mut enabled_clip =
+            vk::PhysicalDeviceDepthClipEnableFeaturesEXT::default().depth_clip_enable(true);
         let mut enabled_logic = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default()
             .extended_dynamic_state2_logic_op(true);
         // Both are mandatory in Vulkan 1.3.
@@ -461,6 +521,9 @@ impl Device {
         }
         if extended {
             info = info.push_next(&mut enabled_extended);
+        }
+        if clips {
+            info = info.push_next(&mut enabled_clip);
         }
         if dynamic_logic {
             info = info.push_next(&mut enabled_logic);
@@ -502,6 +565,8 @@ impl Device {
                 let loaded = ash::ext::extended_dynamic_state3::Device::new(api, &raw);
                 loaded.fp().clone()
             }),
+            all_extended,
+            singles,
             dynamic_logic: dynamic_logic
                 .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
             logic_enable,

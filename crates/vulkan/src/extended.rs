@@ -1,6 +1,7 @@
 //! Extended dynamic state 2 and 3: what else of a pipeline is set for each draw, where the path asks for it.
 
 use crate::device::Device;
+use crate::single_state::SingleState;
 use crate::state;
 use ash::vk;
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PolygonMode};
@@ -51,12 +52,14 @@ pub(crate) struct Further {
     /// True if all of [`STATES`] are.
     pub(crate) extended: bool,
     pub(crate) logic: DynamicLogic,
+    /// A state that is dynamic alone.
+    pub(crate) single: Option<SingleState>,
 }
 
 impl Further {
     /// True if any is.
     pub(crate) fn any(self) -> bool {
-        self.extended || self.logic != DynamicLogic::Nothing
+        self.extended || self.logic != DynamicLogic::Nothing || self.single.is_some()
     }
 
     /// Returns the dynamic states of a pipeline with colour attachments, or without.
@@ -67,7 +70,8 @@ impl Further {
             (true, true) => &STATES,
         };
         let logic = if colored { self.logic.states() } else { &[] };
-        [extended, logic].concat()
+        let single: Vec<_> = self.single.iter().map(|state| state.dynamic()).collect();
+        [extended, logic, &single].concat()
     }
 }
 
@@ -87,7 +91,11 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
     } else {
         draw.clone()
     };
-    Draw { logic, ..drawn }
+    let drawn = Draw { logic, ..drawn };
+    match further.single {
+        Some(state) => state.held(&drawn),
+        None => drawn,
+    }
 }
 
 /// Returns a draw whose pipeline holds other values of [`STATES`], which must not act.
@@ -206,7 +214,12 @@ mod tests {
             }
         };
         let held = |logic: DynamicLogic, extended, logic_of_draw| {
-            held_by(Further { extended, logic }, &draw(logic_of_draw)).logic
+            let further = Further {
+                extended,
+                logic,
+                single: None,
+            };
+            held_by(further, &draw(logic_of_draw)).logic
         };
         let (xor, nor) = (Some(LogicOperation::Xor), Some(LogicOperation::Nor));
         for operation in [xor, nor] {

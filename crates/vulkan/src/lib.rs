@@ -44,6 +44,8 @@ mod resolves;
 mod samplers;
 mod samples;
 mod shader;
+mod single;
+mod single_state;
 mod slot;
 mod spirv;
 mod state;

@@ -96,6 +96,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         }
         Feature::DualSourceBlending => features.dual_src_blend,
         Feature::FragmentInvocations => features.pipeline_statistics_query,
+        Feature::InheritedQueries => features.inherited_queries,
         Feature::IndependentBlend => features.independent_blend,
         Feature::LastProvokingVertex => device.provoking.last.into(),
         Feature::LogicOperations => features.logic_op,
@@ -124,6 +125,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::LinearInterpolation
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
+        | Feature::QueriesOverPasses
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
         | Feature::SampleMaskOutput

@@ -9,6 +9,7 @@ use crate::format::{self, Native};
 use crate::image::{DRAWN_LAYERS, ImageKey};
 use crate::plan::Role;
 use crate::samples;
+use crate::single_state::SingleState;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{
@@ -21,8 +22,11 @@ use std::collections::BTreeSet;
 /// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
-        PathValue::State(PathState::ExtendedDynamic3) => device.extended.is_some(),
+        PathValue::State(PathState::ExtendedDynamic3) => device.all_extended,
         PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
+        PathValue::State(state) => {
+            SingleState::of(state).is_none_or(|single| device.singles.contains(&single))
+        }
         PathValue::Draws(PathDraws::IndirectCount) => device.indirect_count,
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::Layers(PathLayers::Written) => device.written_layer,
@@ -45,7 +49,11 @@ pub(crate) fn further(device: &Device, state: PathState) -> Further {
         _ if extended && device.logic_enable => DynamicLogic::All,
         _ => DynamicLogic::Nothing,
     };
-    Further { extended, logic }
+    Further {
+        extended,
+        logic,
+        single: SingleState::of(state),
+    }
 }
 
 /// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several

@@ -5,6 +5,7 @@ use crate::dynamic::{Dynamic, Setting};
 use crate::error::{Check, internal};
 use crate::render_pass::{Compatible, RenderPass};
 use crate::shader::Modules;
+use crate::single_state::{SingleState, other_samples};
 use crate::state;
 use crate::targets::Targets;
 use crate::tessellation;
@@ -352,6 +353,18 @@ fn create(
         .polygon_mode(state::polygon_mode(key.polygon_mode))
         .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
+    let single = way.setting.further.single;
+    // Not the value that is set.
+    let mut clip = vk::PipelineRasterizationDepthClipStateCreateInfoEXT::default()
+        .depth_clip_enable(key.depth_clamp);
+    if single == Some(SingleState::DepthClip) {
+        raster = raster.push_next(&mut clip);
+    }
+    let samples = if single == Some(SingleState::Samples) {
+        other_samples(key.targets.samples)
+    } else {
+        key.targets.samples
+    };
     if key.last_provokes {
         raster = raster.push_next(&mut provoking);
     }
@@ -365,7 +378,7 @@ fn create(
     let mask = [key.multisample.mask];
     let min_sample_shading = key.multisample.min_sample_shading.map(f32::from_bits);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-        .rasterization_samples(state::samples(key.targets.samples))
+        .rasterization_samples(state::samples(samples))
         .sample_mask(&mask)
         .sample_shading_enable(min_sample_shading.is_some())
         .min_sample_shading(min_sample_shading.unwrap_or(0.0))

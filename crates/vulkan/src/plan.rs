@@ -2,7 +2,7 @@
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
-use crate::counting::{Counting, Query};
+use crate::counting::{Counting, Enclosing};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
 use crate::extended::Extended;
@@ -16,6 +16,7 @@ use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
 use crate::resolves::MovedResolve;
+use crate::single::Single;
 use crate::state;
 use crate::targets::Targets;
 use ash::vk;
@@ -104,6 +105,8 @@ pub(crate) struct PassPlan {
     pub(crate) clears: Vec<(usize, ClearPlan)>,
     /// The resolves behind the pass.
     pub(crate) resolves: Vec<MovedResolve>,
+    /// The queries that begin before the pass, and those that end after it.
+    pub(crate) queries: Enclosing,
 }
 
 /// The plan of a draw.
@@ -117,6 +120,8 @@ pub(crate) struct DrawPlan {
     pub(crate) overwritten: bool,
     /// The further dynamic state, where the path asks for it.
     pub(crate) extended: Option<Extended>,
+    /// The state that is dynamic alone, where the path asks for one.
+    pub(crate) single: Option<Single>,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
     pub(crate) set: vk::DescriptorSet,
@@ -128,8 +133,8 @@ pub(crate) struct DrawPlan {
     pub(crate) colors: Option<u64>,
     pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
-    /// The queries around the draw.
-    pub(crate) queries: Vec<Query>,
+    /// The queries that begin before the draw, and those that end after it.
+    pub(crate) queries: Enclosing,
 }
 
 impl Role {
@@ -219,6 +224,7 @@ impl PassPlan {
             draws: Vec::with_capacity(pass.draws.len()),
             clears: Vec::with_capacity(pass.clears.len()),
             resolves: Vec::new(),
+            queries: Enclosing::default(),
         };
         let integer = |location: usize| {
             let index = pass.color.get(location);
@@ -311,7 +317,7 @@ impl DrawPlan {
         dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
         set: vk::DescriptorSet,
-        queries: Vec<Query>,
+        queries: Enclosing,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
@@ -319,6 +325,7 @@ impl DrawPlan {
             again: None,
             overwritten: false,
             extended: None,
+            single: None,
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,
             vertices: inputs.vertices,

@@ -8,7 +8,7 @@ use crate::spirv::{BUILT_IN, DECORATE, LOCATION};
 use crate::viewport::LAYER;
 use ash::ext::extended_dynamic_state3;
 use ash::vk::{self, Handle};
-use etalon_backend::{CallFault, DrawNumbers, FaultyCalls};
+use etalon_backend::{CallFault, DrawNumbers, FaultyCalls, OpenQuery};
 use std::cell::RefCell;
 use std::ffi::c_void;
 use std::process::abort;
@@ -47,6 +47,8 @@ struct Planted {
     after_read_only: bool,
     /// True if the pass is read-only.
     read_only: bool,
+    /// True within a pass.
+    in_pass: bool,
     /// True if the pass is an object.
     in_render_pass: bool,
     /// True if the pass has stencil.
@@ -80,6 +82,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         calls,
         after_read_only: false,
         read_only: false,
+        in_pass: false,
         in_render_pass: false,
         stencil: false,
         undefined: false,
@@ -279,6 +282,7 @@ functions! {
         commands: vk::CommandBuffer, pool: vk::QueryPool, query: u32, flags: vk::QueryControlFlags
     ) |planted| {
         planted.calls.begin_query(query);
+        planted.calls.open_query(pool.as_raw(), query, planted.in_pass);
         // SAFETY: the caller's; a query that ends here is not ended again.
         unsafe {
             (planted.driver.v10.cmd_begin_query)(commands, pool, query, flags);
@@ -288,9 +292,20 @@ functions! {
         }
     }
     before v10 cmd_end_query(commands: vk::CommandBuffer, pool: vk::QueryPool, query: u32) |planted| {
-        if planted.calls.ends_query_early() {
+        let ended = planted.calls.close_query(pool.as_raw(), Some(query));
+        if ended || planted.calls.ends_query_early() {
             return;
         }
+    }
+    instead v13 cmd_end_rendering(commands: vk::CommandBuffer) |planted| {
+        // SAFETY: the caller's.
+        unsafe { (planted.driver.v13.cmd_end_rendering)(commands) };
+        planted.end_pass(commands);
+    }
+    instead v10 cmd_end_render_pass(commands: vk::CommandBuffer) |planted| {
+        // SAFETY: as above.
+        unsafe { (planted.driver.v10.cmd_end_render_pass)(commands) };
+        planted.end_pass(commands);
     }
     instead v10 get_query_pool_results(
         device: vk::Device, pool: vk::QueryPool, first: u32, count: u32, size: usize, data: *mut c_void,
@@ -308,12 +323,20 @@ functions! {
                 others.fill(*first);
             }
         }
+        if result == vk::Result::SUCCESS && planted.calls.has(CallFault::ResultOnce) {
+            // SAFETY: as above.
+            let results = unsafe { slice::from_raw_parts_mut(data.cast::<u64>(), count as usize) };
+            for (query, result) in (first..).zip(results) {
+                *result = planted.calls.result(pool.as_raw(), query, *result);
+            }
+        }
         result
     }
     before v13 cmd_begin_rendering(
         commands: vk::CommandBuffer, infos: *const vk::RenderingInfo<'_>
     ) [infos; 1] |planted| {
         let info = &mut infos[0];
+        planted.in_pass = true;
         planted.calls.begin_pass();
         planted.calls.area = area(info.render_area);
         // SAFETY: the caller's: the pointers are null or valid, and there are so many colours.
@@ -468,7 +491,7 @@ functions! {
     ) [infos; 1] |planted| {
         planted.calls.begin_pass();
         planted.calls.area = area(infos[0].render_area);
-        planted.in_render_pass = true;
+        (planted.in_pass, planted.in_render_pass) = (true, true);
         planted.cleared = false;
     }
     before v10 cmd_resolve_image(
@@ -595,6 +618,24 @@ impl Planted {
         };
         let draw = |numbers: &DrawNumbers| draw(driver, numbers);
         self.calls.draw(numbers, set_scissor, draw);
+        let ended = self.calls.queries_after_draw();
+        self.end_queries(commands, &ended);
+    }
+
+    /// Notes that a pass has ended.
+    fn end_pass(&mut self, commands: vk::CommandBuffer) {
+        self.in_pass = false;
+        let ended = self.calls.queries_after_pass();
+        self.end_queries(commands, &ended);
+    }
+
+    /// Ends queries that the fault ends.
+    fn end_queries(&self, commands: vk::CommandBuffer, queries: &[OpenQuery]) {
+        for open in queries {
+            let pool = vk::QueryPool::from_raw(open.owner);
+            // SAFETY: the query has begun, in or outside of a pass as here, and is not ended again.
+            unsafe { (self.driver.v10.cmd_end_query)(commands, pool, open.query) };
+        }
     }
 
     /// Changes the attachments of a pass.

@@ -1,18 +1,18 @@
 //! A scene prepared for drawing.
 
 use crate::buffer::{Buffer, BufferUse};
-use crate::counting::Counting;
+use crate::counting::{Counting, Enclosing, Query};
 use crate::descriptors::Descriptors;
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::internal;
 use crate::extended::{self, Extended};
 use crate::format;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Pools};
 use crate::image::{DRAWN_LAYERS, Image};
-use crate::inputs::Inputs;
+use crate::inputs::{DrawInputs, Inputs};
 use crate::path;
-use crate::pipeline::Way;
+use crate::pipeline::{Pipelines, Way};
 use crate::plan::{
     AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, between_key, copy_key,
     image_key, is_advanced, resolve_key, targets,
@@ -22,8 +22,12 @@ use crate::record::{self, Recorder};
 use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
 use crate::resolves::MovedResolve;
+use crate::single::Single;
+use crate::single_state::SingleState;
 use crate::slot::{Needs, Slot};
 use crate::storage;
+use crate::targets::Targets;
+use ash::vk;
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathLayers, PathPass, PathState, PathValue, Requirement,
@@ -91,17 +95,29 @@ impl<'a> PreparedScene<'a> {
         Ok(prepared)
     }
 
+    /// Takes and makes everything that the scene needs.
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
+        let gpu = self.gpu;
+        let pools = &mut *gpu.pools.borrow_mut();
+        let inputs = Inputs::place(&gpu.device, &gpu.natives, scene);
+        let input = pools.memory.buffer(&gpu.device, BufferUse::Input, inputs.bytes)?;
+        inputs.write(self.input.insert(input), scene)?;
+        self.attach(pools, scene, &inputs)?;
+        let sources = self.attach_copies(pools, scene)?;
+        let resolves = self.attach_resolves(pools, scene)?;
+        self.take_slot(pools, scene)?;
+        self.plan_passes(pools, scene, &inputs, &resolves)?;
+        self.plan_reads(pools, scene, &sources)
+    }
+
+    /// Takes the images of the attachments.
+    fn attach(
+        &mut self,
+        pools: &mut Pools,
+        scene: &Scene,
+        inputs: &Inputs,
+    ) -> Result<(), BackendError> {
         let device = &self.gpu.device;
-        let mut pools = self.gpu.pools.borrow_mut();
-        let pools = &mut *pools;
-
-        let inputs = Inputs::place(device, &self.gpu.natives, scene);
-        let memory = &mut pools.memory;
-        let input = memory.buffer(device, BufferUse::Input, inputs.bytes)?;
-        let input = self.input.insert(input);
-        inputs.write(input, scene)?;
-
         for (index, attachment) in scene.attachments.iter().enumerate() {
             if let Contents::Texels(codes) = &attachment.contents {
                 let texels = attachment.size[0] as usize * attachment.size[1] as usize;
@@ -131,31 +147,48 @@ impl<'a> PreparedScene<'a> {
             });
             self.images.push(image);
         }
-        // The images that are read back, by attachment.
+        Ok(())
+    }
+
+    /// Takes the images that attachments are copied to before they are read. Returns the image that is read, by
+    /// attachment.
+    fn attach_copies(
+        &mut self,
+        pools: &mut Pools,
+        scene: &Scene,
+    ) -> Result<Vec<usize>, BackendError> {
+        let device = &self.gpu.device;
         let mut sources: Vec<usize> = (0..self.images.len()).collect();
         let plans = self.plan.attachments.iter_mut().zip(&scene.attachments);
         for (source, (plan, attachment)) in sources.iter_mut().zip(plans) {
             if plan.read && path::is_copied(plan.end) {
-                let own = self.images[*source].key;
-                if let Some(key) = between_key(own, plan.end) {
+                let drawn = self.images[*source].key;
+                if let Some(key) = between_key(drawn, plan.end) {
                     let image = pools.memory.image(device, key)?;
                     plan.between = Some(image.raw);
                     self.images.push(image);
                 }
-                let key = copy_key(own, attachment);
-                let image = pools.memory.image(device, key)?;
+                let image = pools.memory.image(device, copy_key(drawn, attachment))?;
                 plan.copy = Some(image.raw);
                 *source = self.images.len();
                 self.images.push(image);
             }
         }
+        Ok(sources)
+    }
 
+    /// Takes the images that parts are resolved to and moved from. Returns the resolves behind each pass.
+    fn attach_resolves(
+        &mut self,
+        pools: &mut Pools,
+        scene: &Scene,
+    ) -> Result<Vec<Vec<MovedResolve>>, BackendError> {
         let mut resolves = Vec::with_capacity(scene.passes.len());
         for pass in &scene.passes {
             let mut moved = Vec::new();
             for (location, to) in pass.moved_resolves(&scene.path) {
                 let key = resolve_key(self.images[to].key);
-                let image = pools.memory.image(device, key)?;
+                let image = pools.memory.image(&self.gpu.device, key)?;
                 moved.push(MovedResolve {
                     from: pass.color[location],
                     to,
@@ -166,10 +199,15 @@ impl<'a> PreparedScene<'a> {
             }
             resolves.push(moved);
         }
+        Ok(resolves)
+    }
 
-        let areas = |pass: &Pass| path::areas(&scene.path, scene.pass_size(pass));
+    /// Takes the slot, and the buffers that shaders write to.
+    fn take_slot(&mut self, pools: &mut Pools, scene: &Scene) -> Result<(), BackendError> {
+        let device = &self.gpu.device;
         let draws = || {
-            let often = |p| areas(p).into_iter().flat_map(move |_| &p.draws);
+            let areas = |pass: &Pass| path::areas(&scene.path, scene.pass_size(pass));
+            let often = move |p| areas(p).into_iter().flat_map(move |_| &p.draws);
             scene.passes.iter().flat_map(often)
         };
         let textures = draws().map(|d| d.textures.len()).max().unwrap_or(0);
@@ -186,103 +224,103 @@ impl<'a> PreparedScene<'a> {
             ..Needs::default()
         };
         self.plan.counting = Counting::new(device, scene);
-        let counting = &mut self.plan.counting;
-        counting.add_needs(scene, &mut needs);
-        let slot = pools.slots.take(device, needs)?;
-        let slot = self.slot.insert(slot);
-        if counting.bytes > 0 {
-            let counts = pools
-                .memory
-                .buffer(device, BufferUse::Storage, counting.bytes)?;
-            self.counts = Some(counts);
+        self.plan.counting.add_needs(scene, &mut needs);
+        self.slot = Some(pools.slots.take(device, needs)?);
+        let bytes = self.plan.counting.bytes;
+        if bytes > 0 {
+            self.counts = Some(pools.memory.buffer(device, BufferUse::Storage, bytes)?);
         }
         if let Some(pool) = scene.pool {
-            let memory = &mut pools.memory;
-            let buffer = memory.buffer(device, BufferUse::Storage, pool.bytes())?;
+            let buffer = pools.memory.buffer(device, BufferUse::Storage, pool.bytes())?;
             self.pool = Some((buffer, pool));
             self.plan.pool = true;
         }
+        Ok(())
+    }
 
+    /// Plans the passes, each once for every area that it is drawn in.
+    fn plan_passes(
+        &mut self,
+        pools: &mut Pools,
+        scene: &Scene,
+        inputs: &Inputs,
+        resolves: &[Vec<MovedResolve>],
+    ) -> Result<(), BackendError> {
+        let device = &self.gpu.device;
+        let (Some(input), Some(slot)) = (&self.input, &mut self.slot) else {
+            return Err(internal("a scene has no slot"));
+        };
         let setting = Setting {
             fixed: scene.path.state == PathState::Static,
             further: path::further(device, scene.path.state),
             viewport: scene.path.viewport,
         };
+        let counting = &mut self.plan.counting;
+        let queries = counting.queries(slot, scene)?;
         let pool = self.pool.as_ref().map(|(b, pool)| (b, pool.bytes()));
         let mut sets = Descriptors::new(input, self.counts.as_ref(), pool, &self.images);
-        let parts = scene.passes.iter().zip(&inputs.draws).zip(&resolves);
-        let parts = parts.flat_map(|((pass, places), resolves)| {
-            let areas = areas(pass);
+        let parts = scene.passes.iter().zip(&inputs.draws).zip(resolves);
+        for (number, ((pass, places), resolves)) in parts.enumerate() {
+            let areas = path::areas(&scene.path, scene.pass_size(pass));
             let whole = areas.len() == 1;
-            areas
-                .into_iter()
-                .map(move |area| (pass, places, resolves, area, whole))
-        });
-        for (pass, places, resolves, area, whole) in parts {
             let targets = targets(self.gpu, scene, pass)?;
             check_advanced(device, pass, setting)?;
-            let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
-            self.plan.passes.push(planned);
-            let Some(planned) = self.plan.passes.last_mut() else {
-                continue;
-            };
-            planned.resolves = resolves.clone();
-            if scene.path.pass != PathPass::DynamicRendering {
-                let second = scene.path.pass == PathPass::SecondSubpass;
-                let attached = (&planned.color[..], planned.depth_stencil.as_ref());
-                let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
-                planned.object = Some(object);
-            }
-            for (draw, place) in pass.draws.iter().zip(places) {
-                if draw.targets.len() != pass.color.len() {
-                    return Err(internal("a draw lacks a target for each colour attachment"));
+            for area in areas {
+                let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
+                // From here on `drop` finds what is made.
+                let planned = self.plan.passes.push_mut(planned);
+                planned.resolves.clone_from(resolves);
+                planned.queries = Enclosing::new(
+                    &queries,
+                    |query| query.begins_before(number),
+                    |query| query.ends_behind(number),
+                );
+                if scene.path.pass != PathPass::DynamicRendering {
+                    let second = scene.path.pass == PathPass::SecondSubpass;
+                    let attached = (&planned.color[..], planned.depth_stencil.as_ref());
+                    let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
+                    planned.object = Some(object);
                 }
-                let pipelines = &mut pools.pipelines;
-                let made = (&mut *pipelines, &mut pools.samplers);
-                let set = sets.get(device, made, slot, counting, draw)?;
-                let dynamic = Dynamic::new(draw, area, whole, place.restarts, setting)?;
-                let [again, layer] = match targets.layers {
-                    PathLayers::One | PathLayers::Multiview => [None; 2],
-                    PathLayers::Written => DRAWN_LAYERS.map(Some),
-                };
-                let way = Way {
-                    pass: planned.object.as_ref(),
-                    layer,
+                let drawing = Drawing {
+                    device,
+                    state: scene.path.state,
                     setting,
-                    state: &dynamic,
+                    targets: &targets,
+                    object: planned.object.as_ref(),
+                    area: (area, whole),
+                    queries: &queries,
+                    pass: number,
                 };
-                let mut get_to = |draw: &Draw, layer| {
-                    pipelines.get(device, &targets, draw, Way { layer, ..way })
-                };
-                let mut get = |draw: &Draw| {
-                    let again = again.map(|_| get_to(draw, again)).transpose()?;
-                    Ok((get_to(draw, layer)?, again))
-                };
-                let extended = setting
-                    .further
-                    .any()
-                    .then(|| Extended::new(draw, targets.samples, setting.further));
-                let (pipeline, again) = match extended {
-                    Some(_) => get(&extended::held_by(setting.further, draw))?,
-                    None => get(draw)?,
-                };
-                let other = match scene.path.state {
-                    PathState::OtherPipeline => Some(get(&path::other(draw))?.0),
-                    _ => None,
-                };
-                let queries = counting.queries(slot, draw)?;
-                let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, queries)?;
-                drawn.overwritten = scene.path.state == PathState::Overwritten;
-                (drawn.other, drawn.again, drawn.extended) = (other, again, extended);
-                planned.draws.push(drawn);
+                for (index, (draw, place)) in pass.draws.iter().zip(places).enumerate() {
+                    if draw.targets.len() != pass.color.len() {
+                        return Err(internal("a draw lacks a target for each colour attachment"));
+                    }
+                    let made = (&mut pools.pipelines, &mut pools.samplers);
+                    let set = sets.get(device, made, slot, counting, draw)?;
+                    let drawn = drawing.plan(&mut pools.pipelines, index, draw, place, set)?;
+                    planned.draws.push(drawn);
+                }
             }
         }
+        Ok(())
+    }
 
+    /// Plans the reads, each of the image that an attachment is copied to.
+    fn plan_reads(
+        &mut self,
+        pools: &mut Pools,
+        scene: &Scene,
+        sources: &[usize],
+    ) -> Result<(), BackendError> {
+        let device = &self.gpu.device;
         let attachments = self.plan.attachments.iter();
         let by_shader: Vec<bool> = attachments.map(AttachmentPlan::is_read_by_shader).collect();
         let (reads, bytes) = ReadPlan::all(self.gpu, scene, &by_shader)?;
         let output = pools.memory.buffer(device, BufferUse::Output, bytes)?;
         let output = self.output.insert(output);
+        let Some(slot) = &mut self.slot else {
+            return Err(internal("a scene has no slot"));
+        };
         self.plan.reads = reads;
         for read in &mut self.plan.reads {
             let image = self
@@ -292,6 +330,72 @@ impl<'a> PreparedScene<'a> {
             read.connect(device, &mut pools.readers, slot, image, output)?;
         }
         Ok(())
+    }
+}
+
+/// What the draws of a pass share in one of its areas.
+struct Drawing<'a> {
+    device: &'a Device,
+    state: PathState,
+    setting: Setting,
+    targets: &'a Targets,
+    object: Option<&'a RenderPass>,
+    /// The area, and whether it is the only one.
+    area: (vk::Rect2D, bool),
+    queries: &'a [(etalon_scene::Query, Query)],
+    /// The number of the pass.
+    pass: usize,
+}
+
+impl Drawing<'_> {
+    /// Returns the plan of a draw with these inputs and descriptors.
+    fn plan(
+        &self,
+        pipelines: &mut Pipelines,
+        index: usize,
+        draw: &Draw,
+        place: &DrawInputs,
+        set: vk::DescriptorSet,
+    ) -> Result<DrawPlan, BackendError> {
+        let (device, setting, targets) = (self.device, self.setting, self.targets);
+        let (area, whole) = self.area;
+        let dynamic = Dynamic::new(draw, area, whole, place.restarts, setting)?;
+        let [again, layer] = match targets.layers {
+            PathLayers::One | PathLayers::Multiview => [None; 2],
+            PathLayers::Written => DRAWN_LAYERS.map(Some),
+        };
+        let way = Way {
+            pass: self.object,
+            layer,
+            setting,
+            state: &dynamic,
+        };
+        let mut get = |draw: &Draw, layer| pipelines.get(device, targets, draw, Way { layer, ..way });
+        let extended = setting
+            .further
+            .any()
+            .then(|| Extended::new(draw, targets.samples, setting.further));
+        let held = extended.as_ref().map(|_| extended::held_by(setting.further, draw));
+        let held = held.as_ref().unwrap_or(draw);
+        let pipeline = get(held, layer)?;
+        let again = again.map(|_| get(held, again)).transpose()?;
+        let single = SingleState::of(self.state).is_some();
+        let other = if single || self.state == PathState::OtherPipeline {
+            Some(get(&path::other(draw), layer)?)
+        } else {
+            None
+        };
+        let enclosing = Enclosing::new(
+            self.queries,
+            |query| query.begins_at((self.pass, index)),
+            |query| query.ends_at((self.pass, index)),
+        );
+        let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
+        drawn.overwritten = self.state == PathState::Overwritten;
+        (drawn.other, drawn.again, drawn.extended) = (other, again, extended);
+        let state = setting.further.single;
+        drawn.single = state.map(|state| Single::new(state, draw, targets.samples));
+        Ok(drawn)
     }
 }
 
@@ -334,7 +438,13 @@ impl Prepared for PreparedScene<'_> {
         slot.timestamp(device, 0);
         let kind = self.kind;
         let kept = self.keeps_state.then(RefCell::default);
-        let mut recorder = Recorder { slot, kind, kept };
+        let over_passes = self.plan.passes.iter().any(|pass| !pass.queries.is_empty());
+        let mut recorder = Recorder {
+            slot,
+            kind,
+            kept,
+            over_passes,
+        };
         record::passes(device, &mut recorder, &self.plan, input.raw)?;
         slot.timestamp(device, 1);
         counting.end(device, slot.commands());

@@ -257,6 +257,8 @@ pub(crate) struct Recorder<'a> {
     pub(crate) kind: PathCommands,
     /// The state that is set, as text, if state that does not change is not set again.
     pub(crate) kept: Option<RefCell<String>>,
+    /// True if queries enclose passes.
+    pub(crate) over_passes: bool,
 }
 
 impl Recorder<'_> {
@@ -290,7 +292,10 @@ impl Recorder<'_> {
             .depth_attachment_format(pass.targets.depth)
             .stencil_attachment_format(pass.targets.stencil)
             .rasterization_samples(crate::state::samples(pass.targets.samples));
-        let inheritance = vk::CommandBufferInheritanceInfo::default();
+        let mut inheritance = vk::CommandBufferInheritanceInfo::default();
+        if self.over_passes {
+            inheritance = inherited_queries(device);
+        }
         let inheritance = match &pass.object {
             Some(object) => inheritance
                 .render_pass(object.raw)
@@ -323,6 +328,20 @@ impl Recorder<'_> {
     }
 }
 
+/// Returns inheritance of every query that the device has.
+fn inherited_queries(device: &Device) -> vk::CommandBufferInheritanceInfo<'static> {
+    let features = &device.features;
+    let mut inheritance = vk::CommandBufferInheritanceInfo::default().occlusion_query_enable(true);
+    if features.occlusion_query_precise != vk::FALSE {
+        inheritance = inheritance.query_flags(vk::QueryControlFlags::PRECISE);
+    }
+    if features.pipeline_statistics_query != vk::FALSE {
+        let statistic = vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS;
+        inheritance = inheritance.pipeline_statistics(statistic);
+    }
+    inheritance
+}
+
 fn pass(
     device: &Device,
     recorder: &mut Recorder<'_>,
@@ -333,8 +352,10 @@ fn pass(
     if pass.advanced {
         before_advanced(device, commands);
     }
-    // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles.
+    // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles, and each query that
+    // begins here is begun once.
     unsafe {
+        pass.queries.begin(device, commands);
         match &pass.object {
             Some(object) => begin_render_pass(device, recorder, pass, object),
             None => begin_rendering(device, recorder, pass),
@@ -350,6 +371,7 @@ fn pass(
             Some(_) => device.raw.cmd_end_render_pass(commands),
             None => device.raw.cmd_end_rendering(commands),
         }
+        pass.queries.end(device, commands);
     }
     Ok(())
 }
@@ -471,6 +493,10 @@ unsafe fn draws(
                 clear.record(device, commands);
             }
             let pipeline = &*draw.pipeline;
+            if let Some(single) = draw.single {
+                single.set(device, commands);
+                bound = None;
+            }
             if bound.is_none_or(|b| b.raw != pipeline.raw) {
                 bind(pipeline);
                 bound = Some(pipeline);
@@ -521,9 +547,7 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             &[draw.params],
         );
         api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
-        for query in &draw.queries {
-            api.cmd_begin_query(commands, query.pool, query.index, query.flags);
-        }
+        draw.queries.begin(device, commands);
         if let Some(colors) = draw.colors {
             api.cmd_bind_vertex_buffers(commands, INSTANCE_BINDING, &[input], &[colors]);
         }
@@ -581,9 +605,7 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             }
             (None, None) => api.cmd_draw(commands, count, instances, first, first_instance),
         }
-        for query in draw.queries.iter().rev() {
-            api.cmd_end_query(commands, query.pool, query.index);
-        }
+        draw.queries.end(device, commands);
     }
 }
 

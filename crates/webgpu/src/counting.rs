@@ -6,8 +6,8 @@
 use crate::calls::{Command, PassCommand, Query, QuerySet, QueryType, buffer_usage};
 use crate::lower::Lowering;
 use crate::reading::{CounterReading, Place};
-use etalon_frame::CounterKind;
-use etalon_scene::{Draw, Scene};
+use etalon_frame::{CounterKind, PathResults};
+use etalon_scene::{Query as SceneQuery, Scene};
 
 /// The size of a counter of shader runs.
 pub(crate) const RUNS_BYTES: u64 = 4;
@@ -27,9 +27,11 @@ pub(crate) struct Counting {
     runs: Option<usize>,
     /// The distance between two places.
     stride: u64,
+    /// True if results are read twice.
+    twice: bool,
 }
 
-/// The queries of one type, one per draw and counter.
+/// The queries of one type.
 struct Queries {
     set: usize,
     /// The counter of each query.
@@ -38,21 +40,49 @@ struct Queries {
     offset: u64,
 }
 
-/// The queries and the counter of a draw.
+/// The queries that begin and end at a draw, and its counter.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Counted {
     /// The occlusion query.
-    occlusion: Option<u32>,
+    occlusion: Enclosed,
     /// The pipeline statistics query.
-    statistics: Option<u32>,
+    statistics: Enclosed,
     /// The counter that the shader increments.
     pub(crate) runs: Option<usize>,
 }
 
+/// A query that encloses a draw, and perhaps others.
+#[derive(Clone, Copy, Default)]
+struct Enclosed {
+    /// The query, if it begins before the draw.
+    begins: Option<u32>,
+    /// True if it ends after the draw.
+    ends: bool,
+}
+
+impl Enclosed {
+    /// Returns the part of a draw in queries of one type, of which no two enclose it.
+    fn new<'q>(draw: (usize, usize), queries: impl Iterator<Item = &'q SceneQuery>) -> Self {
+        let mut enclosed = Self::default();
+        for (number, query) in (0..).zip(queries) {
+            if query.begins_at(draw) {
+                enclosed.begins = Some(number);
+            }
+            enclosed.ends |= query.ends_at(draw);
+        }
+        enclosed
+    }
+
+    /// True if a query begins before the draw or ends after it.
+    fn is_edge(self) -> bool {
+        self.begins.is_some() || self.ends
+    }
+}
+
 impl Counted {
-    /// True if a query stands around the draw.
-    pub(crate) fn is_queried(self) -> bool {
-        self.occlusion.is_some() || self.statistics.is_some()
+    /// True if a query begins before the draw or ends after it.
+    pub(crate) fn is_edge(self) -> bool {
+        self.occlusion.is_edge() || self.statistics.is_edge()
     }
 }
 
@@ -99,23 +129,26 @@ impl Queries {
 impl Counting {
     /// Returns the counters of a scene and the queries of each draw of all passes.
     pub(crate) fn new(lowering: &mut Lowering<'_>, scene: &Scene) -> (Self, Vec<Counted>) {
-        let (mut occlusion, mut statistics) = (Vec::new(), Vec::new());
-        let mut add = |draw: &Draw| {
-            let number = |counters: &mut Vec<usize>, counter: usize| {
-                counters.push(counter);
-                counters.len() as u32 - 1
-            };
-            let counter = |kind| draw.counter(scene, |k| k == kind);
-            Counted {
-                occlusion: counter(CounterKind::AnySamplesPassed)
-                    .map(|c| number(&mut occlusion, c)),
-                statistics: counter(CounterKind::FragmentInvocations)
-                    .map(|c| number(&mut statistics, c)),
-                runs: counter(CounterKind::ShaderRuns),
-            }
+        let queries = scene.queries();
+        let of_kind = |kind| {
+            let is_of_kind = move |query: &&SceneQuery| scene.counters[query.counter].kind == kind;
+            queries.iter().filter(is_of_kind)
         };
-        let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
-        let counted: Vec<_> = draws.map(&mut add).collect();
+        let occlusion = || of_kind(CounterKind::AnySamplesPassed);
+        let statistics = || of_kind(CounterKind::FragmentInvocations);
+        let draws = scene.passes.iter().enumerate().flat_map(|(number, pass)| {
+            let draws = pass.draws.iter().enumerate();
+            draws.map(move |(index, draw)| ((number, index), draw))
+        });
+        let counted: Vec<_> = draws
+            .map(|(place, draw)| Counted {
+                occlusion: Enclosed::new(place, occlusion()),
+                statistics: Enclosed::new(place, statistics()),
+                runs: draw.counter(scene, |kind| kind == CounterKind::ShaderRuns),
+            })
+            .collect();
+        let occlusion = occlusion().map(|query| query.counter).collect();
+        let statistics = statistics().map(|query| query.counter).collect();
         let occlusion = Queries::new(lowering, QueryType::Occlusion, occlusion, 0);
         let behind = occlusion.as_ref().map_or(0, Queries::end);
         let statistics = Queries::new(
@@ -133,6 +166,7 @@ impl Counting {
             results: (end > 0).then(|| lowering.buffer(resolved, end)),
             runs: runs.then(|| lowering.buffer(stored, scene.counters.len() as u64 * stride)),
             stride,
+            twice: scene.path.results == PathResults::Twice,
             kinds: scene.counters.iter().map(|c| c.kind).collect(),
             occlusion,
             statistics,
@@ -158,21 +192,21 @@ impl Counting {
         })
     }
 
-    /// Returns the start of a draw's queries.
+    /// Returns the start of queries before a draw.
     pub(crate) fn begin(&self, counted: Counted) -> Vec<PassCommand> {
         let query = |ty, queries: &Option<Queries>, index: Option<u32>| {
             let (set, index) = (queries.as_ref()?.set, index?);
             Some(PassCommand::Begin(Query { ty, set, index }))
         };
-        let occlusion = query(QueryType::Occlusion, &self.occlusion, counted.occlusion);
+        let occlusion = query(QueryType::Occlusion, &self.occlusion, counted.occlusion.begins);
         let counts = QueryType::FragmentInvocations;
-        let statistics = query(counts, &self.statistics, counted.statistics);
+        let statistics = query(counts, &self.statistics, counted.statistics.begins);
         occlusion.into_iter().chain(statistics).collect()
     }
 
-    /// Returns the end of a draw's queries.
+    /// Returns the end of queries after a draw.
     pub(crate) fn end(&self, counted: Counted) -> Vec<PassCommand> {
-        let end = |query: Option<u32>, ty| query.map(|_| PassCommand::End(ty));
+        let end = |query: Enclosed, ty| query.ends.then_some(PassCommand::End(ty));
         let statistics = end(counted.statistics, QueryType::FragmentInvocations);
         let occlusion = end(counted.occlusion, QueryType::Occlusion);
         statistics.into_iter().chain(occlusion).collect()
@@ -188,7 +222,9 @@ impl Counting {
                 offset: queries.offset,
             })
         };
-        both.filter_map(resolve).collect()
+        let once = both.filter_map(resolve);
+        once.flat_map(|resolve| vec![resolve; 1 + usize::from(self.twice)])
+            .collect()
     }
 
     /// Returns the size of all counts in the layout of [`Counting::copy`].

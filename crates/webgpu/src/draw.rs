@@ -215,7 +215,7 @@ impl PreparedDraw {
         commands
     }
 
-    /// True if the state that no pipeline holds is the same, and neither draw is counted.
+    /// True if the state that no pipeline holds is the same, and no query begins or ends between the draws.
     fn shares_state(&self, other: &Self) -> bool {
         let state = |draw: &Self| {
             (
@@ -225,7 +225,7 @@ impl PreparedDraw {
                 draw.stencil_reference,
             )
         };
-        let counted = [self.counted, other.counted].map(Counted::is_queried);
+        let counted = [self.counted, other.counted].map(Counted::is_edge);
         state(self) == state(other) && counted == [false, false]
     }
 }

@@ -5,8 +5,8 @@
 
 use crate::calls::{Extent, TextureDimension};
 use etalon_frame::{
-    ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathStart, PathState, PathTarget,
-    PathValue, TextureFormat,
+    ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathResults, PathStart, PathState,
+    PathTarget, PathValue, TextureFormat,
 };
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
@@ -28,6 +28,7 @@ pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue
             PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
         ),
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
+        PathValue::Results(PathResults::Twice) => true,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
         // pipeline, everything else always is.
         PathValue::State(
@@ -35,12 +36,18 @@ pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue
             | PathState::Static
             | PathState::ExtendedDynamic3
             | PathState::DynamicLogic
-            | PathState::Kept,
+            | PathState::Kept
+            | PathState::DynamicSamples
+            | PathState::DynamicAlphaToOne
+            | PathState::DynamicDepthClip
+            | PathState::DynamicProvoking
+            | PathState::DynamicOrigin,
         )
         | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
         | PathValue::Pass(_)
         | PathValue::Area(_)
         | PathValue::Clears(_)
+        | PathValue::Results(PathResults::Once)
         | PathValue::Clip(_)
         | PathValue::Viewport(_)
         | PathValue::Layers(_)
@@ -210,7 +217,7 @@ pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_scene::{Attachment, Contents, Pass, Path};
+    use etalon_scene::{Attachment, Contents, Pass, Path, QueryScope};
 
     const READING: Reading = Reading {
         copies: true,
@@ -230,6 +237,7 @@ mod tests {
             passes: vec![Pass::default(), Pass::default()],
             read: vec![0],
             counters: Vec::new(),
+            query_scope: QueryScope::Draw,
             pool: None,
             path,
         }

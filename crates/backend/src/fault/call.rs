@@ -106,6 +106,16 @@ faults! {
     QueryFirst = "query-first" in "sequence/queries-*/*";
     /// Queries after the first end before their draw.
     QueryEarly = "query-early" in "sequence/queries-*/*";
+    /// Queries end after their first draw, if they can end within a pass.
+    QueryOneDraw = "query-one-draw" in "sequence/spans/*";
+    /// Queries begin again at each draw.
+    QueryLastDraw = "query-last-draw" in "sequence/spans/*" of OpenGl;
+    /// Queries that begin before a pass end after it.
+    QueryOnePass = "query-one-pass" in "sequence/spans/*";
+    /// Clears count in queries.
+    QueryClear = "query-clear" in "sequence/spans/*" of OpenGl;
+    /// Results that are read again are 0.
+    ResultOnce = "result-once" in "sequence/spans/*/results=twice/*";
     /// Load operations do not clear colour.
     LoadColorIgnored = "load-color-ignored" in "paths/write-masks/*/start=load-operation" of Vulkan;
     /// Load operations do not clear depth.

@@ -2,7 +2,7 @@
 
 use super::CallFault;
 use std::any::Any;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The numbers of a draw call.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,6 +21,21 @@ pub struct DrawNumbers {
     pub base_vertex: i32,
     /// The first instance.
     pub first_instance: u32,
+}
+
+/// A query that has begun and not ended.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenQuery {
+    /// The pool or target.
+    pub owner: u64,
+    /// The number in its pool, or its name.
+    pub query: u32,
+    /// True if it can end between two draws: it began within a pass, or there are no passes.
+    pub ends_anywhere: bool,
+    /// The draws since.
+    draws: u32,
+    /// True if the fault has ended it.
+    ended: bool,
 }
 
 /// The calls to a driver that a planted fault has seen.
@@ -45,6 +60,12 @@ pub struct FaultyCalls {
     pub queries: Vec<u32>,
     /// True if `queries` are those of a submission before.
     queries_are_old: bool,
+    /// The queries that have begun and not ended.
+    open: Vec<OpenQuery>,
+    /// The queries during which something was cleared.
+    cleared_queries: Vec<u32>,
+    /// The results that were read since the submission, by owner and number.
+    read: HashSet<(u64, u32)>,
     /// Values of the call before, by a number of the state.
     kept: HashMap<u32, Box<dyn Any>>,
     /// The last clear value of each image, as bits.
@@ -62,6 +83,7 @@ impl FaultyCalls {
         (self.passes, self.draws) = (0, 0);
         self.queries_are_old = true;
         self.kept.clear();
+        self.read.clear();
     }
 
     /// Notes that a pass begins.
@@ -160,6 +182,83 @@ impl FaultyCalls {
             self.queries.clear();
         }
         self.queries.push(query);
+        self.cleared_queries.retain(|cleared| *cleared != query);
+    }
+
+    /// Notes that a query of a pool or target is open, and whether it can end between two draws.
+    pub fn open_query(&mut self, owner: u64, query: u32, ends_anywhere: bool) {
+        self.open.push(OpenQuery {
+            owner,
+            query,
+            ends_anywhere,
+            draws: 0,
+            ended: false,
+        });
+    }
+
+    /// Notes that a query of a pool or target ends. Returns true if the fault has ended it before.
+    pub fn close_query(&mut self, owner: u64, query: Option<u32>) -> bool {
+        let is_it =
+            |open: &OpenQuery| open.owner == owner && query.is_none_or(|query| query == open.query);
+        let Some(index) = self.open.iter().position(is_it) else {
+            return false;
+        };
+        self.open.swap_remove(index).ended
+    }
+
+    /// Returns the queries that the fault begins again before a draw.
+    pub fn queries_before_draw(&self) -> Vec<OpenQuery> {
+        let again = |open: &&OpenQuery| self.has(CallFault::QueryLastDraw) && open.draws > 0;
+        self.open.iter().filter(again).copied().collect()
+    }
+
+    /// Notes a draw, and returns the queries that the fault ends after it.
+    pub fn queries_after_draw(&mut self) -> Vec<OpenQuery> {
+        self.open.iter_mut().for_each(|open| open.draws += 1);
+        self.end_queries(CallFault::QueryOneDraw, |open| open.ends_anywhere)
+    }
+
+    /// Returns the queries that the fault ends after a pass.
+    pub fn queries_after_pass(&mut self) -> Vec<OpenQuery> {
+        self.end_queries(CallFault::QueryOnePass, |open| open.draws > 0)
+    }
+
+    /// Returns the queries of a kind that a fault ends, each once.
+    fn end_queries(
+        &mut self,
+        fault: CallFault,
+        kind: impl Fn(&OpenQuery) -> bool,
+    ) -> Vec<OpenQuery> {
+        if !self.has(fault) {
+            return Vec::new();
+        }
+        let due = self
+            .open
+            .iter_mut()
+            .filter(|open| !open.ended && kind(open));
+        due.map(|open| {
+            open.ended = true;
+            *open
+        })
+        .collect()
+    }
+
+    /// Notes that something is cleared.
+    pub fn note_clear(&mut self) {
+        let open = self.open.iter().map(|open| open.query);
+        self.cleared_queries.extend(open);
+    }
+
+    /// Returns the result of a query in the place of the driver's.
+    pub fn result(&mut self, owner: u64, query: u32, result: u64) -> u64 {
+        let is_again = !self.read.insert((owner, query));
+        if self.has(CallFault::ResultOnce) && is_again {
+            0
+        } else if self.has(CallFault::QueryClear) && self.cleared_queries.contains(&query) {
+            result + 1
+        } else {
+            result
+        }
     }
 
     /// True if the fault has ended the query where it began.

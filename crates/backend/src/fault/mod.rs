@@ -10,7 +10,7 @@ mod process;
 mod read;
 
 pub use call::CallFault;
-pub use calls::{DrawNumbers, FaultyCalls};
+pub use calls::{DrawNumbers, FaultyCalls, OpenQuery};
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 

@@ -6,8 +6,8 @@ use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     AdvancedBlend, BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests,
     FrontFace, LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode, Pool,
-    PrimitiveTopology, ProvokingVertex, ResolveMode, Sampler, Shader, Splat, StencilOperation,
-    Tessellation, Viewport,
+    PrimitiveTopology, ProvokingVertex, QueryScope, ResolveMode, Sampler, Shader, Splat,
+    StencilOperation, Tessellation, Viewport,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -26,6 +26,9 @@ pub(crate) struct SceneWire {
     /// Counters by name; all are read back.
     #[serde(default)]
     pub(crate) counters: BTreeMap<String, CounterKind>,
+    /// The part of the scene that one query encloses; the count is the same.
+    #[serde(default)]
+    pub(crate) queries: QueryScope,
     /// The pool that fragment shaders fill and read.
     pub(crate) pool: Option<Pool>,
     /// The way in which the scene reaches the driver; it leaves the picture as it is.

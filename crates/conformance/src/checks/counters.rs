@@ -108,6 +108,43 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
     Ok(())
 }
 
+/// A query over draws, of which one is rejected, and over passes. What else it encloses may count in Vulkan.
+pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
+    let draws = || {
+        [
+            (true, "a"),
+            (false, "a"),
+            (true, "a"),
+            (false, "b"),
+            (false, "b"),
+        ]
+        .map(|(front, name)| corner(front, "uniform_color", &[name]))
+    };
+    let scene = |queries: &str, kind: &str, passes: usize| {
+        json!({
+            "attachments": {
+                "color": { "format": "rgba8unorm" },
+                "depth": { "format": "depth32float", "clear": 0.5 } },
+            "passes": vec![json!({
+                "color": ["color"], "depth_stencil": "depth",
+                "draws": draws()[..if passes > 1 { 3 } else { 5 }] }); passes],
+            "read": ["color"],
+            "counters": of(&["a", "b"], kind),
+            "queries": queries,
+            "path": { "results": "twice" },
+        })
+    };
+    let frame = s.show(scene("pass", "any-samples-passed", 1))?;
+    assert_eq!(frame.counters, [1, 0]);
+    if s.offers(Feature::PreciseOcclusion) {
+        let frame = s.show(scene("pass", "samples-passed", 1))?;
+        assert_eq!(frame.counters, [30, 0]);
+        let frame = s.show(scene("frame", "samples-passed", 2))?;
+        assert!(frame.counters[0] >= 60, "{:?}", frame.counters);
+    }
+    Ok(())
+}
+
 pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
     for (mask, due) in [(15, 1024), (5, 512), (0, 0)] {
         let frame = s.show(json!({

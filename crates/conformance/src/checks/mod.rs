@@ -138,6 +138,7 @@ registry! {
         any_samples_that_pass_are_told any_samples_of_several_passes_are_told
         samples_that_pass_are_counted each_sample_counts_by_itself invocations_are_counted
         statistics_tell_that_shaders_ran discarded_primitives_run_no_shader runs_are_counted rejected_fragments_run
+        a_query_counts_what_it_encloses
         counters_of_all_kinds_go_together counters_start_from_0_at_every_submit
         forced_tests_come_before_the_shader forced_tests_ignore_the_written_depth
     }

@@ -313,6 +313,38 @@ fn clears_stand_between_their_draws() {
 }
 
 #[test]
+fn what_a_query_encloses_beside_draws_may_count_in_vulkan_alone() {
+    let range = |api: Api, queries: &str, clears: &str| {
+        let draw = |compare: &str| {
+            format!(
+                r#"{{"mesh":{{"kind":"full"}},"shader":"uniform_color","counters":["passed"],
+                     "depth":{{"compare":"{compare}","write":false}}}}"#
+            )
+        };
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{{COLOR},
+               "depth":{{"format":"depth32float","clear":0.5}}}},
+               "counters":{{"passed":"samples-passed"}},"queries":"{queries}",
+               "passes":[{{"color":["color"],"depth_stencil":"depth","draws":[{},{}]{clears}}}],
+               "read":["color"]}}}}"#,
+            draw("always"),
+            draw("never"),
+        );
+        let limits = limits(api);
+        let set = legal_set(&case(&text).scene, &limits, &Rules::of(&limits));
+        (set.counters[0].range.low, set.counters[0].range.high)
+    };
+    let between = r#","clears":[{"before":1,"color":0,"value":[1,0,0,1]}]"#;
+    let around = r#","clears":[{"before":0,"depth":0.25},{"before":2,"depth":0.75}]"#;
+    for (api, open) in [(Api::Vulkan, None), (Api::OpenGl, Some(16))] {
+        assert_eq!(range(api, "draw", between), (16, Some(16)), "{api}");
+        assert_eq!(range(api, "pass", around), (16, Some(16)), "{api}");
+        assert_eq!(range(api, "pass", between), (16, open), "{api}");
+        assert_eq!(range(api, "frame", ""), (16, open), "{api}");
+    }
+}
+
+#[test]
 fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
     let draw = |compare: &str| {
         format!(

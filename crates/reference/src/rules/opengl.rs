@@ -351,6 +351,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
             ]),
         ),
+        operations_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
+                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+            ]),
+        ),
         same_depth: permit(
             SameDepth::Written,
             text.cite([

@@ -297,6 +297,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 15.1.4 Occlusion Queries: boolean queries only; OpenGL: the samples that pass, or SAMPLES if any does",
             ]),
         ),
+        operations_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
+                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+            ]),
+        ),
         same_depth: permit(
             SameDepth::Written,
             text.cite([

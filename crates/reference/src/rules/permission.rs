@@ -470,6 +470,9 @@ rules! {
     early_counts: EarlyUpdates,
     /// Precise occlusion queries over several samples.
     samples_counted: SamplesCounted,
+    /// True if clears, load and store operations, and resolves count nothing in an occlusion query that encloses them;
+    /// otherwise they may count.
+    operations_count_nothing: bool,
     /// The redraws with the same depths.
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.

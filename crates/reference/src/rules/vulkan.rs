@@ -227,6 +227,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SamplesCounted::Passing,
             "Vulkan: Sample Counting: each sample with a coverage of 1 that survives all tests, with VK_QUERY_CONTROL_PRECISE_BIT",
         ),
+        operations_count_nothing: permit(
+            false,
+            "Vulkan: Queries: clears, resolves, and load and store operations may count towards the results of queries",
+        ),
         same_depth: permit(
             SameDepth::Written,
             "Vulkan: Invariance, Rule 5: shaders that assign FragCoord.z to FragDepth are depth-invariant with respect to each other",

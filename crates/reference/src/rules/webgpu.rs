@@ -179,6 +179,10 @@ pub(super) fn rules() -> Rules {
             SamplesCounted::Passing,
             "WebGPU: queries tell zero from non-zero; a precise count is no part of it",
         ),
+        operations_count_nothing: permit(
+            true,
+            "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
+        ),
         same_depth: permit(
             SameDepth::Written,
             "WebGPU: silent on invariance; Vulkan and OpenGL: shaders that write the fragment's own depth agree",

@@ -150,6 +150,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             SamplesCounted::Passing,
             "Yardstick: samples that pass, one by one",
         ),
+        operations_count_nothing: permit(true, "Yardstick: samples of draws"),
         same_depth: permit(
             SameDepth::All,
             "Yardstick: the fragment's own depth is the same, written or not (Direct3D 11.3)",

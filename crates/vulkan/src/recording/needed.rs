@@ -99,6 +99,7 @@ impl Needed {
         let owner = match kind.as_str() {
             "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT" => "VK_EXT_extended_dynamic_state3",
             "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" => "VK_EXT_extended_dynamic_state2",
+            "VkPhysicalDeviceDepthClipEnableFeaturesEXT" => "VK_EXT_depth_clip_enable",
             "VkPhysicalDeviceProvokingVertexFeaturesEXT" => "VK_EXT_provoking_vertex",
             "VkPhysicalDeviceVulkan11Features" => "VK_KHR_multiview",
             "VkPhysicalDeviceVulkan12Features" => "VK_KHR_draw_indirect_count",
@@ -134,6 +135,7 @@ fn member(feature: Feature) -> Option<&'static str> {
         Feature::FragmentInvocations => "pipelineStatisticsQuery",
         Feature::FragmentStorage | Feature::StorageCounters => "fragmentStoresAndAtomics",
         Feature::IndependentBlend => "independentBlend",
+        Feature::InheritedQueries => "inheritedQueries",
         Feature::LogicOperations => "logicOp",
         Feature::MinSampleShading | Feature::SampleShading => "sampleRateShading",
         Feature::PolygonModeLine => "fillModeNonSolid",

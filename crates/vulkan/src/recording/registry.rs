@@ -551,6 +551,26 @@ functions! {
         commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
         polygonMode: vk::PolygonMode = named!(vk::PolygonMode),
     }
+    vkCmdSetRasterizationSamplesEXT {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        rasterizationSamples: vk::SampleCountFlags = flags!(vk::SampleCountFlags),
+    }
+    vkCmdSetAlphaToOneEnableEXT {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        alphaToOneEnable: u32 = U32,
+    }
+    vkCmdSetDepthClipEnableEXT {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        depthClipEnable: u32 = U32,
+    }
+    vkCmdSetProvokingVertexModeEXT {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        provokingVertexMode: vk::ProvokingVertexModeEXT = named!(vk::ProvokingVertexModeEXT),
+    }
+    vkCmdSetTessellationDomainOriginEXT {
+        commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
+        domainOrigin: vk::TessellationDomainOrigin = named!(vk::TessellationDomainOrigin),
+    }
     vkCmdSetSampleMaskEXT {
         commandBuffer: vk::CommandBuffer = Handle("VkCommandBuffer"),
         samples: vk::SampleCountFlags = flags!(vk::SampleCountFlags),
@@ -1434,6 +1454,17 @@ structures! {
         stencilAttachmentFormat = stencil_attachment_format: named!(vk::Format),
         rasterizationSamples = rasterization_samples: flags!(vk::SampleCountFlags),
     }
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT: vk::PhysicalDeviceDepthClipEnableFeaturesEXT {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        depthClipEnable = depth_clip_enable: U32,
+    }
+    VkPipelineRasterizationDepthClipStateCreateInfoEXT: vk::PipelineRasterizationDepthClipStateCreateInfoEXT {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        flags = flags: flags!(vk::PipelineRasterizationDepthClipStateCreateFlagsEXT),
+        depthClipEnable = depth_clip_enable: U32,
+    }
     VkPipelineTessellationDomainOriginStateCreateInfo: vk::PipelineTessellationDomainOriginStateCreateInfo {
         sType = s_type: named!(vk::StructureType),
         pNext = p_next: Next(chained),
@@ -1495,6 +1526,8 @@ chained! {
     VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT: PHYSICAL_DEVICE_BLEND_OPERATION_ADVANCED_FEATURES_EXT,
     VkImageFormatListCreateInfo: IMAGE_FORMAT_LIST_CREATE_INFO,
     VkCommandBufferInheritanceRenderingInfo: COMMAND_BUFFER_INHERITANCE_RENDERING_INFO,
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT: PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT,
+    VkPipelineRasterizationDepthClipStateCreateInfoEXT: PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT,
     VkPipelineTessellationDomainOriginStateCreateInfo: PIPELINE_TESSELLATION_DOMAIN_ORIGIN_STATE_CREATE_INFO,
     VkPipelineRasterizationProvokingVertexStateCreateInfoEXT: PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT,
     VkPipelineColorBlendAdvancedStateCreateInfoEXT: PIPELINE_COLOR_BLEND_ADVANCED_STATE_CREATE_INFO_EXT,

@@ -1,0 +1,196 @@
+//! Queries: what each of them encloses.
+
+use crate::query_scope::QueryScope;
+use crate::scene::Scene;
+use etalon_frame::CounterKind;
+
+/// A query: the draws that it encloses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Query {
+    /// The index of its counter.
+    pub counter: usize,
+    /// The indices of the pass and the draw that it begins before.
+    pub first: (usize, usize),
+    /// The indices of the pass and the draw that it ends after.
+    pub last: (usize, usize),
+    /// True if it begins before the first draw's pass and ends after the last one's.
+    pub over_passes: bool,
+}
+
+impl Query {
+    /// True if it begins before a draw, within the pass.
+    pub fn begins_at(&self, draw: (usize, usize)) -> bool {
+        !self.over_passes && self.first == draw
+    }
+
+    /// True if it ends after a draw, within the pass.
+    pub fn ends_at(&self, draw: (usize, usize)) -> bool {
+        !self.over_passes && self.last == draw
+    }
+
+    /// True if it begins before a pass.
+    pub fn begins_before(&self, pass: usize) -> bool {
+        self.over_passes && self.first.0 == pass
+    }
+
+    /// True if it ends after a pass.
+    pub fn ends_behind(&self, pass: usize) -> bool {
+        self.over_passes && self.last.0 == pass
+    }
+
+    /// True if it encloses other operations than draws: a clear, the load or store operations of a pass, or a resolve.
+    pub fn encloses_operations(&self, scene: &Scene) -> bool {
+        let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
+        let between = |before: usize| self.first.1 < before && before <= self.last.1;
+        self.over_passes || clears.is_some_and(|all| all.iter().any(|c| between(c.before)))
+    }
+}
+
+impl Scene {
+    /// Returns the queries of the scene, in the order in which they begin. Counters of shader runs have none.
+    pub fn queries(&self) -> Vec<Query> {
+        let mut queries: Vec<Query> = Vec::new();
+        // Those that the next draw may go on with.
+        let mut open: Vec<usize> = Vec::new();
+        for (number, pass) in self.passes.iter().enumerate() {
+            if self.query_scope == QueryScope::Pass {
+                open.clear();
+            }
+            for (index, draw) in pass.draws.iter().enumerate() {
+                if self.query_scope == QueryScope::Draw {
+                    open.clear();
+                }
+                let counts = |counter: &usize| {
+                    let kind = self.counters.get(*counter).map(|c| c.kind);
+                    kind.is_some_and(|kind| kind != CounterKind::ShaderRuns)
+                };
+                open.retain(|query| draw.counters.contains(&queries[*query].counter));
+                for counter in draw.counters.iter().copied().filter(counts) {
+                    let last = (number, index);
+                    match open
+                        .iter()
+                        .find(|query| queries[**query].counter == counter)
+                    {
+                        Some(query) => queries[*query].last = last,
+                        None => {
+                            open.push(queries.len());
+                            queries.push(Query {
+                                counter,
+                                first: last,
+                                last,
+                                over_passes: self.query_scope == QueryScope::Frame,
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        queries
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::Draw;
+    use crate::mesh::Mesh;
+    use crate::pass::{Clear, ClearTarget, Pass};
+    use crate::path::Path;
+    use crate::rasterization::Viewport;
+    use crate::scene::Counter;
+    use crate::shader::Shader;
+
+    /// A scene of passes whose draws name these counters: `a` and `b` of queries, `c` of shader runs.
+    fn scene(query_scope: QueryScope, passes: &[&[&[usize]]]) -> Scene {
+        let counter = |name: &str, kind| Counter {
+            name: name.to_owned(),
+            kind,
+        };
+        let draw = |counters: &&[usize]| {
+            let mesh = Mesh {
+                vertices: Vec::new(),
+                indices: None,
+            };
+            let mut draw = Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]));
+            draw.counters = counters.to_vec();
+            draw
+        };
+        let pass = |draws: &&[&[usize]]| Pass {
+            draws: draws.iter().map(draw).collect(),
+            ..Pass::default()
+        };
+        Scene {
+            attachments: Vec::new(),
+            passes: passes.iter().map(pass).collect(),
+            read: Vec::new(),
+            counters: vec![
+                counter("a", CounterKind::SamplesPassed),
+                counter("b", CounterKind::FragmentInvocations),
+                counter("c", CounterKind::ShaderRuns),
+            ],
+            query_scope,
+            pool: None,
+            path: Path::default(),
+        }
+    }
+
+    fn spans(scene: &Scene) -> Vec<(usize, (usize, usize), (usize, usize))> {
+        let queries = scene.queries();
+        queries
+            .iter()
+            .map(|q| (q.counter, q.first, q.last))
+            .collect()
+    }
+
+    #[test]
+    fn a_query_spans_what_its_scope_says() {
+        let passes: &[&[&[usize]]] = &[&[&[0, 2], &[1, 0], &[1], &[0]], &[], &[&[0]]];
+        assert_eq!(
+            spans(&scene(QueryScope::Draw, passes)),
+            [
+                (0, (0, 0), (0, 0)),
+                (1, (0, 1), (0, 1)),
+                (0, (0, 1), (0, 1)),
+                (1, (0, 2), (0, 2)),
+                (0, (0, 3), (0, 3)),
+                (0, (2, 0), (2, 0)),
+            ]
+        );
+        assert_eq!(
+            spans(&scene(QueryScope::Pass, passes)),
+            [
+                (0, (0, 0), (0, 1)),
+                (1, (0, 1), (0, 2)),
+                (0, (0, 3), (0, 3)),
+                (0, (2, 0), (2, 0)),
+            ]
+        );
+        let whole: &[&[&[usize]]] = &[&[&[0], &[0]], &[], &[&[0, 1]], &[&[1]]];
+        assert_eq!(
+            spans(&scene(QueryScope::Frame, whole)),
+            [(0, (0, 0), (2, 0)), (1, (2, 0), (3, 0))]
+        );
+    }
+
+    #[test]
+    fn clears_between_the_draws_are_enclosed() {
+        let clear = |before| Clear {
+            before,
+            target: ClearTarget::DepthStencil {
+                depth: Some(1.0),
+                stencil: None,
+                depth_write: true,
+                stencil_write_mask: 0xff,
+            },
+            rect: None,
+        };
+        let mut scene = scene(QueryScope::Pass, &[&[&[], &[0], &[0]]]);
+        scene.passes[0].clears = vec![clear(1), clear(3)];
+        assert!(!scene.queries()[0].encloses_operations(&scene));
+        scene.passes[0].clears.push(clear(2));
+        assert!(scene.queries()[0].encloses_operations(&scene));
+        scene.passes[0].clears.clear();
+        scene.query_scope = QueryScope::Frame;
+        assert!(scene.queries()[0].encloses_operations(&scene));
+    }
+}
