@@ -269,6 +269,12 @@ mod tests {
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
                 json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);
+            if let PathValue::Resolves(_) = value {
+                scene["attachments"]["color"]["samples"] = json!(4);
+                scene["attachments"]["one"] = json!({ "format": "rgba16float" });
+                scene["passes"][0]["resolve"] = json!(["one"]);
+                scene["passes"][0]["draws"][0]["mesh"] = json!({ "kind": "cover" });
+            }
             let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");
         }
