@@ -279,6 +279,12 @@ mod tests {
                 scene["counters"] = json!({ "passed": "any-samples-passed" });
                 scene["passes"][0]["draws"][0]["counters"] = json!(["passed"]);
             }
+            if let PathValue::Resolves(_) = value {
+                scene["attachments"]["color"]["samples"] = json!(4);
+                scene["attachments"]["one"] = json!({ "format": "rgba16float" });
+                scene["passes"][0]["resolve"] = json!(["one"]);
+                scene["passes"][0]["draws"][0]["mesh"] = json!({ "kind": "cover" });
+            }
             let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");
         }

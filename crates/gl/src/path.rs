@@ -7,7 +7,8 @@ use crate::context::Context;
 use crate::support::{ReadPlan, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
-    PathLayers, PathPass, PathResolves, PathResults, PathState, PathTarget, PathValue, PathViewport,
+    PathLayers, PathPass, PathResolves, PathResults, PathState, PathTarget, PathValue,
+    PathViewport,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,

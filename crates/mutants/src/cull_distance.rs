@@ -24,7 +24,7 @@ fn cull_by_one(draw: &mut Draw) {
 }
 
 pub(super) fn add(list: &mut List) {
-    list.class("cull-distance", "cull");
+    list.class("cull-distance", "capabilities");
     list.bug("ignored: Nothing is culled by distances.")
         .each(VERTICES, |v| v.uv = [1.0; 2]);
     list.bug("first-only: The second distance does not cull.")

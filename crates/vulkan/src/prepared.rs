@@ -100,7 +100,9 @@ impl<'a> PreparedScene<'a> {
         let gpu = self.gpu;
         let pools = &mut *gpu.pools.borrow_mut();
         let inputs = Inputs::place(&gpu.device, &gpu.natives, scene);
-        let input = pools.memory.buffer(&gpu.device, BufferUse::Input, inputs.bytes)?;
+        let input = pools
+            .memory
+            .buffer(&gpu.device, BufferUse::Input, inputs.bytes)?;
         inputs.write(self.input.insert(input), scene)?;
         self.attach(pools, scene, &inputs)?;
         let sources = self.attach_copies(pools, scene)?;
@@ -231,7 +233,9 @@ impl<'a> PreparedScene<'a> {
             self.counts = Some(pools.memory.buffer(device, BufferUse::Storage, bytes)?);
         }
         if let Some(pool) = scene.pool {
-            let buffer = pools.memory.buffer(device, BufferUse::Storage, pool.bytes())?;
+            let buffer = pools
+                .memory
+                .buffer(device, BufferUse::Storage, pool.bytes())?;
             self.pool = Some((buffer, pool));
             self.plan.pool = true;
         }
@@ -370,12 +374,15 @@ impl Drawing<'_> {
             setting,
             state: &dynamic,
         };
-        let mut get = |draw: &Draw, layer| pipelines.get(device, targets, draw, Way { layer, ..way });
+        let mut get =
+            |draw: &Draw, layer| pipelines.get(device, targets, draw, Way { layer, ..way });
         let extended = setting
             .further
             .any()
             .then(|| Extended::new(draw, targets.samples, setting.further));
-        let held = extended.as_ref().map(|_| extended::held_by(setting.further, draw));
+        let held = extended
+            .as_ref()
+            .map(|_| extended::held_by(setting.further, draw));
         let held = held.as_ref().unwrap_or(draw);
         let pipeline = get(held, layer)?;
         let again = again.map(|_| get(held, again)).transpose()?;

@@ -198,7 +198,11 @@ impl Counting {
             let (set, index) = (queries.as_ref()?.set, index?);
             Some(PassCommand::Begin(Query { ty, set, index }))
         };
-        let occlusion = query(QueryType::Occlusion, &self.occlusion, counted.occlusion.begins);
+        let occlusion = query(
+            QueryType::Occlusion,
+            &self.occlusion,
+            counted.occlusion.begins,
+        );
         let counts = QueryType::FragmentInvocations;
         let statistics = query(counts, &self.statistics, counted.statistics.begins);
         occlusion.into_iter().chain(statistics).collect()

@@ -196,15 +196,15 @@ faults! {
     /// Other attachments come with open masks, and without culling.
     StateForgotten = "state-forgotten" in "paths/state-kept/*";
     /// Vertex shaders write no layer.
-    LayerUnwritten = "layer-unwritten" in "paths/layers/*/layers=written/*";
+    LayerUnwritten = "layer-unwritten" in "sequence/layers/*/layers=written/*";
     /// Of several views, only the first is drawn to.
-    ViewFirst = "view-first" in "paths/layers/*/layers=multiview/*" of Vulkan;
+    ViewFirst = "view-first" in "sequence/layers/*/layers=multiview/*" of Vulkan;
     /// Of several layers, clears within passes reach the first.
-    ClearFirstLayer = "clear-first-layer" in "paths/layers/*/layers=written/*";
+    ClearFirstLayer = "clear-first-layer" in "sequence/layers/*/layers=written/*";
     /// Of several ranges, only the first is cleared.
-    ClearFirstRange = "clear-first-range" in "paths/layers/*/layers=written/*" of Vulkan;
+    ClearFirstRange = "clear-first-range" in "sequence/layers/*/layers=written/*" of Vulkan;
     /// Resolved parts stay in their places.
-    ResolvePlace = "resolve-place" in "paths/resolves/*";
+    ResolvePlace = "resolve-place" in "sequence/resolves/*";
     /// Behind a clear, the second scissor rectangle is the first.
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// No index restarts a primitive.
