@@ -5,7 +5,6 @@ use crate::depth::planes;
 use crate::interval::Interval;
 use crate::snap::{SnapBox, area, units_per_texel};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::slope;
 use etalon_scene::Draw;
 
 /// A polygon that may be biased.
@@ -104,6 +103,16 @@ fn flushed(unit: Interval) -> Interval {
     }
 }
 
+/// Returns the least and the greatest slope of a plane that grows by these numbers across and down a texel.
+pub(crate) fn slope(context: &PassContext<'_>, across: f64, down: f64) -> Interval {
+    let (larger, root) = etalon_pipeline::slope(across, down);
+    let has_root = larger < root && context.rules.slope_root.value();
+    Interval {
+        low: larger,
+        high: if has_root { root } else { larger },
+    }
+}
+
 /// The number of roundings in a slope: differences of positions and depths, products, quotient and root.
 const ROUNDINGS: f64 = 8.0;
 
@@ -145,8 +154,8 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
                 .sum();
             // Positions may be taken before or after snapping.
             let by_positions = growth.iter().sum::<f64>() * grid;
-            let (low, high) = slope(plane.dx * units, plane.dy * units);
-            Interval { low, high }.widen(by_depths * units + high * by_positions)
+            let slope = slope(context, plane.dx * units, plane.dy * units);
+            slope.widen(by_depths * units + slope.high * by_positions)
         })
         .reduce(Interval::hull)
         .unwrap_or(Interval::exact(0.0));

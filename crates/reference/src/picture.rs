@@ -173,7 +173,7 @@ impl Walk<'_> {
     fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [State]) {
         let draws = self.scene.passes[p].draws.iter();
         for (draw, texts) in draws.zip(&self.open_texts[p]) {
-            if !texts.indices || draw.rasterizer_discard {
+            if !texts.vertices || draw.rasterizer_discard {
                 continue;
             }
             for_each_judged(self.texels.lattice(size), size, |x, y| {

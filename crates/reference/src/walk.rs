@@ -266,7 +266,7 @@ impl<'a> Walk<'a> {
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
         let draw = &self.scene.passes[p].draws[d];
-        if self.open_texts[p][d].indices {
+        if self.open_texts[p][d].vertices {
             return None;
         }
         let mut skipped = Skipped::new(notes);
