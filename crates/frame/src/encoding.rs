@@ -170,7 +170,7 @@ impl ChannelEncoding {
     /// The code whose value is nearest to a real number; the nearest end where it is out of range.
     pub fn nearest_code(self, value: f64) -> u32 {
         if let Some(position) = self.position(value) {
-            let (low, high) = (self.min_order() as f64, self.max_order() as f64);
+            let (low, high) = (self.least_converted() as f64, self.max_order() as f64);
             return self.code_of_order(position.round().clamp(low, high) as i64);
         }
         let (below, above) = (self.order_below(value), self.order_above(value));
@@ -197,6 +197,14 @@ impl ChannelEncoding {
         }
     }
 
+    /// The smallest order that a number is converted to: of the two codes of -1, the upper one.
+    fn least_converted(self) -> i64 {
+        match self {
+            Self::Snorm(_) => -self.max_order(),
+            _ => self.min_order(),
+        }
+    }
+
     /// An order near that of a number, where one is cheaply found.
     fn guess(self, value: f64) -> Option<i64> {
         match self {
@@ -212,7 +220,7 @@ impl ChannelEncoding {
     /// The largest order for which a condition holds that holds up to some order near that of a number
     /// and not beyond.
     fn search(self, value: f64, holds: impl Fn(i64) -> bool) -> i64 {
-        let (mut low, mut high) = (self.min_order(), self.max_order());
+        let (mut low, mut high) = (self.least_converted(), self.max_order());
         if let Some(guess) = self.guess(value) {
             let near =
                 (guess.clamp(low, high) - 2).max(low)..(guess.clamp(low, high) + 2).min(high);
@@ -317,6 +325,15 @@ mod tests {
                 let found = e.order_of_code(e.nearest_code(value));
                 assert_eq!(e.value_of_order(found), value, "{e} {order}");
             }
+        }
+    }
+
+    #[test]
+    fn a_conversion_never_gives_the_lowest_signed_code() {
+        let e = ChannelEncoding::Snorm(8);
+        for value in [-1.0, -1.005, -2.0] {
+            assert_eq!(e.order_of_code(e.nearest_code(value)), -127);
+            assert_eq!([e.order_below(value), e.order_above(value)], [-127; 2]);
         }
     }
 

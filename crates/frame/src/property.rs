@@ -16,5 +16,14 @@ state_enum! {
         /// A point outside of the view volume is discarded (`VK_POINT_CLIPPING_BEHAVIOR_ALL_CLIP_PLANES` of Vulkan's
         /// maintenance2 and 1.1).
         DiscardsPointsOutside = "discards-points-outside",
+        /// With forced early tests, shading and multisample coverage come after samples are counted, by the version of
+        /// the text (Vulkan up to 1.3.216).
+        ShadesAfterCounting = "shades-after-counting",
+        /// Lines of the width of one texel are rectangles or parallelograms (`strictLines` of Vulkan, or
+        /// `nonStrictSinglePixelWideLinesUseParallelogram` of its maintenance5 and 1.4).
+        LinesAreParallelograms = "lines-are-parallelograms",
+        /// Clip-space depth runs from 0 to 1, so that the viewport's terms are those of its near plane
+        /// (`glClipControl` of OpenGL 4.5, `EXT_clip_control` of OpenGL ES).
+        DepthFromZero = "depth-from-zero",
     }
 }

@@ -11,10 +11,9 @@ use crate::probe::Probed;
 use crate::recording;
 use crate::state;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Recording, Unavailable};
-use etalon_frame::{Api, ApiVersion, Limits, standard_sample_positions};
+use etalon_frame::{Api, ApiVersion, Limits, Property, standard_sample_positions};
 use etalon_scene::Scene;
 use glow::HasContext;
-use std::collections::BTreeSet;
 
 /// An open OpenGL context.
 pub struct GlBackend {
@@ -128,7 +127,12 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
             Api::OpenGl
         },
         version: version(context.caps.version),
-        properties: BTreeSet::new(),
+        properties: context
+            .caps
+            .clip_control
+            .then_some(Property::DepthFromZero)
+            .into_iter()
+            .collect(),
         exempt: probed.exempt.clone(),
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),

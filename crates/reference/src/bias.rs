@@ -5,7 +5,6 @@ use crate::depth::planes;
 use crate::interval::Interval;
 use crate::snap::{SnapBox, area, units_per_texel};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::slope;
 use etalon_scene::Draw;
 
 /// A polygon that may be biased.
@@ -106,9 +105,24 @@ fn flushed(unit: Interval) -> Interval {
     }
 }
 
+/// Returns the least and the greatest slope of a plane that grows by these numbers across and down a texel.
+pub(crate) fn slope(context: &PassContext<'_>, across: f64, down: f64) -> Interval {
+    let (larger, root) = etalon_pipeline::slope(across, down);
+    let has_root = larger < root && context.rules.slope_root.value();
+    Interval {
+        low: larger,
+        high: if has_root { root } else { larger },
+    }
+}
+
+/// The number of roundings in a slope: differences of positions and depths, products, quotient and root.
+const ROUNDINGS: f64 = 8.0;
+
 /// Returns the least and greatest slope per texel over all snapped positions.
 pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
-    let units = units_per_texel(context.limits) as f64;
+    let units = units_per_texel(context.limits);
+    let grid = (units >> context.limits.sub_pixel_bits) as f64;
+    let units = units as f64;
     let middle = z.map(|z| (z.low + z.high) / 2.0);
     if z[0] == z[1] && z[1] == z[2] {
         return Interval::exact(0.0);
@@ -120,13 +134,32 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
             high: f64::from(f32::MAX),
         };
     }
+    let error = context.rules.float_error.value() * ROUNDINGS;
+    let all = z[0].hull(z[1]).hull(z[2]);
+    // What each vertex's depth may be off by, and the terms that it takes part in.
+    let off = z.map(|z| (z.high - z.low) / 2.0 + (all.high - all.low) * error);
+    // The plane that is 1 at one vertex and 0 at the others.
+    let share = |vertex: usize| {
+        let mut depths = [0.0; 3];
+        depths[vertex] = 1.0;
+        planes(boxes, depths)
+    };
+    let shares = share(0).zip(share(1)).zip(share(2));
     let slopes = planes(boxes, middle)
-        .map(|plane| {
-            let (low, high) = slope(plane.dx * units, plane.dy * units);
-            Interval { low, high }
+        .zip(shares)
+        .map(|(plane, ((a, b), c))| {
+            let growth = [a, b, c].map(|share| share.dx.hypot(share.dy));
+            let by_depths: f64 = growth
+                .iter()
+                .zip(&off)
+                .map(|(growth, off)| growth * off)
+                .sum();
+            // Positions may be taken before or after snapping.
+            let by_positions = growth.iter().sum::<f64>() * grid;
+            let slope = slope(context, plane.dx * units, plane.dy * units);
+            slope.widen(by_depths * units + slope.high * by_positions)
         })
         .reduce(Interval::hull)
         .unwrap_or(Interval::exact(0.0));
-    // Positions may be taken before or after snapping, and depths carry their own error.
-    slopes.widen_relative(0.01 + context.rules.float_error.value() * 100.0)
+    slopes.widen_relative(error).clamp(0.0, f64::INFINITY)
 }

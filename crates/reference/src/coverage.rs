@@ -1,7 +1,7 @@
 //! Coverage of a sample by primitives, world by world.
 
 use crate::notes::Notes;
-use crate::primitive::{Shape, Side, Triangle, inside_of, is_outside};
+use crate::primitive::{Shape, Side, Times, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
 use crate::walk::{Place, Walk};
 use crate::world::{Decision, World, Worlds};
@@ -62,6 +62,17 @@ impl Walk<'_> {
         front_facing(1, draw.front_face)
     }
 
+    /// Returns how often a point, a line or an outline covers a sample, as the rules for lines leave it.
+    pub(crate) fn times(&self, place: Place<'_>) -> Times {
+        let (least, most) = place.primitive.times(place.point, self.units);
+        let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
+        if least > 0 && is_line && !self.rules.lines_cover_texels.value() {
+            (0, most)
+        } else {
+            (least, most)
+        }
+    }
+
     /// A point's, line's or outline's fragments at the sample: as often as it may be covered.
     fn repeat(
         &self,
@@ -71,7 +82,7 @@ impl Walk<'_> {
         result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
-        let (least, most) = place.primitive.times(place.point, self.units);
+        let (least, most) = self.times(place);
         if most == 0 || least < most {
             self.note_rejection(notes, place, Rejection::Coverage, most == 0, || {
                 Step::Coverage(match most {

@@ -5,11 +5,13 @@
 //! primitives for reasons of their own). The edges, depths and attributes that are left are those of the whole
 //! primitive; a vertex that clipping makes may be off by its roundings, and by a step of the grid.
 
+use crate::bias::slope;
 use crate::context::PassContext;
 use crate::depth::Depth;
 use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::primitive::{Edge, Triangle, VertexId};
+use crate::rules::DepthTerms;
 use crate::snap::{SnapBox, units_per_texel};
 use crate::varying::{Perspective, Varying};
 use etalon_pipeline::{
@@ -273,9 +275,13 @@ impl<'a> CutTriangle<'a> {
         let w = self.values(|v| v.position[3]);
         let z = self.values(|v| v.position[2]);
         let mut depth = self.over_w([0, 1, 2].map(|i| near * w[i] + (far - near) * z[i]));
+        let error = self.seen.error() * near.abs().max(far.abs());
+        if self.seen.context.rules.depth_terms.value() == DepthTerms::Middle {
+            depth.error += error;
+            depth.hull = depth.hull.widen(error);
+        }
         if !self.seen.draw.depth_clamp {
             // What is left lies between the planes.
-            let error = self.seen.error() * near.abs().max(far.abs());
             depth.hull = depth
                 .hull
                 .clamp(near.min(far) - error, near.max(far) + error);
@@ -324,8 +330,8 @@ impl<'a> CutTriangle<'a> {
         let [near, far] = self.seen.draw.viewport.depth.map(f64::from);
         let plane = self.homogeneous.over_w(z);
         let texel = (far - near).abs() * self.seen.units;
-        let (low, high) = etalon_pipeline::slope(plane.dx * texel, plane.dy * texel);
-        let all = Interval { low, high };
+        let all = slope(self.seen.context, plane.dx * texel, plane.dy * texel);
+        let high = all.high;
         if high == 0.0 {
             return all;
         }
@@ -335,11 +341,10 @@ impl<'a> CutTriangle<'a> {
                 high: f64::from(f32::MAX),
             };
         }
-        let error = self.seen.context.rules.float_error.value();
         // Corners that are off turn the plane, and so do depths.
         let off = (self.seen.off[0] + self.seen.off[1]) / self.seen.units;
         let turned = window_depth.error * self.flatness / off;
-        all.widen_relative(0.01 + error * 100.0 + 2.0 * self.flatness)
+        all.widen_relative(self.seen.error() + 2.0 * self.flatness)
             .widen(turned)
             .clamp(0.0, f64::INFINITY)
     }

@@ -1,7 +1,9 @@
 //! The judging number system: intervals that hold every value the rules allow.
 
 use crate::interval::Interval;
-use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats};
+use crate::rules::{
+    BlendPrecision, DepthTerms, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats,
+};
 use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
@@ -586,16 +588,17 @@ impl Arithmetic for Judging<'_> {
         Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
-    /// The terms are as large as the viewport's depths; if the near one is 0 there is one term only.
+    /// The terms are as large as the viewport's depths; if the near one is 0 there is one term only, or the middle of
+    /// the range.
     fn window_depth(&mut self, value: Range, range: [f32; 2]) -> Range {
         let error = self.error();
-        Range::same(if range[0] == 0.0 {
-            value.float.widen_relative(error)
-        } else {
+        let largest = f64::from(range[0].max(range[1]));
+        Range::same(match self.rules.depth_terms.value() {
+            DepthTerms::NearPlane if range[0] == 0.0 => value.float.widen_relative(error),
             // Difference, product and sum, each rounded.
-            value
-                .float
-                .widen(f64::from(range[0].max(range[1])) * error * 2.0)
+            DepthTerms::NearPlane => value.float.widen(largest * error * 2.0),
+            // Also the depth from -1 to 1.
+            DepthTerms::Middle => value.float.widen(largest * error * 3.0),
         })
     }
 

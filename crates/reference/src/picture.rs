@@ -9,7 +9,7 @@ use crate::sample::{Sample, Shape};
 use crate::signature::{Inputs, SampleKey};
 use crate::states::{OPEN, State, States};
 use crate::texels::Lattice;
-use crate::walk::{Walk, resolved};
+use crate::walk::{Walk, in_scissor, resolved};
 use crate::world::{Cell, World, Worlds};
 use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
@@ -157,6 +157,7 @@ impl Walk<'_> {
             self.paint_clears((p, stop), shape, &mut picture);
             next = stop;
         }
+        self.paint_open_draws(p, shape, &mut picture);
         if pass
             .draws
             .iter()
@@ -165,6 +166,29 @@ impl Walk<'_> {
             self.each_state(&mut picture, |worlds| self.end_pass(worlds));
         }
         self.pictures.borrow_mut().samples[index] = picture;
+    }
+
+    /// Opens the samples of draws whose vertices are open. These may cover any texel, also one that no known primitive
+    /// touches.
+    fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [State]) {
+        let draws = self.scene.passes[p].draws.iter();
+        for (draw, texts) in draws.zip(&self.open_texts[p]) {
+            if !texts.vertices || draw.rasterizer_discard {
+                continue;
+            }
+            for_each_judged(self.texels.lattice(size), size, |x, y| {
+                let at = Sample {
+                    size,
+                    samples,
+                    x,
+                    y,
+                    sample: 0,
+                };
+                if in_scissor(draw, at) {
+                    picture[at.place()..at.place() + samples as usize].fill(OPEN);
+                }
+            });
+        }
     }
 
     fn paint_draws(

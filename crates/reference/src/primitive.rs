@@ -384,15 +384,21 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     };
     let reach = unit * (0.5 + along_axes);
     let far = (2.5 * unit) as i64;
-    let near = at.x >= all.low.x - far
-        && at.x <= all.high.x + far
-        && at.y >= all.low.y - far
-        && at.y <= all.high.y + far;
+    // Such a fragment covers all samples of its texel (Vulkan, Bresenham Line Segment Rasterization).
+    let middle = |at: i64| at.div_euclid(units) * units + units / 2;
+    let center = Point {
+        x: middle(at.x),
+        y: middle(at.y),
+    };
+    let near = center.x >= all.low.x - far
+        && center.x <= all.high.x + far
+        && center.y >= all.low.y - far
+        && center.y <= all.high.y + far;
     // An edge function is linear in each end, so its extremes lie at corners of the boxes.
     let values = a
         .corners()
         .into_iter()
-        .flat_map(|p| b.corners().map(|q| edge_value(p, q, at)));
+        .flat_map(|p| b.corners().map(|q| edge_value(p, q, center)));
     let (least, most) = values.fold((i64::MAX, i64::MIN), |(least, most), v| {
         (least.min(v), most.max(v))
     });

@@ -3,25 +3,26 @@
 use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
 use crate::world::{Contested, Decision, World, Worlds};
 use etalon_frame::{ChannelEncoding, TextureFormat};
-use etalon_scene::{Draw, Pass, RESTART, Scene};
+use etalon_scene::{Draw, Pass, PrimitiveTopology, PrimitiveVertices, RESTART, Scene};
 use smallvec::{SmallVec, smallvec};
 
 /// What the texts leave open of a draw, wherever its fragments lie.
 pub(crate) struct OpenTexts {
     /// The contested texts that matter to it.
     contested: SmallVec<[Contested; 2]>,
-    /// True if an index that may not be a restart leads out of the vertices: what is drawn then is not followed.
-    pub(crate) indices: bool,
+    /// True if an index that may not be a restart leads out of the vertices, or a line may go on beyond the near or far
+    /// plane: what is drawn then is not followed.
+    pub(crate) vertices: bool,
 }
 
 impl OpenTexts {
     pub(crate) fn new(rules: &Rules, scene: &Scene, pass: &Pass, draw: &Draw) -> Self {
         let restarts = || draw.mesh.indices.iter().flatten().any(|i| *i == RESTART);
+        let indices =
+            draw.fetch.base_vertex != 0 && !rules.restarts_before_base_vertex.value() && restarts();
         Self {
             contested: contested(rules, scene, pass, draw),
-            indices: draw.fetch.base_vertex != 0
-                && !rules.restarts_before_base_vertex.value()
-                && restarts(),
+            vertices: indices || has_line_beyond(draw) && !rules.clips_lines_by_depth.value(),
         }
     }
 
@@ -41,6 +42,26 @@ impl OpenTexts {
         }
         worlds
     }
+}
+
+/// True if an end of a line lies beyond the near or far plane, or behind the eye.
+fn has_line_beyond(draw: &Draw) -> bool {
+    let is_beyond = |vertex: usize| {
+        let [.., z, w] = draw.mesh.vertices[vertex].position;
+        w <= 0.0 || !draw.depth_clamp && (z < 0.0 || z > w)
+    };
+    let is_line = matches!(
+        draw.topology,
+        PrimitiveTopology::LineList | PrimitiveTopology::LineStrip
+    );
+    is_line
+        && draw
+            .primitives()
+            .into_iter()
+            .any(|primitive| match primitive {
+                PrimitiveVertices::Line(ends) => ends.into_iter().any(is_beyond),
+                PrimitiveVertices::Point(_) | PrimitiveVertices::Triangle(_) => false,
+            })
 }
 
 /// Returns the contested texts that matter to a draw.

@@ -346,7 +346,14 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
     };
     let uv = |axis: usize| between(line.map(|i| f64::from(draw.mesh.vertices[i].uv[axis])));
     let mut distances: Vec<Distance> = clipping_distances(draw)
-        .map(|n| Distance::between(&line.map(|i| distance(draw, i, n))))
+        .map(|n| {
+            let values = line.map(|i| distance(draw, i, n));
+            if may_stay_unclipped(context, values) {
+                Distance::UNKNOWN
+            } else {
+                Distance::between(&values)
+            }
+        })
         .collect();
     distances.extend(cut.may_be_clipped.then_some(Distance::UNKNOWN));
     let [a, b] = cut.ends;
@@ -486,6 +493,11 @@ impl Over<'_> {
                     PrimitiveVertices::Triangle(own) if !self.outline => {
                         Distance::over(self.boxes, own.map(over_w), self.grids(), error)
                     }
+                    PrimitiveVertices::Line(own)
+                        if may_stay_unclipped(self.context, own.map(value)) =>
+                    {
+                        Distance::UNKNOWN
+                    }
                     PrimitiveVertices::Line(own) if self.w(own[0]) == self.w(own[1]) => {
                         Distance::along([a, b], own.map(value), self.grids()[0])
                     }
@@ -503,6 +515,12 @@ impl Over<'_> {
 fn clipping_distances(draw: &Draw) -> impl Iterator<Item = usize> {
     let clipping = draw.clipping_distances();
     (0..draw.shader.clip_distances() as usize).filter(move |n| clipping & (1 << n) != 0)
+}
+
+/// True if a line with these clip distances at its ends may be drawn beyond the end that they clip.
+fn may_stay_unclipped(context: &PassContext<'_>, distances: [f64; 2]) -> bool {
+    let is_clipped = distances.iter().any(|distance| *distance < 0.0);
+    is_clipped && !context.rules.clips_lines_by_distance.value()
 }
 
 /// Returns a clip distance of a vertex.

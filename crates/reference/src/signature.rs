@@ -252,7 +252,7 @@ impl Walk<'_> {
             names_itself |= !certain;
             signature.constant &= certain;
         } else {
-            let (least, most) = primitive.times(place.point, self.units);
+            let (least, most) = self.times(place);
             word |= u64::from(least) << 35 | u64::from(most) << 37;
             signature.constant = false;
         }

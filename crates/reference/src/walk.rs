@@ -33,7 +33,7 @@ use std::rc::Rc;
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
 /// True if a texel lies inside a draw's scissor rectangle.
-fn in_scissor(draw: &Draw, at: Sample) -> bool {
+pub(crate) fn in_scissor(draw: &Draw, at: Sample) -> bool {
     draw.scissor
         .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
 }
@@ -266,7 +266,7 @@ impl<'a> Walk<'a> {
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
         let draw = &self.scene.passes[p].draws[d];
-        if self.open_texts[p][d].indices {
+        if self.open_texts[p][d].vertices {
             return None;
         }
         let mut skipped = Skipped::new(notes);

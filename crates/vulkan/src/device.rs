@@ -299,16 +299,27 @@ fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<b
     Some(offered.advanced_blend_coherent_operations != vk::FALSE)
 }
 
-/// Returns the promises of Vulkan 1.1, and those of maintenance5 where the device has it.
+/// The first version in whose text shading may precede forced early tests.
+const SHADES_ANYWHERE: u32 = vk::make_api_version(0, 1, 3, 217);
+
+/// Returns the promises of a device's limits and version, those of Vulkan 1.1, and those of maintenance5 where the device
+/// has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     let mut clipping = vk::PhysicalDevicePointClippingProperties::default();
     let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut clipping);
     // SAFETY: a device of Vulkan 1.0 leaves the chained structure as it is.
     unsafe { api.get_physical_device_properties2(physical, &mut both) };
-    let fills = both.properties.api_version >= vk::API_VERSION_1_1;
+    let properties = both.properties;
+    let fills = properties.api_version >= vk::API_VERSION_1_1;
     let mut promises = BTreeSet::new();
     if fills && clipping.point_clipping_behavior == vk::PointClippingBehavior::ALL_CLIP_PLANES {
         promises.insert(Property::DiscardsPointsOutside);
+    }
+    if properties.api_version < SHADES_ANYWHERE {
+        promises.insert(Property::ShadesAfterCounting);
+    }
+    if properties.limits.strict_lines == vk::TRUE {
+        promises.insert(Property::LinesAreParallelograms);
     }
     if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
         return promises;
@@ -325,6 +336,10 @@ fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Prope
         (
             Property::MaskBeforeCounting,
             raw.early_fragment_sample_mask_test_before_sample_counting,
+        ),
+        (
+            Property::LinesAreParallelograms,
+            raw.non_strict_single_pixel_wide_lines_use_parallelogram,
         ),
     ];
     let kept = promised.into_iter().filter(|(_, has)| *has == vk::TRUE);

@@ -3,8 +3,8 @@ use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
 use etalon_frame::{
-    Api, ApiVersion, ChannelEncoding, DepthTest, Effect, Limits, Operation, Property, Rejection,
-    Step, ValueRange,
+    Api, ApiVersion, ChannelEncoding, DepthTest, Effect, Grade, Limits, Operation, Property,
+    Rejection, Step, ValueRange,
 };
 use etalon_scene::Scene;
 
@@ -782,4 +782,28 @@ fn filtering_may_round_each_step_to_codes() {
     }
     // Equal texels leave no choice.
     assert!(!of(&text, 1.5, 254.0));
+}
+
+#[test]
+fn an_index_that_may_be_no_restart_opens_every_texel_of_the_scissor_rectangle() {
+    let scene = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+           "attachments":{"c":{"format":"rgba8unorm","size":[4,4]}},
+           "passes":[{"color":["c"],"draws":[{"shader":"uniform_color","scissor":[0,0,4,2],
+               "mesh":{"kind":"vertices","units":"texels","positions":[[0,0,0],[2,0,0],[0,2,0]],
+               "indices":[0,1,2,null,0,2,1]},
+               "topology":"triangle-strip","fetch":{"index":"uint16","base_vertex":1}}]}],"read":["c"]}}"#,
+    )
+    .scene;
+    let limits = limits(Api::WebGpu);
+    let text = Rules::of(&limits);
+    let proven = text.bound_by(Grade::Proven);
+    let is_open = |rules: &Rules, y: u32| {
+        let set = legal_set(&scene, &limits, rules);
+        set.groups[0].sample(3, y, 0).is_open()
+    };
+    // No triangle of the mesh reaches the last column.
+    assert!(!is_open(&text, 0));
+    assert!(is_open(&proven, 0));
+    assert!(!is_open(&proven, 3));
 }

@@ -2,11 +2,11 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules,
-    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
-    permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
+    narrowed, permit,
 };
-use etalon_frame::{ApiVersion, Grade, Limits};
+use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
 /// The text that binds a context: the newest one that was read and is not newer than the context. 4.2 to
 /// 4.4 are held against 4.5, whose rules on blending came with 4.2.
@@ -140,7 +140,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ) } else { permit(
                 SignedClamp::Signed,
                 text.cite([
-                    "OpenGL 3.3: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
+                    "OpenGL 3.3: 4.1.7 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                     "OpenGL 4.5: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                     "OpenGL 4.6: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
                 ]),
@@ -175,7 +175,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ) } else { permit(
                 SrgbLogic::PassesThrough,
                 text.cite([
-                    "OpenGL 3.3: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
+                    "OpenGL 3.3: 4.1.10 Logical Operation: no effect on floating-point and sRGB buffers",
                     "OpenGL 4.5: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                     "OpenGL 4.6: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                 ]),
@@ -201,6 +201,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
+        slope_root: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 3.6.4 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+                "OpenGL 4.5: 14.6.5 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+                "OpenGL 4.6: 14.6.5 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+            ]),
+        ),
         bias_clamps_fragments: permit(
             !old,
             text.cite([
@@ -209,6 +217,21 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.5 Depth Offset, last paragraph: clamped after the offset is added",
             ]),
         ),
+        depth_terms: if limits.properties.contains(&Property::DepthFromZero) {
+            permit(
+                DepthTerms::NearPlane,
+                "OpenGL 4.5, 4.6: Controlling the Viewport (13.6.1, 13.8.1), GL_ARB_clip_control: depth times f - n, and n, with ZERO_TO_ONE",
+            )
+        } else {
+            permit(
+                DepthTerms::Middle,
+                text.cite([
+                    "OpenGL 3.3: 2.13.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2",
+                    "OpenGL 4.5: 13.6.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2, with NEGATIVE_ONE_TO_ONE",
+                    "OpenGL 4.6: 13.8.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2, with NEGATIVE_ONE_TO_ONE",
+                ]),
+            )
+        },
         depth_range: permit(
             DepthRange::Unit,
             text.cite([
@@ -255,6 +278,32 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 3.3: 2.19 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
                 "OpenGL 4.5: 13.5 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
                 "OpenGL 4.6: 13.7 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+            ]),
+        ),
+        clips_lines_by_depth: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.6: 13.7 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+            ]),
+        ),
+        clips_lines_by_distance: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: clip distances are a part of the clip volume, at which lines are clipped",
+                "OpenGL 4.5: 13.5 Primitive Clipping: clip distances are a part of the clip volume, at which lines are clipped",
+                "OpenGL 4.6: 13.7 Primitive Clipping: clip distances are a part of the clip volume, at which lines are clipped",
+            ]),
+        ),
+        lines_cover_texels: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL 3.3: 3.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
+                "OpenGL 4.5: 14.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
+                "OpenGL 4.6: 14.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
         points_face_front: permit(
@@ -443,7 +492,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 AlphaToCoverage::Any,
                 Grade::RequiredByCts,
                 text.cite([
-                    "OpenGL 3.3: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                    "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                     "OpenGL 4.5: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                     "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 ]),

@@ -2,10 +2,11 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
-    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
+    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
+    permit,
 };
-use etalon_frame::{ApiVersion, Grade, Limits};
+use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
 /// The text that binds a context.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -156,6 +157,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
+        slope_root: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: the root of the squares, which may be approximated by the larger growth",
+            ]),
+        ),
         bias_clamps_fragments: permit(
             true,
             text.cite([
@@ -164,6 +173,21 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.7.2 Depth Offset, last paragraph: clamped after the offset is added",
             ]),
         ),
+        depth_terms: if limits.properties.contains(&Property::DepthFromZero) {
+            permit(
+                DepthTerms::NearPlane,
+                "OpenGL ES with GL_EXT_clip_control: depth times f - n, and n, with ZERO_TO_ONE",
+            )
+        } else {
+            permit(
+                DepthTerms::Middle,
+                text.cite([
+                    "OpenGL ES 3.0: 2.13.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2",
+                    "OpenGL ES 3.1: 12.5.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2",
+                    "OpenGL ES 3.2: 12.6.1 Controlling the Viewport: depth times (f - n) / 2, and (n + f) / 2",
+                ]),
+            )
+        },
         depth_range: permit(
             DepthRange::Unit,
             text.cite([
@@ -210,6 +234,28 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.0: 2.18 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
                 "OpenGL ES 3.1: 12.4 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
                 "OpenGL ES 3.2: 12.5 Primitive Clipping: lines are clipped at the near and far planes; the clip volume has sides",
+            ]),
+        ),
+        clips_lines_by_depth: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 2.18 Primitive Clipping: lines are clipped at the near and far planes",
+                "OpenGL ES 3.1: 12.4 Primitive Clipping: lines are clipped at the near and far planes",
+                "OpenGL ES 3.2: 12.5 Primitive Clipping: lines are clipped at the near and far planes",
+            ]),
+        ),
+        clips_lines_by_distance: permit(
+            true,
+            "OpenGL ES with GL_EXT_clip_cull_distance: clip distances are a part of the clip volume, at which lines are clipped",
+        ),
+        lines_cover_texels: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL ES 3.0: 3.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
+                "OpenGL ES 3.1: 13.4.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
+                "OpenGL ES 3.2: 13.6.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
         points_face_front: permit(

@@ -280,6 +280,15 @@ pub enum Resolve {
     Average,
 }
 
+/// The terms of which the viewport makes window depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthTerms {
+    /// Depth from 0 to 1 times the range, and the near plane's depth: one term if that is 0.
+    NearPlane,
+    /// Depth from -1 to 1 times half the range, and the middle of the range.
+    Middle,
+}
+
 /// The effect of a sample mask that a shader writes where a texel has one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskOfOne {
@@ -431,8 +440,12 @@ rules! {
     depth_order: DepthOrder,
     /// The unit of a constant depth bias.
     depth_bias_unit: BiasUnit,
+    /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger growth.
+    slope_root: bool,
     /// True if biased depths are clamped at fragments; otherwise there or at vertices.
     bias_clamps_fragments: bool,
+    /// The terms of window depth.
+    depth_terms: DepthTerms,
     /// Depths outside of the viewport's range.
     depth_range: DepthRange,
     /// Blend factors beyond a normalized format's range.
@@ -445,6 +458,12 @@ rules! {
     clips_points_at_sides: bool,
     /// True if lines are clipped at the sides of the view volume; otherwise they may be.
     clips_lines_at_sides: bool,
+    /// True if lines are clipped at the near and far planes; otherwise they may be.
+    clips_lines_by_depth: bool,
+    /// True if clip distances clip lines; otherwise they may.
+    clips_lines_by_distance: bool,
+    /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
+    lines_cover_texels: bool,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.

@@ -2,8 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
-    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
+    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
+    permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -19,8 +20,9 @@ fn text(limits: &Limits) -> &'static str {
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    // Promises of maintenance5 and Vulkan 1.4, of maintenance2 and Vulkan 1.1.
+    // Promises of maintenance5 and Vulkan 1.4, of texts up to 1.3.216, of maintenance2 and Vulkan 1.1.
     let coverage_last = limits.properties.contains(&Property::CoverageAfterCounting);
+    let shades_last = limits.properties.contains(&Property::ShadesAfterCounting);
     let mask_first = limits.properties.contains(&Property::MaskBeforeCounting);
     let discards_points = limits.properties.contains(&Property::DiscardsPointsOutside);
     let outside = if discards_points {
@@ -33,6 +35,13 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             permit(
                 EarlyUpdates::Happen,
                 "Vulkan: Fragment Operations, earlyFragmentMultisampleCoverageAfterSampleCounting is true: with EarlyFragmentTests shading and multisample coverage follow sample counting",
+            )
+        } else if shades_last {
+            narrowed(
+                EarlyUpdates::Happen,
+                EarlyUpdates::Either,
+                Grade::Disputed,
+                "Vulkan: Fragment Operations: up to 1.3.216 shading and multisample coverage are performed after sample counting with EarlyFragmentTests; later they should be, and may precede it",
             )
         } else {
             permit(EarlyUpdates::Either, cited)
@@ -133,9 +142,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             },
             "Vulkan: Depth Bias Computation: for fixed point one r for the whole attachment, at most 2 * 2^-n; for floats 2^(e-n), n the bits of the mantissa, 23 (where fixed-point steps stand in for floats, the text takes one bit more than the mantissa's)",
         ),
+        slope_root: permit(
+            true,
+            "Vulkan: Depth Bias Computation: the root of the squares, which may be approximated by the larger growth",
+        ),
         bias_clamps_fragments: permit(
             true,
             "Vulkan: Depth Bias, Depth Clamping and Range Adjustment: fragments are biased, and clamped behind",
+        ),
+        depth_terms: permit(
+            DepthTerms::NearPlane,
+            "Vulkan: Controlling the Viewport: depth times maxDepth - minDepth, and minDepth",
         ),
         depth_range: permit(
             DepthRange::Undefined,
@@ -157,6 +174,34 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             false,
             "Vulkan: Primitive Clipping: a line with an end outside of the clip volume may be clipped",
         ),
+        clips_lines_by_depth: narrowed(
+            true,
+            false,
+            Grade::RequiredByCts,
+            "Vulkan: Primitive Clipping: a line with an end outside of the clip volume may be clipped; dEQP-VK.clipping.clip_volume.outside.line_list and depth_clamp.line_list demand it at the near and far planes",
+        ),
+        clips_lines_by_distance: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Primitive Clipping: primitives are clipped to the clip volume, of which clip distances are a part; a line with an end outside of it may be clipped",
+        ),
+        lines_cover_texels: if limits
+            .properties
+            .contains(&Property::LinesAreParallelograms)
+        {
+            permit(
+                true,
+                "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, a line covers the samples of its rectangle or parallelogram",
+            )
+        } else {
+            narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
+            )
+        },
         points_face_front: permit(
             true,
             "Vulkan: Fragment Shading, FrontFacing: fragments of other primitives than polygons are front-facing",
@@ -213,6 +258,13 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             permit(
                 true,
                 "Vulkan: Fragment Operations, earlyFragmentSampleMaskTestBeforeSampleCounting is true: the sample mask test keeps its place before all tests",
+            )
+        } else if shades_last {
+            narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "Vulkan: Fragment Operations: up to 1.3.216 the sample mask test precedes all tests, early ones too; later it may follow sample counting",
             )
         } else {
             permit(

@@ -2,8 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth,
-    SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
+    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
+    permit,
 };
 use etalon_frame::Grade;
 
@@ -110,9 +111,19 @@ pub(super) fn rules() -> Rules {
             Grade::Disputed,
             "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
+        slope_root: permit(
+            false,
+            "WebGPU: GPUDepthStencilState, biased fragment depth: the maximum of the horizontal and vertical slopes",
+        ),
         bias_clamps_fragments: permit(
             true,
             "WebGPU: 23.2.5 Rasterization: the bias is added to the depth of fragments; Vulkan and OpenGL 4.6: clamped behind",
+        ),
+        depth_terms: narrowed(
+            DepthTerms::NearPlane,
+            DepthTerms::Middle,
+            Grade::Disputed,
+            "WebGPU: 23.2.5 Rasterization: minDepth, and depth times maxDepth - minDepth, with no precision; OpenGL's own clip volume, from -w to w, makes it of terms of a half",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
@@ -137,6 +148,20 @@ pub(super) fn rules() -> Rules {
         clips_lines_at_sides: permit(
             true,
             "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
+        clips_lines_by_depth: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
+        clips_lines_by_distance: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume, of which clip distances are a part",
+        ),
+        lines_cover_texels: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined; by a rectangle, or by Bresenham's in which a fragment may deviate by one unit",
         ),
         points_face_front: permit(
             false,

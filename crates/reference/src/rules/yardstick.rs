@@ -1,8 +1,8 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
 use super::permission::{
-    AlphaToCoverage, BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, DepthOrder, DepthRange, DepthTerms, EarlyUpdates,
+    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 use etalon_frame::{Api, Limits};
 
@@ -90,9 +90,14 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
+        slope_root: permit(text.slope_root.value, "Yardstick: as the API's text says"),
         bias_clamps_fragments: permit(
             true,
             "Yardstick: clamped behind the bias, as Direct3D 11.3 has it (15.10)",
+        ),
+        depth_terms: permit(
+            DepthTerms::NearPlane,
+            "Direct3D 11.3: 15.6 Viewport: depth from 0 to 1",
         ),
         depth_range: permit(
             DepthRange::Either,
@@ -118,6 +123,15 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             true,
             "Yardstick: nothing outside of the clip volume is drawn",
         ),
+        clips_lines_by_depth: permit(
+            true,
+            "Yardstick: nothing outside of the clip volume is drawn",
+        ),
+        clips_lines_by_distance: permit(
+            true,
+            "Yardstick: nothing outside of the clip volume is drawn",
+        ),
+        lines_cover_texels: permit(true, "Yardstick: no gap in a line"),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",

@@ -98,6 +98,8 @@ fn the_sample_mask_may_act_after_forced_early_tests_without_a_promise() {
     assert_eq!(allowed(&scene, &vulkan, 0, &[5]), NEVER);
     assert_eq!(allowed(&scene, &vulkan, 1, &[5]), ALWAYS);
     assert_eq!(allowed(&scene, &vulkan, 1, &[6]), ALWAYS);
+    vulkan.properties.insert(Property::ShadesAfterCounting);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[6]), DISPUTED);
     vulkan.properties.insert(Property::MaskBeforeCounting);
     assert_eq!(allowed(&scene, &vulkan, 1, &[6]), NEVER);
     let gl = version(Api::OpenGl, 4, 6);
@@ -111,6 +113,9 @@ fn alpha_to_coverage_may_precede_forced_early_tests_without_a_promise() {
     for order in [5, 6] {
         assert_eq!(allowed(&scene, &vulkan, 0, &[order]), ALWAYS, "{order}");
     }
+    vulkan.properties.insert(Property::ShadesAfterCounting);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[5]), DISPUTED);
     vulkan.properties.insert(Property::CoverageAfterCounting);
     assert_eq!(allowed(&scene, &vulkan, 0, &[6]), ALWAYS);
     assert_eq!(allowed(&scene, &vulkan, 0, &[5]), NEVER);
@@ -452,4 +457,122 @@ fn a_half_float_that_overflows_is_no_nan_by_musts_in_vulkan_alone() {
     );
     // What is copied in WebGPU may change where it is no number.
     assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &nan), ALWAYS);
+}
+
+/// A white line over black.
+fn line(shader: &str, mesh: &str) -> Scene {
+    scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,0]}}}},
+            "passes":[{{"color":["c"],"draws":[{{{shader},"topology":"line-list",
+              "mesh":{{"kind":"vertices",{mesh}}}}}]}}],"read":["c"]}}"#
+    ))
+}
+
+const WHITE: &str = r#""shader":"uniform_color","params":{"color":[1,1,1,1]}"#;
+const OTHERS: [(Api, u8, u8); 2] = [(Api::OpenGl, 3, 3), (Api::OpenGlEs, 3, 2)];
+
+#[test]
+fn a_line_before_the_near_plane_is_clipped_in_vulkan_by_the_cts_alone() {
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let before = line(
+        WHITE,
+        r#""units":"texels","positions":[[-8,1.5,-0.5],[12,1.5,-0.5]]"#,
+    );
+    let behind = line(WHITE, r#""positions":[[-1,-0.25,0.5,-1],[1,-0.25,0.5,-1]]"#);
+    for scene in [before, behind] {
+        let vulkan = version(Api::Vulkan, 1, 3);
+        assert_eq!(allowed(&scene, &vulkan, 0, &kept), ALWAYS);
+        assert_eq!(allowed(&scene, &vulkan, 0, &drawn), BY_CTS);
+        for (api, major, minor) in OTHERS {
+            assert_eq!(
+                allowed(&scene, &version(api, major, minor), 0, &drawn),
+                NEVER
+            );
+        }
+        assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &drawn), NEVER);
+    }
+}
+
+#[test]
+fn clip_distances_of_a_line_are_disputed_in_vulkan_alone() {
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let scene = line(
+        r#""shader":"clip_flat""#,
+        r#""units":"texels","positions":[[-8,1.5,0.5],[12,1.5,0.5]],"values":[[1,1,1,1]],"uv":[[-1,-1],[-1,-1]]"#,
+    );
+    let vulkan = version(Api::Vulkan, 1, 3);
+    assert_eq!(allowed(&scene, &vulkan, 0, &kept), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 0, &drawn), DISPUTED);
+    for (api, major, minor) in OTHERS {
+        assert_eq!(
+            allowed(&scene, &version(api, major, minor), 0, &drawn),
+            NEVER
+        );
+    }
+}
+
+#[test]
+fn a_line_along_an_axis_has_no_gap_where_it_is_a_parallelogram() {
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let scene = line(
+        WHITE,
+        r#""units":"texels","positions":[[-8,1.5,0.5],[12,1.5,0.5]]"#,
+    );
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    let [gl, es] = OTHERS.map(|(api, major, minor)| version(api, major, minor));
+    for limits in [&vulkan, &gl, &es, &limits(Api::WebGpu)] {
+        assert_eq!(allowed(&scene, limits, 0, &drawn), ALWAYS);
+        assert_eq!(allowed(&scene, limits, 0, &kept), DISPUTED);
+    }
+    vulkan.properties.insert(Property::LinesAreParallelograms);
+    assert_eq!(allowed(&scene, &vulkan, 0, &kept), NEVER);
+}
+
+/// Returns the order of a 32-bit float.
+fn order(depth: f32) -> i64 {
+    i64::from(depth.to_bits())
+}
+
+#[test]
+fn a_small_depth_is_as_precise_as_the_terms_it_is_made_of() {
+    let depth = 2_f32.powi(-10);
+    let scene = scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4]}},"d":{{"format":"depth32float","clear":1}}}},
+            "passes":[{{"color":["c"],"depth_stencil":"d","draws":[{{{WHITE},"depth":{{"compare":"always","write":true}},
+              "mesh":{{"kind":"vertices","positions":[[-1,-1,{depth:?}],[3,-1,{depth:?}],[-1,3,{depth:?}]]}}}}]}}],
+            "read":["d"]}}"#
+    ));
+    // Half a percent of the depth, and a 200,000th of the range.
+    let off = [order(depth + 5e-6)];
+    assert_eq!(allowed(&scene, &version(Api::Vulkan, 1, 3), 0, &off), NEVER);
+    assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &off), DISPUTED);
+    for (api, major, minor) in OTHERS {
+        let mut limits = version(api, major, minor);
+        assert_eq!(allowed(&scene, &limits, 0, &off), ALWAYS);
+        limits.properties.insert(Property::DepthFromZero);
+        assert_eq!(allowed(&scene, &limits, 0, &off), NEVER);
+    }
+    let far = [order(depth + 2e-4)];
+    assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &far), NEVER);
+}
+
+#[test]
+fn the_slope_of_a_bias_is_the_larger_growth_in_webgpu() {
+    // The depth grows by a 64th per texel across and down: 0.3125 at the sample.
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4]},"d":{"format":"depth32float","clear":1}},
+            "passes":[{"color":["c"],"depth_stencil":"d","draws":[{"shader":"uniform_color","params":{"color":[1,1,1,1]},
+              "depth":{"compare":"always","write":true},"depth_bias":{"slope":1},
+              "mesh":{"kind":"vertices","positions":[[-1,-1,0.25],[3,-1,0.375],[-1,3,0.375]]}}]}],"read":["d"]}"#,
+    );
+    let larger = [order(0.312_5 + 1.0 / 64.0)];
+    let root = [order(0.312_5 + std::f32::consts::SQRT_2 / 64.0)];
+    for (limits, by_root) in [
+        (version(Api::Vulkan, 1, 3), ALWAYS),
+        (version(Api::OpenGl, 4, 6), ALWAYS),
+        (limits(Api::WebGpu), NEVER),
+    ] {
+        assert_eq!(allowed(&scene, &limits, 0, &larger), ALWAYS);
+        assert_eq!(allowed(&scene, &limits, 0, &root), by_root);
+    }
 }
