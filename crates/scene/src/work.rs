@@ -165,6 +165,7 @@ mod tests {
     use crate::attachment::{Attachment, Contents};
     use crate::mesh_source::{MeshSource, Splat};
     use crate::pass::{LoadOperation, Operations, PassOperations};
+    use crate::query_scope::QueryScope;
     use crate::rasterization::Viewport;
     use crate::shader::Shader;
     use etalon_frame::TextureFormat;
