@@ -118,7 +118,7 @@ const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8uno
 const VULKAN: Lacks = Lacks {
     features: &[
         "advanced-blend advanced-blend-coherent clip-distance-mask depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
-        independent-resolve-none masked-clears sample-coverage stencil-resolve-max stencil-resolve-min",
+        independent-resolve-none inherited-queries masked-clears sample-coverage stencil-resolve-max stencil-resolve-min",
     ],
     blending: &["rgba8snorm"],
     samples: &["depth24plus depth24plus-stencil8"],
@@ -274,6 +274,7 @@ const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
     ("targets::later_draws_have_one_source", SECOND),
     ("counters::any_samples_that_pass_are_told", TIMESTAMP),
     ("counters::any_samples_of_several_passes_are_told", TIMESTAMP),
+    ("counters::a_query_counts_what_it_encloses", TIMESTAMP),
 ];
 /// Mesa's `softpipe_end_query` takes one from the number of active queries, also for a timestamp,
 /// which never began: the occlusion queries between the first two timestamps of a context count

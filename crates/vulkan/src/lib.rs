@@ -41,6 +41,7 @@ mod record;
 mod recording;
 mod render_pass;
 mod resolves;
+mod role;
 mod samplers;
 mod samples;
 mod shader;

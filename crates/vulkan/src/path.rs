@@ -7,7 +7,7 @@ use crate::device::Device;
 use crate::extended::{self, DynamicLogic, Further};
 use crate::format::{self, Native};
 use crate::image::{DRAWN_LAYERS, ImageKey};
-use crate::plan::Role;
+use crate::role::Role;
 use crate::samples;
 use crate::single_state::SingleState;
 use ash::vk;

@@ -15,7 +15,7 @@ use crate::path;
 use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
-use crate::resolves::MovedResolve;
+use crate::role::{Role, roles};
 use crate::single::Single;
 use crate::state;
 use crate::targets::Targets;
@@ -67,24 +67,20 @@ pub(crate) enum InitialContents {
     Upload(u64),
 }
 
-/// The use of an attachment in a pass, or in all passes together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// A colour or resolve attachment. Other passes may fetch from it.
-    Color,
-    DepthStencil,
-    /// A read-only depth-stencil attachment.
-    DepthStencilReadOnly,
-    /// The target of a resolve of depth and stencil.
-    DepthStencilResolve,
-    Fetched,
-    /// Not used by any pass. It may still be read back.
-    Idle,
-}
-
 /// True if a draw has an advanced blend.
 pub(crate) fn is_advanced(draw: &Draw) -> bool {
     draw.targets.iter().any(|t| t.advanced.is_some())
+}
+
+/// The resolve of an attachment to another.
+#[derive(Clone)]
+pub(crate) struct MovedResolve {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    /// The image between.
+    pub(crate) image: vk::Image,
+    /// The part of it that is used.
+    pub(crate) place: Place,
 }
 
 /// The plan of a pass.
@@ -135,44 +131,6 @@ pub(crate) struct DrawPlan {
     pub(crate) dynamic: Dynamic,
     /// The queries that begin before the draw, and those that end after it.
     pub(crate) queries: Enclosing,
-}
-
-impl Role {
-    /// Returns the role of an attachment in all passes together. One pass that draws to it decides.
-    pub(crate) fn of(scene: &Scene, index: usize) -> Self {
-        let role_in = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
-        let mut found = Self::Idle;
-        for (_, role) in scene.passes.iter().filter_map(role_in) {
-            match role {
-                Self::Color => return Self::Color,
-                Self::DepthStencil | Self::DepthStencilReadOnly | Self::DepthStencilResolve => {
-                    return Self::DepthStencil;
-                }
-                Self::Fetched | Self::Idle => found = role,
-            }
-        }
-        found
-    }
-}
-
-/// Returns the attachments of a pass, each once, with their roles.
-fn roles(pass: &Pass) -> Vec<(usize, Role)> {
-    let drawn = pass.color.iter().chain(pass.resolve.iter().flatten());
-    let mut roles: Vec<_> = drawn.map(|index| (*index, Role::Color)).collect();
-    let tested = if pass.depth_stencil_read_only {
-        Role::DepthStencilReadOnly
-    } else {
-        Role::DepthStencil
-    };
-    roles.extend(pass.depth_stencil.map(|index| (index, tested)));
-    let resolve = pass.depth_stencil_resolve.as_ref();
-    roles.extend(resolve.map(|r| (r.to, Role::DepthStencilResolve)));
-    for texture in pass.draws.iter().flat_map(|d| &d.textures) {
-        if roles.iter().all(|(index, _)| index != texture) {
-            roles.push((*texture, Role::Fetched));
-        }
-    }
-    roles
 }
 
 /// Returns true if a shader reads the attachment.

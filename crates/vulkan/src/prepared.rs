@@ -14,14 +14,14 @@ use crate::inputs::{DrawInputs, Inputs};
 use crate::path;
 use crate::pipeline::{Pipelines, Way};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, between_key, copy_key,
+    AttachmentPlan, DrawPlan, InitialContents, MovedResolve, PassPlan, Plan, between_key, copy_key,
     image_key, is_advanced, resolve_key, targets,
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
 use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
-use crate::resolves::MovedResolve;
+use crate::role::Role;
 use crate::single::Single;
 use crate::single_state::SingleState;
 use crate::slot::{Needs, Slot};

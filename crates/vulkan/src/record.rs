@@ -12,9 +12,10 @@ use crate::image_state::{
 };
 use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers};
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
-use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role};
+use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan};
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
+use crate::role::Role;
 use crate::samples::TILE;
 use crate::slot::Slot;
 use crate::storage;

@@ -2,23 +2,11 @@
 //! between. Copies bring the parts to their places in the attachment that is resolved to.
 
 use crate::device::Device;
-use crate::image::Place;
 use crate::image_state::{COLOR, ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED};
-use crate::plan::AttachmentPlan;
+use crate::plan::{AttachmentPlan, MovedResolve};
 use ash::vk;
 use etalon_backend::Blits;
 use etalon_frame::{Aspect, PathEnd};
-
-/// The resolve of an attachment to another.
-#[derive(Clone)]
-pub(crate) struct MovedResolve {
-    pub(crate) from: usize,
-    pub(crate) to: usize,
-    /// The image between.
-    pub(crate) image: vk::Image,
-    /// The part of it that is used.
-    pub(crate) place: Place,
-}
 
 impl MovedResolve {
     /// Records the commands and the copies.

@@ -4,8 +4,8 @@ use crate::calls::{
     Access, ColorAttachment, Command, DepthStencilAttachment, Filled, RenderPass, Rows,
     TextureAspect, buffer_usage,
 };
-use crate::lower::{Lowering, Target};
 use crate::path;
+use crate::tables::{Lowering, Target};
 use crate::texel;
 use etalon_frame::{Requirement, TextureFormat};
 use etalon_scene::{

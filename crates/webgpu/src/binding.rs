@@ -3,7 +3,7 @@
 use crate::attachment::Attached;
 use crate::calls::{BindGroup, Binding, LayoutEntry, LayoutResource, SampleType, buffer_usage};
 use crate::counting::{Counting, RUNS_BYTES};
-use crate::lower::Lowering;
+use crate::tables::Lowering;
 use etalon_scene::{Draw, Params, Scene, Shader};
 
 /// The size of the parameter block.

@@ -1,7 +1,7 @@
 //! The calls: tables of objects, and commands that name them by their place in a table.
 
 use crate::format::Format;
-use crate::pipeline::Pipeline;
+use crate::pipeline_state::Pipeline;
 use crate::reading::Reading;
 use etalon_scene::{IndexFormat, Sampler};
 use serde::{Deserialize, Serialize};

@@ -4,8 +4,8 @@
 //! `PreciseOcclusion` is denied.
 
 use crate::calls::{Command, PassCommand, Query, QuerySet, QueryType, buffer_usage};
-use crate::lower::Lowering;
 use crate::reading::{CounterReading, Place};
+use crate::tables::Lowering;
 use etalon_frame::{CounterKind, PathResults};
 use etalon_scene::{Query as SceneQuery, Scene};
 

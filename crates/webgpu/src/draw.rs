@@ -3,9 +3,9 @@
 use crate::binding::Bound;
 use crate::calls::{DrawCommand, PassCommand, buffer_usage};
 use crate::counting::Counted;
-use crate::lower::Lowering;
 use crate::path;
 use crate::pipeline::{self, INSTANCE_SLOT};
+use crate::tables::Lowering;
 use etalon_frame::{PathDraws, PathState, PathValue, Requirement};
 use etalon_scene::{Call, Draw, Pass, Scene, Viewport};
 use std::ops::Range;

@@ -3,8 +3,10 @@
 use crate::binding::texture;
 use crate::calls::{LayoutEntry, SampleType};
 use crate::format::Format;
-use crate::lower::Lowering;
-use crate::pipeline::{DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive};
+use crate::pipeline_state::{
+    DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive,
+};
+use crate::tables::Lowering;
 use etalon_frame::{Requirement, TextureFormat};
 use etalon_scene::{
     CompareFunction, CullMode, FrontFace, PrimitiveTopology, StencilFace, StencilOperation,

@@ -18,9 +18,11 @@ mod format;
 mod lower;
 mod path;
 mod pipeline;
+mod pipeline_state;
 mod read;
 mod reading;
 mod recording;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod texel;
@@ -36,7 +38,7 @@ pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, Ste
 pub use format::{Format, is_known};
 pub use lower::lower;
 pub use path::paths;
-pub use pipeline::{
+pub use pipeline_state::{
     DepthBiasState, DepthStencil, Pipeline, PipelineState, PipelineTarget, Primitive,
     VertexAttribute, VertexBuffer,
 };

@@ -9,9 +9,9 @@ use crate::counting::Counting;
 use crate::device::{Device, read_path};
 use crate::fetch::{self, FetchKey};
 use crate::format::Format;
-use crate::lower::{Lowering, Target};
 use crate::path;
 use crate::reading::{ImageReading, ReadMethod, Reading};
+use crate::tables::{Lowering, Target};
 use etalon_backend::halves;
 use etalon_frame::{
     Aspect, ChannelEncoding, PathEnd, PathTarget, ReadPath, Requirement, TextureFormat,

@@ -11,6 +11,7 @@
 //! that a driver's failure costs one case.
 
 mod backend;
+mod bundles;
 mod cache;
 mod clock;
 mod encode;

@@ -1,10 +1,8 @@
 //! The objects of a list of calls.
 
-use crate::encode;
-use crate::format;
 use crate::gpu::{BufferLease, Gpu, TextureLease};
 use etalon_backend::BackendError;
-use etalon_webgpu::{BindGroup, Binding, CallList, QueryType, RenderBundle};
+use etalon_webgpu::{BindGroup, Binding, CallList, QueryType};
 use wgpu::BufferUsages;
 
 /// The objects of a list of calls, each in the place of its description.
@@ -15,6 +13,7 @@ pub(crate) struct Objects<'a> {
     pub(crate) query_sets: Vec<wgpu::QuerySet>,
     pub(crate) groups: Vec<wgpu::BindGroup>,
     pub(crate) pipelines: Vec<wgpu::RenderPipeline>,
+    /// Empty until they are recorded of the other objects.
     pub(crate) bundles: Vec<wgpu::RenderBundle>,
 }
 
@@ -71,11 +70,6 @@ impl<'a> Objects<'a> {
                 .pipeline(&gpu.device, &gpu.errors, list, pipeline)
         });
         objects.pipelines = pipelines.collect::<Result<_, _>>()?;
-        let bundles = list
-            .bundles
-            .iter()
-            .map(|bundle| objects.bundle(gpu, bundle));
-        objects.bundles = bundles.collect::<Result<_, _>>()?;
         Ok(objects)
     }
 
@@ -115,28 +109,5 @@ impl<'a> Objects<'a> {
             layout: &layout.bindings,
             entries: &entries,
         }))
-    }
-
-    fn bundle(&self, gpu: &Gpu, bundle: &RenderBundle) -> Result<wgpu::RenderBundle, BackendError> {
-        let colors = bundle.color.iter().map(|f| format::known(*f).map(Some));
-        let colors = colors.collect::<Result<Vec<_>, _>>()?;
-        let depth_stencil = bundle.depth_stencil.map(format::known).transpose()?;
-        let mut encoder =
-            gpu.device
-                .create_render_bundle_encoder(&wgpu::RenderBundleEncoderDescriptor {
-                    label: None,
-                    color_formats: &colors,
-                    depth_stencil: depth_stencil.map(|format| wgpu::RenderBundleDepthStencil {
-                        format,
-                        depth_read_only: bundle.read_only,
-                        stencil_read_only: bundle.read_only,
-                    }),
-                    sample_count: bundle.samples,
-                    multiview: None,
-                });
-        for command in &bundle.commands {
-            encode::draw(self, &mut encoder, command);
-        }
-        Ok(encoder.finish(&Default::default()))
     }
 }

@@ -1,5 +1,6 @@
 //! A scene prepared for drawing.
 
+use crate::bundles::bundles;
 use crate::clock::Clock;
 use crate::encode;
 use crate::gpu::Gpu;
@@ -21,7 +22,11 @@ pub(crate) struct PreparedScene<'a> {
 impl<'a> PreparedScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
         let list = lower(&gpu.facts, scene).map_err(BackendError::NotSupported)?;
-        let objects = gpu.guard("preparing a scene", || Objects::new(gpu, &list))?;
+        let objects = gpu.guard("preparing a scene", || {
+            let mut objects = Objects::new(gpu, &list)?;
+            objects.bundles = bundles(gpu, &objects, &list)?;
+            Ok(objects)
+        })?;
         Ok(Self {
             gpu,
             list,

@@ -41,14 +41,16 @@ pub(super) fn definitions(calls: &CallList) -> Vec<Code> {
         define("shader", place, "create_shader_module", shader(shader_of));
     }
     for (place, entries) in calls.layouts.iter().enumerate() {
-        let layout = group_layout(entries).borrowed();
-        define(
-            "bind_group_layout",
-            place,
-            "create_bind_group_layout",
-            layout,
-        );
         let group = (!entries.is_empty()).then_some(place);
+        if group.is_some() {
+            let layout = group_layout(entries).borrowed();
+            define(
+                "bind_group_layout",
+                place,
+                "create_bind_group_layout",
+                layout,
+            );
+        }
         let layout = pipeline_layout(group).borrowed();
         define("pipeline_layout", place, "create_pipeline_layout", layout);
     }

@@ -69,6 +69,7 @@ fn every_area_holds_its_cases() {
     assert!(counts.values().sum::<i32>() >= 8900);
 }
 
+/// Of every file but one, whose cases SwiftShader draws for a minute each, until they are ended.
 #[test]
 fn the_quick_profile_takes_some_of_every_file() {
     let library = Library::built_in().expect("built-in files parse");
@@ -76,7 +77,8 @@ fn the_quick_profile_takes_some_of_every_file() {
     for file in library.files() {
         let full: BTreeSet<String> = file.cases(Profile::Full).map(|c| c.id()).collect();
         let quick: Vec<String> = file.cases(Profile::Quick).map(|c| c.id()).collect();
-        assert!(!quick.is_empty(), "{}", file.name());
+        let is_slow = file.name() == "sequence/spans-discarded.json";
+        assert_eq!(quick.is_empty(), is_slow, "{}", file.name());
         assert!(quick.iter().all(|id| full.contains(id)), "{}", file.name());
         // What is measured takes its time from the machine, not from the limit of what is judged; a
         // benchmark's larger sizes are no other question, and methods have axes of numbers.

@@ -131,7 +131,6 @@ pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
             "read": ["color"],
             "counters": of(&["a", "b"], kind),
             "queries": queries,
-            "path": { "results": "twice" },
         })
     };
     let frame = s.show(scene("pass", "any-samples-passed", 1))?;

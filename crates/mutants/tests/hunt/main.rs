@@ -42,6 +42,7 @@ classes! {
     combination = "combination",
     counter = "counter",
     cull = "cull",
+    cull_distance = "cull-distance",
     depth = "depth",
     depth_range = "depth-range",
     discard = "discard",

@@ -48,9 +48,12 @@ fn area_of(file: &CaseFile) -> &str {
     file.name().split('/').next().unwrap_or_default()
 }
 
-/// The cases that represent a file, or all of its quick profile.
+/// The cases that represent a file, or all of its quick profile, or of the full one where that has none.
 fn some(file: &CaseFile) -> Vec<Case> {
-    let quick: Vec<_> = file.cases(Profile::Quick).collect();
+    let mut quick: Vec<_> = file.cases(Profile::Quick).collect();
+    if quick.is_empty() {
+        quick.extend(file.cases(Profile::Full));
+    }
     let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");
     let mut places = if everything {
         (0..quick.len()).collect()

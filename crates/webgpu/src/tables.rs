@@ -1,0 +1,200 @@
+//! The tables of a list while they are filled.
+
+use crate::calls::{
+    BindGroup, Buffer, CallList, LayoutEntry, Shader, Texture, TextureAspect, TextureDimension,
+    TexturePart, TextureView, buffer_usage, texture_usage,
+};
+use crate::device::{Device, attachment_usages, read_path, texture_usages};
+use crate::format::Format;
+use crate::path::{Reading as ReadingAbility, Shape};
+use crate::pipeline_state::{Pipeline, PipelineState};
+use etalon_frame::{PathTarget, PathValue, ReadPath, Requirement, TextureFormat};
+use etalon_scene::Sampler;
+use std::borrow::Cow;
+
+/// A texture, or the part of one that an attachment is.
+#[derive(Clone, Copy)]
+pub(crate) struct Target {
+    pub(crate) texture: usize,
+    pub(crate) format: Format,
+    pub(crate) samples: u32,
+    shape: Shape,
+}
+
+impl Target {
+    /// The slice of a three-dimensional texture that passes draw to.
+    pub(crate) fn slice(&self) -> Option<u32> {
+        self.shape.slice()
+    }
+
+    /// Returns the part for copies, from texels on.
+    pub(crate) fn copied(&self, aspect: TextureAspect, [x, y]: [u32; 2]) -> TexturePart {
+        TexturePart {
+            texture: self.texture,
+            level: self.shape.level,
+            origin: [x, y, self.shape.layer],
+            aspect,
+        }
+    }
+}
+
+/// The tables of a list while they are filled.
+pub(crate) struct Lowering<'a> {
+    pub(crate) device: &'a Device,
+    pub(crate) list: CallList,
+}
+
+/// Returns the place of an item in a table, at the end of which it is put if it is new.
+fn place<T: PartialEq>(table: &mut Vec<T>, item: T) -> usize {
+    table
+        .iter()
+        .position(|known| *known == item)
+        .unwrap_or_else(|| {
+            table.push(item);
+            table.len() - 1
+        })
+}
+
+impl Lowering<'_> {
+    /// Returns the texture of an attachment, with undefined contents.
+    pub(crate) fn attachment(
+        &mut self,
+        format: TextureFormat,
+        size: [u32; 2],
+        samples: u32,
+        target: PathTarget,
+    ) -> Result<Target, Requirement> {
+        let shape = Shape::of(target, size);
+        let most = match shape.dimension {
+            TextureDimension::D2 => self.device.max_texture_2d,
+            TextureDimension::D3 => self.device.max_texture_3d,
+        };
+        if target != PathTarget::Plain && shape.size[0].max(shape.size[1]) > most {
+            return Err(Requirement::Path(PathValue::Target(target)));
+        }
+        let usage = attachment_usages(self.device, format, samples);
+        Ok(self.texture(Format::of(format)?, shape, samples, usage))
+    }
+
+    /// Returns a texture that a fetch renders to, with undefined contents.
+    pub(crate) fn scratch(&mut self, format: Format, size: [u32; 2]) -> Target {
+        let usage = texture_usages(TextureFormat::Rgba8Unorm) | texture_usage::RENDER_ATTACHMENT;
+        self.texture(format, Shape::of(PathTarget::Plain, size), 1, usage)
+    }
+
+    fn texture(&mut self, format: Format, shape: Shape, samples: u32, usage: u32) -> Target {
+        self.list.textures.push(Texture {
+            size: shape.size,
+            levels: shape.levels,
+            samples,
+            dimension: shape.dimension,
+            format,
+            usage,
+            view_format: format.without_srgb().filter(|_| samples > 1),
+        });
+        Target {
+            texture: self.list.textures.len() - 1,
+            format,
+            samples,
+            shape,
+        }
+    }
+
+    /// Returns the view of all aspects, for passes.
+    pub(crate) fn view(&mut self, target: Target) -> usize {
+        self.seen(target, TextureAspect::All, None)
+    }
+
+    /// Returns the view of colour or depth, for fetches.
+    pub(crate) fn fetched(&mut self, target: Target) -> usize {
+        let aspect = if target.format.has_depth() {
+            TextureAspect::DepthOnly
+        } else {
+            TextureAspect::All
+        };
+        // The samples of an sRGB texture are fetched without conversion, as codes.
+        let codes = target.format.without_srgb().filter(|_| target.samples > 1);
+        self.seen(target, aspect, codes)
+    }
+
+    /// Returns the view of stencil, for fetches.
+    pub(crate) fn fetched_stencil(&mut self, target: Target) -> usize {
+        self.seen(target, TextureAspect::StencilOnly, None)
+    }
+
+    fn seen(&mut self, target: Target, aspect: TextureAspect, format: Option<Format>) -> usize {
+        let shape = target.shape;
+        let flat = shape.dimension == TextureDimension::D2;
+        let view = TextureView {
+            texture: target.texture,
+            part: flat.then_some([shape.level, shape.layer]),
+            aspect,
+            format,
+        };
+        place(&mut self.list.views, view)
+    }
+
+    /// Returns a buffer with undefined contents.
+    pub(crate) fn buffer(&mut self, usage: u32, size: u64) -> usize {
+        self.list.buffers.push(Buffer {
+            size,
+            usage,
+            contents: Vec::new(),
+        });
+        self.list.buffers.len() - 1
+    }
+
+    /// Gives a buffer its contents, whose length is a multiple of four.
+    pub(crate) fn fill(&mut self, buffer: usize, contents: Vec<u8>) {
+        let filled = &mut self.list.buffers[buffer];
+        filled.size = filled.size.max(contents.len() as u64);
+        filled.contents = contents;
+    }
+
+    /// Returns a buffer with these contents, whose length is a multiple of four.
+    pub(crate) fn filled(&mut self, usage: u32, contents: Vec<u8>) -> usize {
+        let buffer = self.buffer(usage | buffer_usage::COPY_DST, 0);
+        self.fill(buffer, contents);
+        buffer
+    }
+
+    pub(crate) fn shader(&mut self, label: &'static str, code: Cow<'static, str>) -> usize {
+        let label = label.into();
+        place(&mut self.list.shaders, Shader { label, code })
+    }
+
+    pub(crate) fn layout(&mut self, entries: Vec<LayoutEntry>) -> usize {
+        place(&mut self.list.layouts, entries)
+    }
+
+    pub(crate) fn sampler(&mut self, sampler: Sampler) -> usize {
+        place(&mut self.list.samplers, sampler)
+    }
+
+    pub(crate) fn group(&mut self, group: BindGroup) -> usize {
+        place(&mut self.list.groups, group)
+    }
+
+    pub(crate) fn pipeline(
+        &mut self,
+        shader: usize,
+        layout: Option<usize>,
+        state: PipelineState,
+    ) -> usize {
+        let pipeline = Pipeline {
+            shader,
+            layout,
+            state,
+        };
+        place(&mut self.list.pipelines, pipeline)
+    }
+
+    /// Returns how attachments of a format are read by default.
+    pub(crate) fn reading(&self, format: TextureFormat) -> ReadingAbility {
+        let abilities = self.device.abilities;
+        ReadingAbility {
+            copies: abilities.copies,
+            fetches: read_path(format, abilities) == ReadPath::Shader,
+        }
+    }
+}
