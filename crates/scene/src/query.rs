@@ -134,7 +134,10 @@ mod tests {
         }
     }
 
-    fn spans(scene: &Scene) -> Vec<(usize, (usize, usize), (usize, usize))> {
+    /// The counter of a query, and its first and last draw.
+    type Span = (usize, (usize, usize), (usize, usize));
+
+    fn spans(scene: &Scene) -> Vec<Span> {
         let queries = scene.queries();
         queries
             .iter()
