@@ -1,6 +1,6 @@
 //! Scenes as plain lists of WebGPU calls.
 //!
-//! [`lower`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the commands that
+//! [`lower()`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the commands that
 //! copy what is read back into one buffer, and a [`Reading`] that makes a [`Frame`](etalon_frame::Frame) of the bytes
 //! of that buffer. An executor creates the objects, records the commands and maps the buffer. It knows nothing of
 //! scenes.
