@@ -11,6 +11,7 @@ pub(crate) struct Objects<'a> {
     pub(crate) views: Vec<wgpu::TextureView>,
     pub(crate) buffers: Vec<BufferLease<'a>>,
     pub(crate) query_sets: Vec<wgpu::QuerySet>,
+    samplers: Vec<wgpu::Sampler>,
     pub(crate) groups: Vec<wgpu::BindGroup>,
     pub(crate) pipelines: Vec<wgpu::RenderPipeline>,
     /// Empty until they are recorded of the other objects.
@@ -51,7 +52,10 @@ impl<'a> Objects<'a> {
         });
         let query_sets = query_sets.collect();
         gpu.errors.check("making counters")?;
+        let samplers = list.samplers.iter();
+        let samplers = samplers.map(|sampler| gpu.pipelines.sampler(&gpu.device, *sampler));
         let mut objects = Self {
+            samplers: samplers.collect::<Result<_, _>>()?,
             textures,
             views,
             buffers,
@@ -79,11 +83,6 @@ impl<'a> Objects<'a> {
         list: &CallList,
         group: &BindGroup,
     ) -> Result<wgpu::BindGroup, BackendError> {
-        let samplers = list
-            .samplers
-            .iter()
-            .map(|s| gpu.pipelines.sampler(&gpu.device, *s));
-        let samplers = samplers.collect::<Result<Vec<_>, _>>()?;
         let entry = |(number, resource): &(u32, Binding)| wgpu::BindGroupEntry {
             binding: *number,
             resource: match *resource {
@@ -97,7 +96,9 @@ impl<'a> Objects<'a> {
                     size: wgpu::BufferSize::new(size),
                 }),
                 Binding::View(view) => wgpu::BindingResource::TextureView(&self.views[view]),
-                Binding::Sampler(sampler) => wgpu::BindingResource::Sampler(&samplers[sampler]),
+                Binding::Sampler(sampler) => {
+                    wgpu::BindingResource::Sampler(&self.samplers[sampler])
+                }
             },
         };
         let entries: Vec<_> = group.entries.iter().map(entry).collect();
