@@ -4,6 +4,7 @@ use crate::adapters::{BackendName, FROM_INPUT, Faulty, HardwareDevice, Open};
 use crate::failure::Failure;
 use clap::Args;
 use etalon_backend::{Backend, Unavailable};
+use etalon_browser::Source;
 use etalon_cpu::CpuBackend;
 use etalon_runner::Setup;
 use std::fs::File;
@@ -19,10 +20,17 @@ pub(crate) struct Arguments {
     /// List the devices of this backend as JSON
     #[arg(long)]
     pub(crate) enumerate: Option<String>,
+    /// Keep the browser that standard input names
+    #[arg(long)]
+    pub(crate) keep: bool,
 }
 
 /// Serves one adapter, or prints the devices of a backend.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if arguments.keep {
+        etalon_browser::keep(BufReader::new(io::stdin()))?;
+        return Ok(0);
+    }
     let text = match arguments.open.as_deref() {
         Some(FROM_INPUT) => Some(set_up()?),
         other => other.map(str::to_owned),
@@ -145,7 +153,39 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         BackendName::GlEs => gl(etalon_gl::Profile::Es),
         BackendName::WgpuVulkan => wgpu(etalon_wgpu::Via::Vulkan),
         BackendName::WgpuGl => wgpu(etalon_wgpu::Via::Gl),
+        BackendName::Webgpu => browser(what),
     }
+}
+
+/// Starts the browser of an adapter, or waits for one.
+fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
+    let source = match (&what.browser, &what.listen) {
+        (Some(browser), _) => {
+            let program = std::env::current_exe().map_err(|error| {
+                Unavailable::new(
+                    format!("cannot find the program file of etalon: {error}"),
+                    "start it by its path",
+                )
+            })?;
+            let mut keeper = Command::new(program);
+            keeper.args(["worker", "--keep"]);
+            Source::Started(browser.clone(), keeper)
+        }
+        (None, Some(listen)) => Source::Listening(listen.address, listen.token.clone()),
+        (None, None) => {
+            return Err(Unavailable::new(
+                "the adapter has neither `browser` nor `listen`",
+                "correct its entry",
+            ));
+        }
+    };
+    let options = etalon_browser::Options {
+        source,
+        validate: what.validate,
+        fault: what.fault,
+        record: what.record,
+    };
+    etalon_browser::open(&what.name, options).map(|b| Box::new(b) as Box<dyn Backend>)
 }
 
 /// Returns the hardware devices; software drivers are described in the data file.
@@ -181,5 +221,6 @@ fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
         }
         BackendName::WgpuVulkan => etalon_wgpu::enumerate(etalon_wgpu::Via::Vulkan).map(infos),
         BackendName::WgpuGl => etalon_wgpu::enumerate(etalon_wgpu::Via::Gl).map(infos),
+        BackendName::Webgpu => Ok(Vec::new()),
     }
 }

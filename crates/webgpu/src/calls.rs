@@ -124,6 +124,7 @@ pub enum LayoutResource {
 
 /// The type of a texture's texels in a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SampleType {
     /// Floats that a sampler may filter.
     Float,
@@ -159,13 +160,16 @@ pub struct Texture {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum TextureDimension {
     /// Two dimensions, in layers.
+    #[serde(rename = "2d")]
     D2,
     /// Three dimensions.
+    #[serde(rename = "3d")]
     D3,
 }
 
 /// The aspects that a view or a copy takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum TextureAspect {
     /// All that the format has.
     All,

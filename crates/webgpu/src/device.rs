@@ -70,7 +70,7 @@ pub(crate) fn attachment_usages(device: &Device, format: TextureFormat, samples:
 
 /// Returns the read path of a format's depth, or colour. WebGPU never copies the depth of
 /// `depth24plus` (26.1.2).
-pub fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
+pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
     match format {
         TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => ReadPath::Shader,
         TextureFormat::Depth16Unorm
@@ -90,7 +90,7 @@ pub fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
 /// Floats are exact. For normalized integers the API allows an error of one part in 10^5 (Vulkan,
 /// Fundamentals; OpenGL 4.6, 2.3.5): that determines the code up to 10 bits, but not at 16. Two
 /// codes of a signed integer mean -1. An sRGB code is exact only in a view without conversion.
-pub fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
+pub(crate) fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) => false,
         ChannelEncoding::Srgb8 => abilities.casts,

@@ -6,12 +6,15 @@ use serde::{Deserialize, Serialize};
 /// The format of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Format {
-    /// That of an attachment, which WebGPU has.
-    Attachment(TextureFormat),
     /// `r32uint`, between an attachment and a buffer.
+    #[serde(rename = "r32uint")]
     R32Uint,
     /// `rgba32uint`, between an attachment and a buffer.
+    #[serde(rename = "rgba32uint")]
     Rgba32Uint,
+    /// That of an attachment, which WebGPU has.
+    #[serde(untagged)]
+    Attachment(TextureFormat),
 }
 
 impl Format {

@@ -16,6 +16,7 @@ mod draw;
 mod fetch;
 mod format;
 mod lower;
+mod offer;
 mod path;
 mod pipeline;
 mod pipeline_state;
@@ -33,11 +34,11 @@ pub use calls::{
     QueryType, RenderBundle, RenderPass, Rows, SampleType, Shader, Texture, TextureAspect,
     TextureDimension, TexturePart, TextureView, buffer_usage, texture_usage,
 };
-pub use device::{Abilities, Device, SAMPLES, read_path, samples_are_exact, texture_usages};
+pub use device::{Abilities, Device, SAMPLES, texture_usages};
 pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, StencilFace};
 pub use format::{Format, is_known};
 pub use lower::lower;
-pub use path::paths;
+pub use offer::{DeviceLimits, Offer, Uses, standard_formats};
 pub use pipeline_state::{
     DepthBiasState, DepthStencil, Pipeline, PipelineState, PipelineTarget, Primitive,
     VertexAttribute, VertexBuffer,

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 /// Returns the values that a device with these features has; `indirect` if it executes indirect draws. Formats may
 /// lack some of them: `target` and `end` say so.
-pub fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
+pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::Start(PathStart::LoadOperation | PathStart::Draw) => true,
         PathValue::Target(target) => target != PathTarget::Renderbuffer,

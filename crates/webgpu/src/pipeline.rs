@@ -9,7 +9,8 @@ use crate::pipeline_state::{
 use crate::tables::Lowering;
 use etalon_frame::{Requirement, TextureFormat};
 use etalon_scene::{
-    CompareFunction, Draw, EarlyTests, Pass, PrimitiveTopology, Scene, Shader, Vertex,
+    BlendComponent, BlendFactor, BlendState, CompareFunction, Draw, EarlyTests, Pass,
+    PrimitiveTopology, Scene, Shader, Vertex,
 };
 
 /// The size of a vertex.
@@ -36,7 +37,7 @@ pub(crate) fn of_draw(
     let targets = pass.color.iter().zip(&draw.targets).map(|(index, target)| {
         Ok(PipelineTarget {
             format: Format::of(scene.attachments[*index].format)?,
-            blend: target.blend,
+            blend: target.blend.map(with_constant),
             write_mask: target.write_mask,
         })
     });
@@ -59,6 +60,25 @@ pub(crate) fn of_draw(
         },
     };
     Ok(lowering.pipeline(module, Some(layout), state))
+}
+
+/// Returns blending with WebGPU's only constant. `constant-alpha` occurs in the alpha equation alone, where it is the
+/// same: for colour it needs a feature that is denied.
+fn with_constant(blend: BlendState) -> BlendState {
+    let factor = |factor| match factor {
+        BlendFactor::ConstantAlpha => BlendFactor::Constant,
+        BlendFactor::OneMinusConstantAlpha => BlendFactor::OneMinusConstant,
+        other => other,
+    };
+    let component = |component: BlendComponent| BlendComponent {
+        src_factor: factor(component.src_factor),
+        dst_factor: factor(component.dst_factor),
+        ..component
+    };
+    BlendState {
+        color: component(blend.color),
+        alpha: component(blend.alpha),
+    }
 }
 
 /// Returns the shader of a draw and its early tests, in a pass with this depth and stencil format.

@@ -1,7 +1,7 @@
 //! Enumeration of adapters and the open adapter.
 
 use crate::gpu::Gpu;
-use crate::limits::{abilities, limits, used_features};
+use crate::limits::{offer, used_features};
 use crate::messages;
 use crate::prepared::PreparedScene;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Fault, Prepared, Recording, Unavailable};
@@ -186,17 +186,7 @@ fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
     let (device, queue) = catch_unwind(AssertUnwindSafe(request))
         .map_err(|_| "wgpu panicked".to_owned())?
         .map_err(|error| error.to_string())?;
-    let abilities = abilities(adapter);
-    let sides = device.limits();
-    let facts = etalon_webgpu::Device {
-        limits: limits(adapter, features, abilities),
-        abilities,
-        max_texture_2d: sides.max_texture_dimension_2d,
-        max_texture_3d: sides.max_texture_dimension_3d,
-        uniform_alignment: sides.min_uniform_buffer_offset_alignment,
-        storage_alignment: sides.min_storage_buffer_offset_alignment,
-        indirect_first_instance: features.contains(wgpu::Features::INDIRECT_FIRST_INSTANCE),
-    };
+    let facts = etalon_webgpu::Device::new(offer(adapter, features, &device.limits()));
     let opened = Gpu::new(device, queue, facts, options.fault);
     let mut gpu = opened.map_err(|error| error.to_string())?;
     gpu.recorded = options.record.then(RefCell::default);

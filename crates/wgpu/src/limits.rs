@@ -1,21 +1,10 @@
-//! The limits and features of an adapter.
+//! What an adapter offers, by wgpu's own word.
 
 use crate::format;
-use etalon_frame::{
-    Api, ApiVersion, Feature, FormatSupport, Limits, Requirement, TextureFormat,
-    standard_sample_positions,
-};
-use etalon_webgpu::{Abilities, SAMPLES, paths, read_path, samples_are_exact, texture_usages};
-use std::collections::{BTreeMap, BTreeSet};
+use etalon_frame::{Feature, TextureFormat};
+use etalon_webgpu::{Abilities, DeviceLimits, Offer, SAMPLES, Uses, texture_usages};
+use std::collections::BTreeSet;
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
-
-/// WebGPU does not report it; 4 is the least that any API under it allows.
-const SUB_PIXEL_BITS: u8 = 4;
-/// The largest size of a texel in the sum over a pass's colour attachments
-/// (maxColorAttachmentBytesPerSample).
-const MOST_TEXEL_BYTES: u32 = 16;
-/// The largest viewport coordinate in a scene, including the far edge.
-const VIEWPORT_REACH: u32 = 8192;
 
 /// Returns the optional device features that this backend uses.
 pub(crate) fn used_features() -> Features {
@@ -32,9 +21,8 @@ pub(crate) fn used_features() -> Features {
         | Features::CLIP_DISTANCES
 }
 
-/// Returns the abilities of an adapter that [`Limits`] do not tell.
-pub(crate) fn abilities(adapter: &wgpu::Adapter) -> Abilities {
-    let flags = adapter.get_downlevel_capabilities().flags;
+/// Returns the abilities of an adapter with these flags.
+fn abilities(flags: DownlevelFlags) -> Abilities {
     Abilities {
         copies: flags.contains(DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES),
         casts: flags.contains(DownlevelFlags::VIEW_FORMATS),
@@ -58,103 +46,64 @@ fn format_features(
     }
 }
 
-fn support(
-    adapter: &wgpu::Adapter,
-    features: Features,
-    abilities: Abilities,
-    format: TextureFormat,
-) -> Option<FormatSupport> {
+/// Returns the uses of a format; `None` if its textures cannot be uploaded, fetched from and read.
+fn uses(adapter: &wgpu::Adapter, features: Features, format: TextureFormat) -> Option<Uses> {
     let real = format::texture(format)?;
     if !features.contains(real.required_features()) {
         return None;
     }
     let found = format_features(adapter, features, real);
-    let drawable = found
-        .allowed_usages
-        .contains(TextureUsages::RENDER_ATTACHMENT)
-        && (format != TextureFormat::Rg11b10Ufloat
-            || features.contains(Features::RG11B10UFLOAT_RENDERABLE)
-            || features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES));
     let needed = TextureUsages::from_bits_truncate(texture_usages(format));
-    if !found.allowed_usages.contains(needed) || !format.is_color() && !drawable {
+    if !found.allowed_usages.contains(needed) {
         return None;
     }
-    // WebGPU does not resolve integers (26.1.1).
-    let multisampled = found.flags.sample_count_supported(SAMPLES)
-        && !format.is_integer()
-        && (!format.is_color()
-            || found
-                .flags
-                .contains(TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE))
-        && samples_are_exact(format, abilities);
-    let mut samples = Vec::new();
-    if drawable {
-        samples.push(1);
-        if multisampled {
-            samples.push(SAMPLES);
-        }
-    }
-    Some(FormatSupport {
-        samples,
-        blendable: drawable
-            && !format.is_integer()
-            && found.flags.contains(TextureFormatFeatureFlags::BLENDABLE)
-            && (format != TextureFormat::Rgba32Float
-                || features.contains(Features::FLOAT32_BLENDABLE)),
-        // The adapter does not report which one it uses.
-        depth: format.depth_encodings().to_vec(),
-        read: read_path(format, abilities),
+    let flag = |flag| found.flags.contains(flag);
+    let drawn = found
+        .allowed_usages
+        .contains(TextureUsages::RENDER_ATTACHMENT);
+    let any = |choices: Features| features.intersects(choices);
+    Some(Uses {
+        drawn: drawn
+            && (format != TextureFormat::Rg11b10Ufloat
+                || any(Features::RG11B10UFLOAT_RENDERABLE
+                    | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)),
+        blended: flag(TextureFormatFeatureFlags::BLENDABLE)
+            && (format != TextureFormat::Rgba32Float || any(Features::FLOAT32_BLENDABLE)),
+        multisampled: found.flags.sample_count_supported(SAMPLES)
+            && (!format.is_color() || flag(TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE)),
     })
 }
 
-/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: advanced blending, clears
-/// within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors beyond the attachments, tessellation, last provoking vertices, clip distances that are off, factors of `min` and
-/// `max`, counts of samples, sample coverage, least shares of sample shading.
+/// Returns the features that wgpu offers beyond those of every device. It lacks or refuses the rest: advanced
+/// blending, clears within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors
+/// beyond the attachments, polygon modes (a native feature of wgpu answers to no text), tessellation, last provoking
+/// vertices, clip distances that are off, factors of `min` and `max`, counts of samples, sample coverage, least shares
+/// of sample shading.
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
 /// GLSL versions that have them. What wgpu offers and then refuses fails its cases.
 fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> BTreeSet<Feature> {
-    let max_size = limits.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
     let storage = flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
         && limits.max_storage_buffers_per_shader_stage > 0;
+    let early_tests = feature(Features::SHADER_EARLY_DEPTH_TEST);
     let features_found = [
         (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
-        (Feature::CentroidInterpolation, true),
         (Feature::ClipDistances, feature(Features::CLIP_DISTANCES)),
-        (
-            Feature::ConservativeDepth,
-            feature(Features::SHADER_EARLY_DEPTH_TEST),
-        ),
+        (Feature::ConservativeDepth, early_tests),
         (
             Feature::DepthBiasClamp,
             flag(DownlevelFlags::DEPTH_BIAS_CLAMP),
         ),
         (Feature::DepthClamp, feature(Features::DEPTH_CLIP_CONTROL)),
-        // A pipeline whose shader writes `frag_depth` has a format with depth (GPURenderPipelineDescriptor).
-        (Feature::DepthOutputWithoutDepth, false),
         (
             Feature::DualSourceBlending,
             feature(Features::DUAL_SOURCE_BLENDING),
         ),
-        (Feature::LinearInterpolation, true),
-        // Only the arguments of indirect draws need a feature of their own.
-        (Feature::FirstInstance, true),
-        // `@interpolate(flat)` is that of the first vertex (WGSL, Interpolation); there is no other.
-        (Feature::FirstProvokingVertex, true),
-        (
-            Feature::ForcedEarlyTests,
-            feature(Features::SHADER_EARLY_DEPTH_TEST),
-        ),
-        (
-            Feature::ForcedEarlyTestsWithDepth,
-            feature(Features::SHADER_EARLY_DEPTH_TEST),
-        ),
+        (Feature::ForcedEarlyTests, early_tests),
+        (Feature::ForcedEarlyTestsWithDepth, early_tests),
         (Feature::FragmentStorage, storage),
-        // A pipeline without targets fits no pass with colour attachments (render pass layouts).
-        (Feature::FragmentShaderAbsent, true),
-        (Feature::FragmentShaderAbsentWithColor, false),
         (
             Feature::FragmentInvocations,
             feature(Features::PIPELINE_STATISTICS_QUERY),
@@ -163,75 +112,36 @@ fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> 
             Feature::IndependentBlend,
             flag(DownlevelFlags::INDEPENDENT_BLEND),
         ),
-        // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
-        (Feature::PolygonModeLine, false),
-        (Feature::SampleMaskOutput, true),
-        // A pipeline that writes one has alpha to coverage off (GPURenderPipelineDescriptor).
-        (Feature::SampleMaskOutputWithAlphaToCoverage, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
         ),
-        // WGSL has no such built-in.
-        (Feature::StencilExport, false),
         (Feature::StorageCounters, storage),
-        // WebGPU limits a viewport to twice the largest texture (setViewport).
-        (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
     ];
-    features_found
-        .into_iter()
-        .filter_map(|(f, has)| has.then_some(f))
-        .collect()
+    let found = features_found.into_iter().filter(|(_, has)| *has);
+    found.map(|(feature, _)| feature).collect()
 }
 
-/// Returns what an adapter may lack without breaking WebGPU's word: what this backend does not use, and
-/// everything where wgpu itself says that the adapter has less than WebGPU.
-fn exempt(adapter: &wgpu::Adapter, abilities: Abilities) -> BTreeSet<Requirement> {
-    let complete = adapter.get_downlevel_capabilities().is_webgpu_compliant();
-    // Only four targets of the shortest texels fit into WebGPU's bytes.
-    let mut exempt = BTreeSet::from([Requirement::ColorAttachments(4)]);
-    for format in TextureFormat::ALL {
-        if !complete || format.is_integer() || !samples_are_exact(format, abilities) {
-            exempt.insert(Requirement::Samples(format, SAMPLES));
-        }
-        if !complete {
-            exempt.extend([
-                Requirement::Format(format),
-                Requirement::Drawing(format),
-                Requirement::Blending(format),
-            ]);
-        }
-    }
-    if !complete {
-        exempt.extend(Feature::ALL.map(Requirement::Feature));
-    }
-    exempt
-}
-
-/// Returns the limits of an adapter's device with these features, all of them by wgpu's own word.
-pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abilities) -> Limits {
-    let limits = adapter.limits();
+/// Returns what an adapter's device with these features offers.
+pub(crate) fn offer(adapter: &wgpu::Adapter, features: Features, limits: &wgpu::Limits) -> Offer {
     let flags = adapter.get_downlevel_capabilities().flags;
-    let formats: BTreeMap<_, _> = TextureFormat::ALL
-        .into_iter()
-        .filter_map(|f| Some((f, support(adapter, features, abilities, f)?)))
-        .collect();
-    let max_size = limits.max_texture_dimension_2d;
-    let offered = offered(flags, features, &limits);
-    Limits {
-        api: Api::WebGpu,
-        version: ApiVersion::UNKNOWN,
-        properties: BTreeSet::new(),
-        exempt: exempt(adapter, abilities),
-        sub_pixel_bits: SUB_PIXEL_BITS,
-        max_size,
-        max_color_attachments: limits
-            .max_color_attachments
-            .min(limits.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
-        formats,
-        paths: paths(flags.contains(DownlevelFlags::INDIRECT_EXECUTION), &offered),
-        features: offered,
-        // WebGPU requires the standard ones of all adapters (Rasterization).
-        sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
+    let known = TextureFormat::ALL.into_iter();
+    Offer {
+        formats: known
+            .filter_map(|format| Some((format, uses(adapter, features, format)?)))
+            .collect(),
+        abilities: abilities(flags),
+        features: offered(flags, features, &adapter.limits()),
+        indirect: flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
+        indirect_first_instance: features.contains(Features::INDIRECT_FIRST_INSTANCE),
+        complete: adapter.get_downlevel_capabilities().is_webgpu_compliant(),
+        limits: DeviceLimits {
+            texture_2d: limits.max_texture_dimension_2d,
+            texture_3d: limits.max_texture_dimension_3d,
+            color_attachments: limits.max_color_attachments,
+            color_bytes_per_sample: limits.max_color_attachment_bytes_per_sample,
+            uniform_alignment: limits.min_uniform_buffer_offset_alignment,
+            storage_alignment: limits.min_storage_buffer_offset_alignment,
+        },
     }
 }

@@ -94,8 +94,7 @@ fn blend_component(component: BlendComponent) -> wgpu::BlendComponent {
     }
 }
 
-/// `constant-alpha` occurs only in the alpha equation, where it equals `constant`: for colour it
-/// needs a feature that is denied.
+/// Lists have `constant` in place of `constant-alpha`.
 fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     match factor {
         BlendFactor::Zero => wgpu::BlendFactor::Zero,

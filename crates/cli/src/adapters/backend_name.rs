@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A backend; the profiles of OpenGL and the APIs of `wgpu` count separately.
+/// A backend; the profiles of OpenGL and the APIs of `wgpu` count separately. `webgpu` is a browser's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum BackendName {
@@ -12,4 +12,5 @@ pub(crate) enum BackendName {
     GlEs,
     WgpuVulkan,
     WgpuGl,
+    Webgpu,
 }

@@ -55,6 +55,8 @@ fn open(name: &str, backend: BackendName) -> Open {
         backend,
         device: None,
         egl: None,
+        browser: None,
+        listen: None,
         validate: false,
         record: false,
         fault: None,
@@ -206,6 +208,7 @@ impl Candidate {
             Self::Described(description, _) => Open {
                 device: description.device,
                 egl: resolved.egl.clone(),
+                browser: resolved.browser.clone(),
                 fault: description.fault,
                 ..open(&description.name, description.backend)
             },

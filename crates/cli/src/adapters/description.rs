@@ -4,6 +4,7 @@ use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
 use etalon_backend::Fault;
+use etalon_browser::Browser;
 use etalon_case::parse_json;
 use etalon_frame::without_mark;
 use etalon_record::Release;
@@ -11,6 +12,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -49,6 +51,14 @@ pub(super) struct Description {
     /// Folders searched for libraries before those of the system.
     #[serde(default)]
     library_path: Vec<String>,
+    /// The words of the command of a browser, for the backend `webgpu`. `{url}` and `{profile}` are replaced.
+    #[serde(default)]
+    browser: Vec<String>,
+    /// Files of the browser's profile: names and texts.
+    #[serde(default)]
+    profile: BTreeMap<String, String>,
+    /// The address at which a browser elsewhere opens the page of the worker, for the backend `webgpu`.
+    pub(super) listen: Option<SocketAddr>,
     /// The index of the device in the order of the backend; by default the first one, and in OpenGL the one that the
     /// environment selects.
     pub(super) device: Option<usize>,
@@ -84,6 +94,7 @@ pub(super) struct Resolved {
     pub(super) manifest: Option<PathBuf>,
     pub(super) egl: Option<PathBuf>,
     pub(super) library_path: Vec<PathBuf>,
+    pub(super) browser: Option<Browser>,
 }
 
 /// The reason for which an entry cannot be used on this machine.
@@ -249,6 +260,7 @@ impl Description {
             return Err("a path is empty or holds a zero".to_owned());
         }
         self.check_launcher()?;
+        self.check_browser()?;
         self.check_release()?;
         let is_gl = matches!(self.backend, BackendName::Gl | BackendName::GlEs);
         if self.egl.is_some() && !is_gl {
@@ -283,6 +295,32 @@ impl Description {
             );
         }
         Ok(())
+    }
+
+    fn check_browser(&self) -> Result<(), String> {
+        let has = !self.browser.is_empty();
+        if self.backend != BackendName::Webgpu {
+            let none = !has && self.profile.is_empty() && self.listen.is_none();
+            return none.then_some(()).ok_or_else(|| {
+                "`browser`, `profile` and `listen` are for the backend webgpu".to_owned()
+            });
+        }
+        if self.device.is_some() {
+            return Err("the backend webgpu has no `device`; remove it".to_owned());
+        }
+        if has == self.listen.is_some() {
+            return Err("the backend webgpu needs either `browser` or `listen`".to_owned());
+        }
+        let fault = self.browser().and_then(|browser| browser.fault());
+        fault.map_or(Ok(()), |fault| Err(fault.to_owned()))
+    }
+
+    /// The browser, with its words as the file has them.
+    fn browser(&self) -> Option<Browser> {
+        (!self.browser.is_empty()).then(|| Browser {
+            command: self.browser.clone(),
+            profile: self.profile.clone(),
+        })
     }
 
     fn check_release(&self) -> Result<(), String> {
@@ -362,6 +400,20 @@ impl Description {
             }
             resolved.egl = Some(found);
         }
+        if let Some(mut browser) = self.browser() {
+            for word in &mut browser.command {
+                *word = expand(word, variable)?;
+            }
+            if let Some(program) = browser.command.first_mut() {
+                if program.contains('/') {
+                    *program = folder.join(&*program).to_string_lossy().into_owned();
+                }
+                if here && !is_program(program, variable) {
+                    return Err(missing(format!("the browser {program} is not installed")));
+                }
+            }
+            resolved.browser = Some(browser);
+        }
         let manifests = self.manifests.iter().map(|text| path(text));
         let manifests = manifests.collect::<Result<Vec<_>, _>>()?;
         if let Some(program) = &self.program {
@@ -409,6 +461,15 @@ fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Op
         .cloned()
         .chain(named)
         .find(|path| path.is_file())
+}
+
+/// True if a program exists: as a path, or in a folder of programs.
+fn is_program(program: &str, variable: &dyn Fn(&str) -> Option<String>) -> bool {
+    if program.contains('/') {
+        return Path::new(program).is_file();
+    }
+    let folders = variable("PATH").unwrap_or_default();
+    std::env::split_paths(&folders).any(|folder| folder.join(program).is_file())
 }
 
 /// Replaces the variables in a text.

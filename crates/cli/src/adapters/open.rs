@@ -2,7 +2,9 @@
 
 use super::backend_name::BackendName;
 use etalon_backend::Fault;
+use etalon_browser::Browser;
 use serde::{Deserialize, Serialize};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// The word in place of a request that comes through standard input.
@@ -19,6 +21,12 @@ pub(crate) struct Open {
     /// The EGL library; by default, that of the system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) egl: Option<PathBuf>,
+    /// The browser that the worker starts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) browser: Option<Browser>,
+    /// The place at which a browser opens the page of the worker.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) listen: Option<Listen>,
     /// True if validation layers and debug output are enabled.
     #[serde(default)]
     pub(crate) validate: bool,
@@ -28,6 +36,14 @@ pub(crate) struct Open {
     /// The fault that the name ends in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) fault: Option<Fault>,
+}
+
+/// The place of a page.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Listen {
+    pub(crate) address: SocketAddr,
+    /// The first part of the page's path, which nobody guesses.
+    pub(crate) token: String,
 }
 
 fn is_false(value: &bool) -> bool {

@@ -16,6 +16,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             BackendName::Gl => ("gl", Api::OpenGl),
             BackendName::GlEs => ("gl", Api::OpenGlEs),
             BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
+            BackendName::Webgpu => ("webgpu", Api::WebGpu),
         };
         let adapter = AdapterRecord {
             name: absent.name,

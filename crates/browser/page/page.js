@@ -1,0 +1,211 @@
+// Connects a device of this browser with the relay that served the page, and executes the lists that come over it.
+"use strict";
+
+const PROTOCOL = 1;
+
+/** Features that a device is asked for, where it has them. */
+const FEATURES = [
+  "core-features-and-limits",
+  "clip-distances",
+  "depth-clip-control",
+  "depth32float-stencil8",
+  "dual-source-blending",
+  "float32-blendable",
+  "float32-filterable",
+  "indirect-first-instance",
+  "rg11b10ufloat-renderable",
+  "texture-formats-tier1",
+  "timestamp-query",
+];
+
+/** The pause before another attempt to connect, in milliseconds. */
+const PAUSE = 500;
+
+/** What is told of the console with the next answer. */
+const messages = [];
+
+/** Shows a line to whoever looks at the page. */
+function show(text) {
+  document.getElementById("state").textContent = text;
+}
+
+/** Returns what the browser says of its version. */
+async function browser() {
+  const data = navigator.userAgentData;
+  try {
+    const { fullVersionList = [] } = (await data?.getHighEntropyValues(["fullVersionList"])) ?? {};
+    const brand = fullVersionList.find(({ brand }) => /Chrom|Edge|Opera/.test(brand));
+    if (brand !== undefined) {
+      return { name: brand.brand, version: brand.version };
+    }
+  } catch {
+    // The user agent tells less.
+  }
+  const [, name, version] = /(Firefox|Chrome|Version)\/([\d.]+)/.exec(navigator.userAgent) ?? [];
+  return { name: name === "Version" ? "Safari" : (name ?? "browser"), version: version ?? "" };
+}
+
+/** Opens a device. Returns it with its description, or throws the reason for which there is none. */
+async function open() {
+  if (navigator.gpu === undefined) {
+    throw new Error(
+      isSecureContext
+        ? "this browser has no WebGPU, or it is switched off"
+        : "WebGPU needs a secure context: https, or an address of this machine (http://127.0.0.1)",
+    );
+  }
+  const adapter = await navigator.gpu.requestAdapter();
+  if (adapter === null) {
+    throw new Error("the browser has WebGPU and gives no adapter");
+  }
+  const { info } = adapter;
+  const names = ["maxTextureDimension2D", "maxTextureDimension3D", "maxColorAttachments",
+    "maxColorAttachmentBytesPerSample", "maxStorageBuffersPerShaderStage", "maxStorageBuffersInFragmentStage",
+    "minUniformBufferOffsetAlignment", "minStorageBufferOffsetAlignment", "maxBufferSize",
+    "maxStorageBufferBindingSize"];
+  const limits = {};
+  for (const name of names) {
+    if (adapter.limits[name] !== undefined) {
+      limits[name] = adapter.limits[name];
+    }
+  }
+  const requiredFeatures = FEATURES.filter((name) => adapter.features.has(name));
+  const device = await adapter.requestDevice({ requiredFeatures, requiredLimits: limits });
+  device.onuncapturederror = ({ error }) => {
+    messages.push(error.message);
+  };
+  const hello = {
+    protocol: PROTOCOL,
+    browser: await browser(),
+    adapter: {
+      vendor: info.vendor,
+      architecture: info.architecture,
+      device: info.device,
+      description: info.description,
+      fallback: info.isFallbackAdapter ?? adapter.isFallbackAdapter ?? false,
+    },
+    features: [...device.features],
+    limits,
+  };
+  return { device, hello };
+}
+
+/** Returns a message of a header and bytes behind it. */
+function packed(header, bytes) {
+  const text = new TextEncoder().encode(JSON.stringify(header));
+  const message = new Uint8Array(4 + text.length + bytes.length);
+  new DataView(message.buffer).setUint32(0, text.length, true);
+  message.set(text, 4);
+  message.set(bytes, 4 + text.length);
+  return message;
+}
+
+/** Returns the header of a message and the bytes behind it. */
+function unpacked(message) {
+  const length = new DataView(message).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(message, 4, length)));
+  return [header, new Uint8Array(message, 4 + length)];
+}
+
+/** Answers requests on a device, in their order. */
+class Page {
+  #executor;
+  #scenes = new Map();
+
+  constructor(device) {
+    this.#executor = new Executor(device);
+  }
+
+  /** Returns the answer to a request. */
+  async answer(message) {
+    const [request, bytes] = unpacked(message);
+    const answer = { number: request.number, times: [], error: null };
+    let output = new Uint8Array();
+    try {
+      for (const slot of request.dropped) {
+        const made = this.#scenes.get(slot);
+        if (made !== undefined) {
+          this.#executor.drop(made);
+          this.#scenes.delete(slot);
+        }
+      }
+      if (request.list !== null) {
+        const made = await this.#executor.prepare(request.list, contents(request.contents, bytes));
+        this.#scenes.set(request.slot, made);
+      }
+      const made = this.#scenes.get(request.slot);
+      for (let frame = 0; frame < request.frames; frame += 1) {
+        answer.times.push(await this.#executor.submit(made));
+      }
+      if (request.read) {
+        output = await this.#executor.read(made);
+      }
+    } catch (error) {
+      const { kind = "internal", what = "executing a list" } = error;
+      answer.error = { kind, what, message: error.message };
+      this.#executor.forget();
+    }
+    answer.messages = messages.splice(0);
+    return packed(answer, output);
+  }
+}
+
+/** Returns the contents of buffers: pairs of a place and its bytes, which stand one behind the other. */
+function contents(lengths, bytes) {
+  let start = 0;
+  return lengths.map(([place, length]) => {
+    const part = bytes.subarray(start, start + length);
+    start += length;
+    return [place, part];
+  });
+}
+
+/** Serves one connection. Returns when it ends. */
+async function serve() {
+  const address = new URL("socket", location.href);
+  address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  const socket = new WebSocket(address);
+  socket.binaryType = "arraybuffer";
+  const closed = new Promise((resolve) => {
+    socket.onclose = resolve;
+  });
+  const opened = new Promise((resolve) => {
+    socket.onopen = () => resolve(true);
+    closed.then(() => resolve(false));
+  });
+  if (!(await opened)) {
+    return false;
+  }
+  let device = null;
+  try {
+    const found = await open();
+    device = found.device;
+    const page = new Page(device);
+    let queue = Promise.resolve();
+    socket.onmessage = ({ data }) => {
+      queue = queue.then(async () => socket.send(await page.answer(data)));
+    };
+    device.lost.then(({ message }) => show(`The device was lost: ${message}`));
+    show("Connected. Scenes are drawn on this device until the run ends.");
+    socket.send(JSON.stringify(found.hello));
+  } catch (error) {
+    show(`This browser cannot be tested: ${error.message}`);
+    socket.send(JSON.stringify({ protocol: PROTOCOL, unavailable: error.message }));
+  }
+  await closed;
+  device?.destroy();
+  show("The run is over, or its worker starts again.");
+  return true;
+}
+
+/** Connects again and again: a worker that was lost is followed by another one at the same address. */
+async function main() {
+  for (;;) {
+    await serve();
+    await new Promise((resolve) => {
+      setTimeout(resolve, PAUSE);
+    });
+  }
+}
+
+main();

@@ -1,0 +1,87 @@
+//! A page's description of its device, as an adapter.
+
+use crate::message::Hello;
+use etalon_backend::AdapterInfo;
+use etalon_frame::Feature;
+use etalon_webgpu::{Abilities, Device, DeviceLimits, Offer, standard_formats};
+use std::collections::BTreeSet;
+
+/// Words of the names of software rasterizers.
+const SOFTWARE: [&str; 4] = ["swiftshader", "llvmpipe", "warp", "basic render"];
+
+/// Returns the adapter of a page.
+pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
+    let adapter = &hello.adapter;
+    let parts = [&adapter.description, &adapter.vendor, &adapter.architecture];
+    let words = parts.map(|part| part.to_lowercase()).join(" ");
+    let software = adapter.fallback || SOFTWARE.iter().any(|word| words.contains(word));
+    let named = [&adapter.vendor, &adapter.architecture, &adapter.device];
+    let named: Vec<&str> = named
+        .into_iter()
+        .map(String::as_str)
+        .filter(|part| !part.is_empty())
+        .collect();
+    let device = match (adapter.description.as_str(), named.join(" ").as_str()) {
+        ("", "") => "a device without a name".to_owned(),
+        ("", named) => named.to_owned(),
+        (description, _) => description.to_owned(),
+    };
+    AdapterInfo {
+        name: name.to_owned(),
+        backend: "webgpu".to_owned(),
+        device,
+        driver: hello.browser.name.clone(),
+        driver_version: hello.browser.version.clone(),
+        driver_id: named.join(", "),
+        api_version: "WebGPU".to_owned(),
+        software,
+    }
+}
+
+/// Returns the device of a page as lowering sees it; the name of the limit that it does not tell, if there is one.
+pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
+    let has = |name: &str| hello.features.iter().any(|feature| feature == name);
+    let limit = |name: &str| {
+        let value = hello.limits.get(name);
+        let value = value.and_then(|value| u32::try_from(*value).ok());
+        value.ok_or_else(|| format!("the page does not tell the limit {name}"))
+    };
+    let storage = limit("maxStorageBuffersInFragmentStage")
+        .or_else(|_| limit("maxStorageBuffersPerShaderStage"))?;
+    Ok(Device::new(Offer {
+        formats: standard_formats(has),
+        abilities: Abilities {
+            copies: true,
+            casts: true,
+        },
+        features: features(has, storage > 0),
+        indirect: true,
+        indirect_first_instance: has("indirect-first-instance"),
+        complete: true,
+        limits: DeviceLimits {
+            texture_2d: limit("maxTextureDimension2D")?,
+            texture_3d: limit("maxTextureDimension3D")?,
+            color_attachments: limit("maxColorAttachments")?,
+            color_bytes_per_sample: limit("maxColorAttachmentBytesPerSample")?,
+            uniform_alignment: limit("minUniformBufferOffsetAlignment")?,
+            storage_alignment: limit("minStorageBufferOffsetAlignment")?,
+        },
+    }))
+}
+
+/// Returns the features of scenes that a device has, beyond those of every device.
+fn features(has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<Feature> {
+    let found = [
+        (Feature::BaseVertex, true),
+        (Feature::ClipDistances, has("clip-distances")),
+        (Feature::DepthBiasClamp, true),
+        (Feature::DepthClamp, has("depth-clip-control")),
+        (Feature::DualSourceBlending, has("dual-source-blending")),
+        (Feature::FragmentStorage, storage),
+        (Feature::IndependentBlend, true),
+        (Feature::SampleShading, true),
+        (Feature::StorageCounters, storage),
+    ];
+    let found = found.into_iter().filter(|(_, has)| *has);
+    found.map(|(feature, _)| feature).collect()
+}

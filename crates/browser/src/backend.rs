@@ -1,0 +1,298 @@
+//! The backend over a page.
+
+use crate::adapter;
+use crate::keeper::{Browser, Kept};
+use crate::message::{Failed, FailedKind, Request, Times};
+use crate::server::Server;
+use crate::session::Session;
+use etalon_backend::{
+    AdapterInfo, Backend, BackendError, Fault, FrameTime, Prepared, Recording, Unavailable,
+};
+use etalon_frame::{Frame, Limits};
+use etalon_scene::Scene;
+use etalon_webgpu::{CallList, Device, lower};
+use std::cell::{Cell, RefCell};
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::net::SocketAddr;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// The time in which a browser must open the page.
+const OPENING: Duration = Duration::from_secs(45);
+/// The time in which a person must open it.
+const WAITING: Duration = Duration::from_secs(24 * 60 * 60);
+
+/// Options for [`open`].
+#[derive(Debug)]
+pub struct Options {
+    /// The way to a browser.
+    pub source: Source,
+    /// Keeps the uncaptured errors of the device for [`Backend::messages`].
+    pub validate: bool,
+    /// A fault that a test of the suite plants in what is read back.
+    pub fault: Option<Fault>,
+    /// Records the calls, for [`Backend::recording`].
+    pub record: bool,
+}
+
+/// The way to a browser.
+#[derive(Debug)]
+pub enum Source {
+    /// It is started, by a keeper with this command.
+    Started(Browser, Command),
+    /// A person opens the page at this address, behind this token.
+    Listening(SocketAddr, String),
+}
+
+/// A device in a browser.
+pub struct BrowserBackend {
+    info: AdapterInfo,
+    device: Device,
+    features: Vec<String>,
+    session: Session,
+    options: Options,
+    next_slot: Cell<u64>,
+    next_number: Cell<u64>,
+    /// Scenes that the page can forget.
+    dropped: RefCell<Vec<u64>>,
+    messages: RefCell<Vec<String>>,
+    recorded: RefCell<Option<CallList>>,
+}
+
+/// Serves the page, and waits until a browser has opened it.
+///
+/// # Errors
+/// If no page opens, or it has no device.
+pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavailable> {
+    let failed = |reason: String| Unavailable::new(reason, "see the browser's own messages");
+    let (address, token) = match &options.source {
+        Source::Started(..) => (SocketAddr::from(([127, 0, 0, 1], 0)), token()),
+        Source::Listening(address, token) => (*address, token.clone()),
+    };
+    let server = Server::start(address, &token).map_err(|error| {
+        Unavailable::new(
+            format!("{address} cannot be listened at: {error}"),
+            "choose another port",
+        )
+    })?;
+    let (kept, patience) = match &mut options.source {
+        Source::Started(browser, keeper) => {
+            let url = format!("http://{}/{token}/", server.address);
+            let keeper = std::mem::replace(keeper, Command::new(""));
+            let kept = Kept::start(keeper, browser, &url);
+            let kept = kept.map_err(|error| failed(format!("no browser is started: {error}")))?;
+            (Some(kept), OPENING)
+        }
+        Source::Listening(..) => (None, WAITING),
+    };
+    let session = Session::new(server, kept);
+    let hello = session
+        .greeting(Instant::now() + patience)
+        .map_err(failed)?;
+    Ok(BrowserBackend {
+        info: adapter::info(name, &hello),
+        device: adapter::device(&hello).map_err(failed)?,
+        features: hello.features,
+        session,
+        options,
+        next_slot: Cell::new(0),
+        next_number: Cell::new(0),
+        dropped: RefCell::default(),
+        messages: RefCell::default(),
+        recorded: RefCell::default(),
+    })
+}
+
+impl Backend for BrowserBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.device.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        let mut list = lower(&self.device, scene).map_err(BackendError::NotSupported)?;
+        let recorded = self.options.record.then(|| list.clone());
+        let mut contents = Vec::new();
+        let mut places = Vec::new();
+        for (place, buffer) in list.buffers.iter_mut().enumerate() {
+            if !buffer.contents.is_empty() {
+                places.push((place, buffer.contents.len()));
+                contents.push(std::mem::take(&mut buffer.contents));
+            }
+        }
+        Ok(Box::new(PreparedScene {
+            backend: self,
+            slot: step(&self.next_slot),
+            list,
+            places,
+            contents,
+            recorded,
+            known: false,
+            submitted: false,
+            frame: None,
+        }))
+    }
+
+    fn recording(&self) -> Option<Recording> {
+        let list = self.recorded.borrow_mut().take()?;
+        let device = &self.info.device;
+        etalon_webgpu::recording(&list, "webgpu", device, self.features.clone()).ok()
+    }
+
+    fn messages(&self) -> Vec<String> {
+        let messages = self.messages.take();
+        if self.options.validate {
+            messages
+        } else {
+            Vec::new()
+        }
+    }
+}
+
+/// Returns a word that nobody guesses: 128 bits of the keys that the system gives for hash tables.
+pub fn token() -> String {
+    let word = || RandomState::new().build_hasher().finish();
+    format!("{:016x}{:016x}", word(), word())
+}
+
+fn step(counter: &Cell<u64>) -> u64 {
+    counter.replace(counter.get() + 1)
+}
+
+/// A scene whose list the page knows once it was drawn.
+struct PreparedScene<'a> {
+    backend: &'a BrowserBackend,
+    slot: u64,
+    list: CallList,
+    places: Vec<(usize, usize)>,
+    contents: Vec<Vec<u8>>,
+    recorded: Option<CallList>,
+    /// True if the page has the list.
+    known: bool,
+    submitted: bool,
+    /// The bytes of the last frame, if they came with its times.
+    frame: Option<Vec<u8>>,
+}
+
+impl PreparedScene<'_> {
+    /// Draws frames and reads the last one. A page that is opened again draws anew.
+    fn ask(&mut self, frames: u32, read: bool) -> Result<(Vec<Times>, Vec<u8>), BackendError> {
+        let backend = self.backend;
+        loop {
+            let new = !self.known;
+            let request = Request {
+                number: step(&backend.next_number),
+                dropped: backend.dropped.take(),
+                slot: self.slot,
+                list: new.then_some(&self.list),
+                contents: if new { self.places.clone() } else { Vec::new() },
+                // A page that is new to the scene has no frame to read.
+                frames: frames.max(new.into()),
+                read,
+            };
+            let contents = if new { self.contents.as_slice() } else { &[] };
+            let answer = backend.session.ask(&request, contents)?;
+            let Some((answer, bytes)) = answer else {
+                if !backend.session.comes_back() {
+                    backend.session.give_up();
+                }
+                self.wait_for_page()?;
+                continue;
+            };
+            backend.messages.borrow_mut().extend(answer.messages);
+            if let Some(failed) = answer.error {
+                return Err(error(failed));
+            }
+            self.known = true;
+            return Ok((answer.times, bytes));
+        }
+    }
+
+    /// Waits until a person opens the page again, on the same device.
+    fn wait_for_page(&mut self) -> Result<(), BackendError> {
+        let backend = self.backend;
+        self.known = false;
+        let hello = backend.session.greeting(Instant::now() + WAITING);
+        let hello = hello.map_err(BackendError::lost)?;
+        let info = adapter::info(&backend.info.name, &hello);
+        if info == backend.info {
+            Ok(())
+        } else {
+            Err(BackendError::lost(format!(
+                "another device has opened the page: {}, {} {}",
+                info.device, info.driver, info.driver_version
+            )))
+        }
+    }
+}
+
+impl Prepared for PreparedScene<'_> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        // A frame that is drawn once is read in the same message.
+        let read = !self.submitted;
+        let (times, bytes) = self.ask(1, read)?;
+        self.submitted = true;
+        self.frame = read.then_some(bytes);
+        let none = || BackendError::internal("the page tells no time");
+        let times = times.first().ok_or_else(none)?;
+        Ok(FrameTime {
+            cpu: duration(times.cpu),
+            gpu: times.gpu.map(duration),
+            wall: duration(times.wall),
+        })
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        if !self.submitted {
+            return Err(BackendError::internal(
+                "read back before anything was drawn",
+            ));
+        }
+        let bytes = match self.frame.take() {
+            Some(bytes) => bytes,
+            None => self.ask(0, true)?.1,
+        };
+        let frame = self.list.reading.frame(&bytes);
+        let mut frame =
+            frame.ok_or_else(|| BackendError::internal("the page's frame is too short"))?;
+        if let Some(Fault::Read(fault)) = self.backend.options.fault {
+            for image in &mut frame.images {
+                fault.apply(&mut image.codes, image.size, image.samples, &image.channels);
+            }
+        }
+        if let Some(list) = &self.recorded {
+            self.backend.recorded.replace(Some(list.clone()));
+        }
+        Ok(frame)
+    }
+}
+
+impl Drop for PreparedScene<'_> {
+    fn drop(&mut self) {
+        if self.known {
+            self.backend.dropped.borrow_mut().push(self.slot);
+        }
+    }
+}
+
+/// Milliseconds of the page's clock, which garbage cannot make negative.
+fn duration(milliseconds: f64) -> Duration {
+    Duration::try_from_secs_f64(milliseconds / 1e3).unwrap_or_default()
+}
+
+fn error(failed: Failed) -> BackendError {
+    let Failed {
+        kind,
+        what,
+        message,
+    } = failed;
+    match kind {
+        FailedKind::Lost => BackendError::lost(message),
+        FailedKind::Resource => BackendError::refused(what, message),
+        FailedKind::Shader => BackendError::shader(what, message),
+        FailedKind::Internal => BackendError::internal_of(what, message),
+    }
+}

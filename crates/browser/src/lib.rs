@@ -1,0 +1,20 @@
+//! WebGPU as a browser has it.
+//!
+//! A worker serves a page on a port of this machine, waits for its WebSocket, and sends it lists of WebGPU calls
+//! ([`etalon_webgpu`]); the page executes them on its device and returns the bytes that are read. A scene is drawn by
+//! one message there and one back. The page knows nothing of scenes.
+//!
+//! The browser is started by the worker, or by a person who opens the page. A started one is kept by a process of its
+//! own ([`keep()`]), which ends it together with the worker however that ends.
+
+mod adapter;
+mod backend;
+mod keeper;
+mod message;
+mod page;
+mod request_head;
+mod server;
+mod session;
+
+pub use backend::{BrowserBackend, Options, Source, open, token};
+pub use keeper::{Browser, keep};

@@ -1,0 +1,168 @@
+//! The messages between worker and page.
+//!
+//! The page greets with JSON. From then on a message is binary: the length of its header in four bytes, little-endian,
+//! the header as JSON, and bytes.
+
+use etalon_webgpu::CallList;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The version of the protocol.
+pub(crate) const PROTOCOL: u32 = 1;
+
+/// The first message of a page.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Greeting {
+    /// It has a device.
+    Hello(Box<Hello>),
+    /// It has none.
+    Unavailable {
+        /// The version of its protocol.
+        protocol: u32,
+        /// The reason.
+        unavailable: String,
+    },
+}
+
+/// A device as a page describes it.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Hello {
+    /// The version of the page's protocol.
+    pub(crate) protocol: u32,
+    pub(crate) browser: Named,
+    pub(crate) adapter: Adapter,
+    /// The features of the device, by WebGPU's names.
+    pub(crate) features: Vec<String>,
+    /// The limits of the device, by WebGPU's names.
+    pub(crate) limits: BTreeMap<String, u64>,
+}
+
+/// A browser.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) version: String,
+}
+
+/// GPUAdapterInfo. Browsers leave members empty that would tell a person's machine.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Adapter {
+    pub(crate) vendor: String,
+    pub(crate) architecture: String,
+    pub(crate) device: String,
+    pub(crate) description: String,
+    pub(crate) fallback: bool,
+}
+
+/// A request to a page.
+#[derive(Debug, Serialize)]
+pub(crate) struct Request<'l> {
+    /// The number, which the answer repeats.
+    pub(crate) number: u64,
+    /// Scenes that are forgotten first.
+    pub(crate) dropped: Vec<u64>,
+    /// The scene.
+    pub(crate) slot: u64,
+    /// Its calls, if they are new to the page, with empty buffers.
+    pub(crate) list: Option<&'l CallList>,
+    /// The contents of its buffers: places and lengths. The bytes stand behind the header in this order.
+    pub(crate) contents: Vec<(usize, usize)>,
+    /// So many frames are drawn.
+    pub(crate) frames: u32,
+    /// True if the last frame is read.
+    pub(crate) read: bool,
+}
+
+/// The header of a page's answer. What is read stands behind it.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Answer {
+    pub(crate) number: u64,
+    pub(crate) times: Vec<Times>,
+    pub(crate) error: Option<Failed>,
+    /// Uncaptured errors since the last answer.
+    pub(crate) messages: Vec<String>,
+}
+
+/// The times of a frame in milliseconds.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(crate) struct Times {
+    pub(crate) cpu: f64,
+    pub(crate) gpu: Option<f64>,
+    pub(crate) wall: f64,
+}
+
+/// A failure of the device.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Failed {
+    pub(crate) kind: FailedKind,
+    /// What was done.
+    pub(crate) what: String,
+    /// The device's words.
+    pub(crate) message: String,
+}
+
+/// The kind of a failure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FailedKind {
+    /// The device was lost.
+    Lost,
+    /// It refused an object.
+    Resource,
+    /// It refused a shader.
+    Shader,
+    /// Everything else.
+    Internal,
+}
+
+/// Returns a message.
+///
+/// # Errors
+/// If the header holds a number that is not finite, or is longer than 4 GiB.
+pub(crate) fn packed<'b>(
+    header: &impl Serialize,
+    parts: impl Iterator<Item = &'b [u8]>,
+) -> Result<Vec<u8>, String> {
+    let header = serde_json::to_vec(header).map_err(|error| error.to_string())?;
+    let length = u32::try_from(header.len()).map_err(|_| "the scene is too large".to_owned())?;
+    let mut message = length.to_le_bytes().to_vec();
+    message.extend(header);
+    parts.for_each(|part| message.extend(part));
+    Ok(message)
+}
+
+/// Returns the header of a message and the bytes behind it.
+///
+/// # Errors
+/// If it is none.
+pub(crate) fn unpacked<T: DeserializeOwned>(message: &[u8]) -> Result<(T, &[u8]), String> {
+    let short = || "a message ends in its header".to_owned();
+    let (length, rest) = message.split_first_chunk().ok_or_else(short)?;
+    let length = u32::from_le_bytes(*length) as usize;
+    let (header, bytes) = rest.split_at_checked(length).ok_or_else(short)?;
+    let header = serde_json::from_slice(header).map_err(|error| error.to_string())?;
+    Ok((header, bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_keeps_its_header_and_its_bytes() {
+        let parts: [&[u8]; 2] = [b"ab", b"c"];
+        let message = packed(&7, parts.into_iter()).unwrap();
+        assert_eq!(unpacked::<u32>(&message), Ok((7, b"abc".as_slice())));
+    }
+
+    #[test]
+    fn garbage_is_refused() {
+        for garbage in [&b""[..], b"\x01\0\0", b"\xff\xff\xff\xff7", b"\x01\0\0\0x"] {
+            assert!(unpacked::<u32>(garbage).is_err(), "{garbage:?}");
+        }
+        let header = r#"{"number":1,"times":[],"error":{"kind":"worse","what":"","message":""},"messages":[]}"#;
+        assert!(serde_json::from_str::<Answer>(header).is_err());
+    }
+}

@@ -1,0 +1,33 @@
+//! The files of the page.
+
+/// A file that the worker serves.
+pub(crate) struct File {
+    /// The path behind the token.
+    pub(crate) path: &'static str,
+    /// Its media type.
+    pub(crate) media: &'static str,
+    /// Its text.
+    pub(crate) text: &'static str,
+}
+
+/// All of them.
+pub(crate) const FILES: [File; 3] = [
+    File {
+        path: "",
+        media: "text/html; charset=utf-8",
+        text: include_str!("../page/index.html"),
+    },
+    File {
+        path: "executor.js",
+        media: "text/javascript; charset=utf-8",
+        text: include_str!("../page/executor.js"),
+    },
+    File {
+        path: "page.js",
+        media: "text/javascript; charset=utf-8",
+        text: include_str!("../page/page.js"),
+    },
+];
+
+/// The path of the WebSocket.
+pub(crate) const SOCKET: &str = "socket";

@@ -1,0 +1,170 @@
+//! The server of the page: its files, and one WebSocket.
+
+use crate::page::{FILES, SOCKET};
+use crate::request_head::{MAX_BYTES, RequestHead};
+use std::io::{self, Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+use tungstenite::WebSocket;
+use tungstenite::handshake::server::{Request, Response};
+use tungstenite::protocol::WebSocketConfig;
+
+/// The longest wait for the head of a request: browsers open connections ahead of their needs.
+const HEAD_TIMEOUT: Duration = Duration::from_secs(20);
+/// The pause between looks at a head that has not come whole.
+const PAUSE: Duration = Duration::from_millis(1);
+/// The longest message that a page may send.
+const MAX_MESSAGE: usize = 1 << 30;
+
+/// Headers of every answer. The last two let the page's clock tick in 5 µs and not in 100.
+const HEADERS: &str = "Cache-Control: no-store\r\n\
+    Connection: close\r\n\
+    Content-Security-Policy: default-src 'none'; script-src 'self'; connect-src 'self'; img-src data:\r\n\
+    Referrer-Policy: no-referrer\r\n\
+    X-Content-Type-Options: nosniff\r\n\
+    Cross-Origin-Opener-Policy: same-origin\r\n\
+    Cross-Origin-Embedder-Policy: require-corp\r\n";
+
+/// The socket of a page. While it lives, no other page is served.
+pub(crate) struct Socket {
+    pub(crate) socket: WebSocket<TcpStream>,
+    taken: Arc<AtomicBool>,
+}
+
+impl Drop for Socket {
+    fn drop(&mut self) {
+        self.taken.store(false, Ordering::SeqCst);
+    }
+}
+
+/// A server on a port.
+pub(crate) struct Server {
+    /// Where it listens.
+    pub(crate) address: SocketAddr,
+    sockets: Receiver<Socket>,
+}
+
+impl Server {
+    /// Starts to serve at an address, behind a token.
+    ///
+    /// # Errors
+    /// If the address cannot be had.
+    pub(crate) fn start(address: SocketAddr, token: &str) -> io::Result<Self> {
+        let listener = TcpListener::bind(address)?;
+        let address = listener.local_addr()?;
+        let (sender, sockets) = channel();
+        let token: Arc<str> = token.into();
+        let taken = Arc::new(AtomicBool::new(false));
+        thread::Builder::new().spawn(move || {
+            for stream in listener.incoming().flatten() {
+                let (token, taken, sender) =
+                    (Arc::clone(&token), Arc::clone(&taken), sender.clone());
+                // A connection that brings nothing must not keep others waiting. Its errors are its own.
+                let _ =
+                    thread::Builder::new().spawn(move || serve(stream, &token, &taken, &sender));
+            }
+        })?;
+        Ok(Self { address, sockets })
+    }
+
+    /// Returns the next socket of a page, if one comes before `deadline` and while `waits`.
+    pub(crate) fn socket(
+        &self,
+        deadline: Instant,
+        mut waits: impl FnMut() -> bool,
+    ) -> Option<Socket> {
+        loop {
+            match self.sockets.recv_timeout(Duration::from_millis(50)) {
+                Ok(socket) => return Some(socket),
+                Err(RecvTimeoutError::Timeout) if Instant::now() < deadline && waits() => {}
+                Err(_) => return None,
+            }
+        }
+    }
+}
+
+/// Answers the request of a connection.
+fn serve(
+    mut stream: TcpStream,
+    token: &str,
+    taken: &Arc<AtomicBool>,
+    sockets: &Sender<Socket>,
+) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    stream.set_read_timeout(Some(HEAD_TIMEOUT))?;
+    stream.set_write_timeout(Some(HEAD_TIMEOUT))?;
+    let Some(head) = peek_head(&stream)? else {
+        return answer(&mut stream, "400 Bad Request", "text/plain", "");
+    };
+    let path = head.path_behind(token);
+    if head.upgrades && path == Some(SOCKET) && !head.is_foreign() {
+        if taken.swap(true, Ordering::SeqCst) {
+            skip(&mut stream, head.length)?;
+            return answer(
+                &mut stream,
+                "409 Conflict",
+                "text/plain",
+                "another page is open",
+            );
+        }
+        let taken = Arc::clone(taken);
+        let mut config = WebSocketConfig::default();
+        config.max_message_size = Some(MAX_MESSAGE);
+        config.max_frame_size = Some(MAX_MESSAGE);
+        #[expect(clippy::result_large_err, reason = "the signature is tungstenite's")]
+        let admit = |_: &Request, response: Response| Ok(response);
+        match tungstenite::accept_hdr_with_config(stream, admit, Some(config)) {
+            // A worker that has ended takes none.
+            Ok(socket) => drop(sockets.send(Socket { socket, taken })),
+            Err(_) => taken.store(false, Ordering::SeqCst),
+        }
+        return Ok(());
+    }
+    skip(&mut stream, head.length)?;
+    let file = path.and_then(|path| FILES.iter().find(|file| file.path == path));
+    match file {
+        _ if head.is_foreign() => answer(&mut stream, "403 Forbidden", "text/plain", ""),
+        Some(file) => answer(&mut stream, "200 OK", file.media, file.text),
+        None => answer(&mut stream, "404 Not Found", "text/plain", ""),
+    }
+}
+
+/// Returns the head of the request without taking it from the stream: the handshake of a WebSocket reads it again.
+/// `None` if it is none.
+fn peek_head(stream: &TcpStream) -> io::Result<Option<RequestHead>> {
+    let mut bytes = vec![0; MAX_BYTES];
+    let begun = Instant::now();
+    let mut known = 0;
+    loop {
+        let length = stream.peek(&mut bytes)?;
+        match RequestHead::parse(&bytes[..length]) {
+            Ok(Some(head)) => return Ok(Some(head)),
+            Ok(None) if length < MAX_BYTES && length > 0 && begun.elapsed() < HEAD_TIMEOUT => {
+                if length == known {
+                    thread::sleep(PAUSE);
+                }
+                known = length;
+            }
+            _ => return Ok(None),
+        }
+    }
+}
+
+/// Takes the head of a request from the stream: closing with bytes unread would cut off the answer.
+fn skip(stream: &mut TcpStream, length: usize) -> io::Result<()> {
+    stream.read_exact(&mut vec![0; length])
+}
+
+fn answer(stream: &mut TcpStream, status: &str, media: &str, text: &str) -> io::Result<()> {
+    let length = text.len();
+    let head = format!(
+        "HTTP/1.1 {status}\r\nContent-Type: {media}\r\nContent-Length: {length}\r\n{HEADERS}\r\n"
+    );
+    stream.write_all(head.as_bytes())?;
+    stream.write_all(text.as_bytes())?;
+    stream.flush()
+}

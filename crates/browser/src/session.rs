@@ -1,0 +1,168 @@
+//! The connection with a page.
+
+use crate::keeper::Kept;
+use crate::message::{Answer, Greeting, Hello, PROTOCOL, Request, packed, unpacked};
+use crate::server::{Server, Socket};
+use etalon_backend::BackendError;
+use std::cell::RefCell;
+use std::time::{Duration, Instant};
+use tungstenite::{Error, Message};
+
+/// The time without a message after which the page's browser is asked whether it is there.
+const SILENCE: Duration = Duration::from_secs(10);
+/// The time in which a page must greet.
+const GREETING: Duration = Duration::from_secs(40);
+
+/// A server, its page and the browser that shows it.
+pub(crate) struct Session {
+    server: Server,
+    socket: RefCell<Option<Socket>>,
+    /// The browser, if this worker started it.
+    kept: RefCell<Option<Kept>>,
+}
+
+/// Why a page does not answer.
+enum Gone {
+    /// Its connection ended.
+    Closed,
+    /// It sent something else than an answer.
+    Garbage(String),
+}
+
+impl Session {
+    pub(crate) fn new(server: Server, kept: Option<Kept>) -> Self {
+        Self {
+            server,
+            socket: RefCell::new(None),
+            kept: RefCell::new(kept),
+        }
+    }
+
+    /// Waits for a page until `deadline`. Returns its description of the device, or the reason for which there is none.
+    pub(crate) fn greeting(&self, deadline: Instant) -> Result<Hello, String> {
+        let lives = || {
+            let mut kept = self.kept.borrow_mut();
+            kept.as_mut().is_none_or(Kept::lives)
+        };
+        let Some(mut socket) = self.server.socket(deadline, lives) else {
+            return Err(if lives() {
+                "no page has opened its connection".to_owned()
+            } else {
+                "the browser has ended before it opened the page".to_owned()
+            });
+        };
+        let message = receive(&mut socket, Some(GREETING));
+        let text = match message {
+            Ok(Message::Text(text)) => text,
+            Ok(_) => return Err("the page's first message is no greeting".to_owned()),
+            Err(_) => return Err("the page has closed its connection before a greeting".to_owned()),
+        };
+        let greeting: Greeting = serde_json::from_str(&text)
+            .map_err(|error| format!("the page's first message is no greeting: {error}"))?;
+        let (protocol, hello) = match greeting {
+            Greeting::Hello(hello) => (hello.protocol, Ok(*hello)),
+            Greeting::Unavailable {
+                protocol,
+                unavailable,
+            } => (protocol, Err(unavailable)),
+        };
+        if protocol != PROTOCOL {
+            return Err("the page is of another version; load it again".to_owned());
+        }
+        let hello = hello?;
+        self.socket.replace(Some(socket));
+        Ok(hello)
+    }
+
+    /// True if somebody else opened the page, who may open it again.
+    pub(crate) fn comes_back(&self) -> bool {
+        self.kept.borrow().is_none()
+    }
+
+    /// Sends a request and returns the header and the bytes of its answer; `None` if the connection ended before.
+    ///
+    /// # Errors
+    /// If the request cannot be sent, or the answer is none.
+    pub(crate) fn ask(
+        &self,
+        request: &Request<'_>,
+        contents: &[Vec<u8>],
+    ) -> Result<Option<(Answer, Vec<u8>)>, BackendError> {
+        let message = packed(request, contents.iter().map(Vec::as_slice));
+        let message =
+            message.map_err(|error| BackendError::internal_of("a list is not sent", error))?;
+        let mut socket = self.socket.borrow_mut();
+        let answer = match socket.as_mut() {
+            Some(socket) => exchange(socket, message),
+            None => Err(Gone::Closed),
+        };
+        match answer {
+            Ok((answer, bytes)) if answer.number == request.number => Ok(Some((answer, bytes))),
+            Ok(_) => Err(garbage("the answer to another request")),
+            Err(Gone::Garbage(why)) => Err(garbage(&why)),
+            Err(Gone::Closed) => {
+                *socket = None;
+                Ok(None)
+            }
+        }
+    }
+
+    /// Ends this process: the browser that it started has ended, or its page has. What the browser said stands in
+    /// standard error.
+    pub(crate) fn give_up(&self) -> ! {
+        if let Some(kept) = self.kept.borrow_mut().as_mut() {
+            kept.wait();
+        }
+        eprintln!("the page has ended");
+        std::process::exit(1)
+    }
+}
+
+fn garbage(why: &str) -> BackendError {
+    BackendError::internal_of("the page's answer is none", why)
+}
+
+fn exchange(socket: &mut Socket, message: Vec<u8>) -> Result<(Answer, Vec<u8>), Gone> {
+    let sent = socket.socket.send(Message::binary(message));
+    sent.map_err(|_| Gone::Closed)?;
+    match receive(socket, None) {
+        Ok(Message::Binary(message)) => {
+            let (answer, bytes) = unpacked(&message).map_err(Gone::Garbage)?;
+            Ok((answer, bytes.to_vec()))
+        }
+        Ok(_) => Err(Gone::Garbage("it is text".to_owned())),
+        Err(Error::Capacity(error)) => Err(Gone::Garbage(error.to_string())),
+        Err(_) => Err(Gone::Closed),
+    }
+}
+
+/// Returns the next message that is no control frame. A browser that is silent is asked whether it is there: a phone
+/// that is locked closes nothing.
+fn receive(socket: &mut Socket, within: Option<Duration>) -> Result<Message, Error> {
+    let begun = Instant::now();
+    let stream = socket.socket.get_ref();
+    stream.set_read_timeout(Some(SILENCE))?;
+    let mut asked = false;
+    loop {
+        match socket.socket.read() {
+            Ok(message @ (Message::Text(_) | Message::Binary(_))) => return Ok(message),
+            Ok(Message::Close(_)) => return Err(Error::ConnectionClosed),
+            Ok(_) => asked = false,
+            Err(Error::Io(error)) if is_timeout(&error) => {
+                if asked || within.is_some_and(|within| begun.elapsed() > within) {
+                    return Err(Error::ConnectionClosed);
+                }
+                socket.socket.send(Message::Ping(Default::default()))?;
+                asked = true;
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn is_timeout(error: &std::io::Error) -> bool {
+    matches!(
+        error.kind(),
+        std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut
+    )
+}

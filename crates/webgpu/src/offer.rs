@@ -1,0 +1,219 @@
+//! What a device offers, as the limits that scenes are held against.
+
+use crate::device::{Abilities, Device, SAMPLES, read_path, samples_are_exact};
+use crate::path::paths;
+use etalon_frame::{
+    Api, ApiVersion, Feature, FormatSupport, Limits, Requirement, TextureFormat,
+    standard_sample_positions,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// WebGPU does not report it; 4 is the least that any API under it allows.
+const SUB_PIXEL_BITS: u8 = 4;
+/// The largest size of a texel in the sum over a pass's colour attachments
+/// (maxColorAttachmentBytesPerSample).
+const MOST_TEXEL_BYTES: u32 = 16;
+/// The largest viewport coordinate in a scene, including the far edge.
+const VIEWPORT_REACH: u32 = 8192;
+
+/// Features of scenes that every WebGPU device has: interpolation and the flat value of the first vertex (WGSL,
+/// Interpolation), first instances of direct draws, sample masks of shaders, and pipelines without a fragment shader
+/// in passes without colour.
+const EVERYWHERE: [Feature; 6] = [
+    Feature::CentroidInterpolation,
+    Feature::LinearInterpolation,
+    Feature::FirstInstance,
+    Feature::FirstProvokingVertex,
+    Feature::FragmentShaderAbsent,
+    Feature::SampleMaskOutput,
+];
+
+/// What a device offers.
+#[derive(Clone, Debug)]
+pub struct Offer {
+    /// Formats whose textures can be uploaded, fetched from and read, and what else they can be used for.
+    pub formats: BTreeMap<TextureFormat, Uses>,
+    /// What the limits do not tell.
+    pub abilities: Abilities,
+    /// Features of scenes, besides those that every device has.
+    pub features: BTreeSet<Feature>,
+    /// True if it executes indirect draws.
+    pub indirect: bool,
+    /// True if their arguments may name a first instance (feature `indirect-first-instance`).
+    pub indirect_first_instance: bool,
+    /// False if its API says that it has less than WebGPU promises.
+    pub complete: bool,
+    /// GPUSupportedLimits.
+    pub limits: DeviceLimits,
+}
+
+/// The uses of a format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Uses {
+    /// Attachments of it can be drawn to.
+    pub drawn: bool,
+    /// They can be blended into.
+    pub blended: bool,
+    /// They can have several samples, and resolve them if they are colours.
+    pub multisampled: bool,
+}
+
+/// Limits of a device (GPUSupportedLimits).
+#[derive(Clone, Copy, Debug)]
+pub struct DeviceLimits {
+    /// maxTextureDimension2D.
+    pub texture_2d: u32,
+    /// maxTextureDimension3D.
+    pub texture_3d: u32,
+    /// maxColorAttachments.
+    pub color_attachments: u32,
+    /// maxColorAttachmentBytesPerSample.
+    pub color_bytes_per_sample: u32,
+    /// minUniformBufferOffsetAlignment.
+    pub uniform_alignment: u32,
+    /// minStorageBufferOffsetAlignment.
+    pub storage_alignment: u32,
+}
+
+impl Device {
+    /// Returns a device as lowering sees it.
+    pub fn new(offer: Offer) -> Self {
+        let DeviceLimits {
+            texture_2d,
+            texture_3d,
+            uniform_alignment,
+            storage_alignment,
+            ..
+        } = offer.limits;
+        Self {
+            abilities: offer.abilities,
+            max_texture_2d: texture_2d,
+            max_texture_3d: texture_3d,
+            uniform_alignment,
+            storage_alignment,
+            indirect_first_instance: offer.indirect_first_instance,
+            limits: limits(offer),
+        }
+    }
+}
+
+fn limits(offer: Offer) -> Limits {
+    let max_size = offer.limits.texture_2d;
+    let support = |(format, uses): (&TextureFormat, &Uses)| {
+        Some((*format, support(*format, *uses, offer.abilities)?))
+    };
+    let formats = offer.formats.iter().filter_map(support).collect();
+    let exempt = exempt(&offer);
+    let mut features = offer.features;
+    features.extend(EVERYWHERE);
+    // WebGPU limits a viewport to twice the largest texture (setViewport).
+    if 2 * max_size > VIEWPORT_REACH {
+        features.insert(Feature::ViewportOutside);
+    }
+    let most_of_bytes = offer.limits.color_bytes_per_sample / MOST_TEXEL_BYTES;
+    Limits {
+        api: Api::WebGpu,
+        version: ApiVersion::UNKNOWN,
+        properties: BTreeSet::new(),
+        exempt,
+        sub_pixel_bits: SUB_PIXEL_BITS,
+        max_size,
+        max_color_attachments: offer.limits.color_attachments.min(most_of_bytes),
+        formats,
+        paths: paths(offer.indirect, &features),
+        features,
+        // WebGPU requires the standard ones of all adapters (Rasterization).
+        sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
+    }
+}
+
+/// Depth and stencil are of use as attachments alone.
+fn support(format: TextureFormat, uses: Uses, abilities: Abilities) -> Option<FormatSupport> {
+    if !format.is_color() && !uses.drawn {
+        return None;
+    }
+    // WebGPU does not resolve integers (26.1.1).
+    let multisampled =
+        uses.multisampled && !format.is_integer() && samples_are_exact(format, abilities);
+    let samples = match (uses.drawn, multisampled) {
+        (false, _) => Vec::new(),
+        (true, false) => vec![1],
+        (true, true) => vec![1, SAMPLES],
+    };
+    Some(FormatSupport {
+        samples,
+        blendable: uses.drawn && uses.blended && !format.is_integer(),
+        // The adapter does not report which one it uses.
+        depth: format.depth_encodings().to_vec(),
+        read: read_path(format, abilities),
+    })
+}
+
+/// Returns what a device may lack without breaking WebGPU's word: what this crate does not use, and everything where
+/// the device has less than WebGPU.
+fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
+    // Only four targets of the shortest texels fit into WebGPU's bytes.
+    let mut exempt = BTreeSet::from([Requirement::ColorAttachments(4)]);
+    for format in TextureFormat::ALL {
+        if !offer.complete || format.is_integer() || !samples_are_exact(format, offer.abilities) {
+            exempt.insert(Requirement::Samples(format, SAMPLES));
+        }
+        if !offer.complete {
+            exempt.extend([
+                Requirement::Format(format),
+                Requirement::Drawing(format),
+                Requirement::Blending(format),
+            ]);
+        }
+    }
+    if !offer.complete {
+        exempt.extend(Feature::ALL.map(Requirement::Feature));
+    }
+    exempt
+}
+
+/// Returns the formats of a device with these features, by their names in WebGPU (26.1, Texture Format Capabilities).
+/// The device has `core-features-and-limits`.
+pub fn standard_formats(has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, Uses> {
+    let all = Uses {
+        drawn: true,
+        blended: true,
+        multisampled: true,
+    };
+    let unblended = Uses {
+        blended: false,
+        ..all
+    };
+    let when = |feature: &str| if has(feature) { all } else { Uses::default() };
+    let uses = |format: TextureFormat| {
+        Some(match format {
+            TextureFormat::R8Unorm
+            | TextureFormat::Rg8Unorm
+            | TextureFormat::Rgba8Unorm
+            | TextureFormat::Rgba8UnormSrgb
+            | TextureFormat::Bgra8Unorm
+            | TextureFormat::Rgb10a2Unorm
+            | TextureFormat::Rgba16Float => all,
+            TextureFormat::Rgba8Snorm => when("texture-formats-tier1"),
+            TextureFormat::Rg11b10Ufloat => when("rg11b10ufloat-renderable"),
+            TextureFormat::Rgba32Float => Uses {
+                drawn: true,
+                blended: has("float32-blendable"),
+                multisampled: false,
+            },
+            TextureFormat::Depth32FloatStencil8 if !has("depth32float-stencil8") => return None,
+            TextureFormat::Rgba8Uint
+            | TextureFormat::Depth16Unorm
+            | TextureFormat::Depth24Plus
+            | TextureFormat::Depth24PlusStencil8
+            | TextureFormat::Depth32Float
+            | TextureFormat::Depth32FloatStencil8
+            | TextureFormat::Stencil8 => unblended,
+            TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm => {
+                return None;
+            }
+        })
+    };
+    let formats = TextureFormat::ALL.into_iter();
+    formats.filter_map(|f| Some((f, uses(f)?))).collect()
+}
