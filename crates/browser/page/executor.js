@@ -2,11 +2,14 @@
 // commands in the order in which they are recorded (crates/webgpu/src/calls.rs).
 "use strict";
 
-/** The errors that a scope can catch, the most telling last: the first of these that caught one is reported. */
-const FILTERS = ["out-of-memory", "internal", "validation"];
+/** The errors that a scope can catch. Of those of a step, one that comes first here is reported. */
+const FILTERS = ["out-of-memory", "validation", "internal"];
 
 /** The most bytes of timestamps: the begin and the end of a frame. */
 const CLOCK_BYTES = 16;
+
+/** Milliseconds between looks at a device that is not done. */
+const PAUSE = 2;
 
 /** A failure of the device, as the relay reports it. */
 class Failed extends Error {
@@ -63,6 +66,8 @@ class Executor {
   #samplers = new Cache();
   #clock = null;
   #lost = null;
+  /** Steps whose errors are not known yet: nothing waits for the device before a frame is done. */
+  #steps = [];
 
   /** @param {GPUDevice} device */
   constructor(device) {
@@ -74,37 +79,29 @@ class Executor {
   }
 
   /** Makes the objects of a list and fills its buffers with `contents`, a pair of a buffer's place and bytes each. */
-  async prepare(list, contents) {
+  prepare(list, contents) {
     const made = { list, begun: false };
-    try {
-      await this.#watched("making attachments", "resource", () => this.#memory(made, contents));
-      for (const shader of list.shaders) {
-        await this.#shader(shader);
-      }
-      made.layouts = list.layouts.map((entries) => this.#layout(entries));
-      made.samplers = list.samplers.map((sampler) => this.#sampler(sampler));
-      made.pipelines = [];
-      for (const pipeline of list.pipelines) {
-        made.pipelines.push(await this.#pipeline(list, pipeline));
-      }
-      await this.#watched("making bindings", "internal", () => {
-        made.groups = list.groups.map((group) => this.#group(made, group));
-        made.bundles = list.bundles.map((bundle) => this.#bundle(made, bundle));
-      });
-    } catch (error) {
-      this.drop(made);
-      throw error;
-    }
+    this.#step("making attachments", () => this.#memory(made, contents));
+    made.layouts = list.layouts.map((entries) => this.#layout(entries));
+    made.samplers = list.samplers.map((sampler) => this.#sampler(sampler));
+    made.pipelines = list.pipelines.map((pipeline) => this.#pipeline(list, pipeline));
+    this.#step("making bindings", () => {
+      made.groups = list.groups.map((group) => this.#group(made, group));
+      made.bundles = list.bundles.map((bundle) => this.#bundle(made, bundle));
+    });
     return made;
   }
 
-  /** Draws a frame, and waits for the device. Returns its times in milliseconds. */
-  async submit(made) {
+  /**
+   * Draws a frame, and waits for the device. Returns its times in milliseconds, and the bytes that its list reads
+   * back if `read` asks for them: then one wait serves both.
+   */
+  async submit(made, read) {
     const { list } = made;
     const clock = this.#timed && list.frame.flat().some(isTimed) ? this.#clockOf() : null;
     const begin = performance.now();
     let submitted = begin;
-    await this.#watched("drawing a scene", "internal", async () => {
+    const done = this.#step("drawing a scene", () => {
       const buffers = list.frame.map((commands, index) => {
         const encoder = this.#device.createCommandEncoder();
         if (index === 0 && !made.begun) {
@@ -119,34 +116,24 @@ class Executor {
       });
       this.#device.queue.submit(buffers);
       submitted = performance.now();
-      await this.#device.queue.onSubmittedWorkDone();
+      return read ? this.#mapped(made) : this.#device.queue.onSubmittedWorkDone();
     });
     made.begun = true;
-    const done = performance.now();
-    const times = { cpu: submitted - begin, wall: done - begin, gpu: null };
+    await this.#settled(done);
+    const times = { cpu: submitted - begin, wall: performance.now() - begin, gpu: null };
     if (clock !== null) {
-      await clock.mapped.mapAsync(GPUMapMode.READ);
+      await this.#awaited(clock.mapped.mapAsync(GPUMapMode.READ));
       const [start, end] = new BigUint64Array(clock.mapped.getMappedRange());
       times.gpu = end >= start ? Number(end - start) / 1e6 : null;
       clock.mapped.unmap();
     }
-    return times;
+    return [times, read ? bytesOf(made) : null];
   }
 
-  /** Returns the bytes of what a list reads back. */
+  /** Returns the bytes of what a list reads back of its last frame. */
   async read(made) {
-    const { list } = made;
-    const output = made.buffers[list.output];
-    let bytes;
-    await this.#watched("reading a frame back", "internal", async () => {
-      const encoder = this.#device.createCommandEncoder();
-      this.#record(made, encoder, list.read, null);
-      this.#device.queue.submit([encoder.finish()]);
-      await output.mapAsync(GPUMapMode.READ);
-      bytes = new Uint8Array(output.getMappedRange()).slice(0, list.reading.bytes);
-      output.unmap();
-    });
-    return bytes;
+    await this.#settled(this.#step("reading a frame back", () => this.#mapped(made)));
+    return bytesOf(made);
   }
 
   /** Destroys what belongs to a list alone. */
@@ -162,40 +149,99 @@ class Executor {
       cache.clear();
     }
     this.#clock = null;
+    this.#steps = [];
   }
 
-  /** Runs an action and throws its first error. `kind` is the kind of the errors that no scope tells apart. */
-  async #watched(what, kind, action) {
-    if (this.#lost !== null) {
-      throw new Failed("lost", what, this.#lost);
-    }
+  /**
+   * Returns the result of an action, whose errors are looked at when the step is settled.
+   * @param {string} what what the action does
+   * @param {() => T} action
+   * @param {{[filter: string]: {kind: string, what: string}}} told how the errors of a filter are reported, where
+   *   this is not the rule
+   */
+  #step(what, action, told = {}) {
     for (const filter of FILTERS) {
       this.#device.pushErrorScope(filter);
     }
-    let thrown = null;
+    const step = { what, told, thrown: null };
+    let result;
     try {
-      await action();
+      result = action();
     } catch (error) {
-      thrown = error;
+      step.thrown = error;
     }
-    const caught = {};
-    for (const filter of FILTERS.toReversed()) {
-      try {
-        caught[filter] = await this.#device.popErrorScope();
-      } catch {
-        // A lost device has no scopes.
+    // A lost device has no scopes.
+    step.caught = FILTERS.toReversed().map((filter) =>
+      this.#device.popErrorScope().then(
+        (error) => error && { filter, message: error.message },
+        () => null,
+      ),
+    );
+    this.#steps.push(step);
+    if (step.thrown !== null) {
+      throw step.thrown;
+    }
+    return result;
+  }
+
+  /** Waits for the device, and throws the first error of all steps until now. */
+  async #settled(done) {
+    let rejected = null;
+    try {
+      await this.#awaited(done);
+    } catch (error) {
+      rejected = error;
+    }
+    await this.check(rejected);
+  }
+
+  /** Throws the first error of all steps until now, or else `thrown` if something was. */
+  async check(thrown) {
+    const steps = this.#steps.splice(0);
+    for (const step of steps) {
+      const caught = (await Promise.all(step.caught)).filter((error) => error !== null);
+      if (this.#lost !== null) {
+        throw new Failed("lost", step.what, this.#lost);
+      }
+      if (caught.length > 0) {
+        const { filter, message } = caught.at(-1);
+        const rule = { kind: filter === "out-of-memory" ? "resource" : "internal", what: step.what };
+        const { kind, what } = step.told[filter] ?? rule;
+        throw new Failed(kind, what, message);
+      }
+      if (step.thrown !== null) {
+        throw new Failed("internal", step.what, step.thrown.message);
       }
     }
-    if (this.#lost !== null) {
-      throw new Failed("lost", what, this.#lost);
+    if (thrown !== null) {
+      throw thrown;
     }
-    if (caught["out-of-memory"]) {
-      throw new Failed("resource", what, caught["out-of-memory"].message);
+  }
+
+  /** Copies what a list reads into its output, and maps this. */
+  #mapped(made) {
+    const { list } = made;
+    const encoder = this.#device.createCommandEncoder();
+    this.#record(made, encoder, list.read, null);
+    this.#device.queue.submit([encoder.finish()]);
+    return made.buffers[list.output].mapAsync(GPUMapMode.READ);
+  }
+
+  /**
+   * Waits for the device. Firefox looks every 100 ms whether the device is done, and at each submission: empty ones
+   * make it look.
+   */
+  async #awaited(promise) {
+    let settled = false;
+    const done = promise.finally(() => {
+      settled = true;
+    });
+    await Promise.race([done, pause()]);
+    while (!settled) {
+      this.#device.queue.submit([]);
+      await Promise.race([done, pause()]);
     }
-    const found = caught.validation ?? caught.internal ?? thrown;
-    if (found) {
-      throw found instanceof Failed ? found : new Failed(kind, what, found.message);
-    }
+    return done;
   }
 
   #memory(made, contents) {
@@ -237,14 +283,12 @@ class Executor {
     );
   }
 
-  async #shader(shader) {
-    return this.#shaders.get(shader, async () => {
-      let module;
-      await this.#watched(shader.label, "shader", () => {
-        module = this.#device.createShaderModule({ label: shader.label, code: shader.code });
-      });
-      return module;
-    });
+  #shader({ label, code }) {
+    const module = () => this.#device.createShaderModule({ label, code });
+    const told = { kind: "shader", what: label };
+    return this.#shaders.get([label, code], () =>
+      this.#step(label, module, { validation: told, internal: told }),
+    );
   }
 
   #layout(entries) {
@@ -263,23 +307,16 @@ class Executor {
     );
   }
 
-  async #pipeline(list, pipeline) {
+  #pipeline(list, pipeline) {
     const entries = pipeline.layout === null ? [] : list.layouts[pipeline.layout];
     const shader = list.shaders[pipeline.shader];
-    return this.#pipelines.get([shader, entries, pipeline.state], async () => {
-      const module = await this.#shader(shader);
+    const { label } = pipeline.state;
+    return this.#pipelines.get([shader, entries, pipeline.state], () => {
+      const module = this.#shader(shader);
       const layout = this.#layout(entries).pipeline;
-      try {
-        return await this.#device.createRenderPipelineAsync(descriptorOf(pipeline.state, module, layout));
-      } catch (error) {
-        if (this.#lost !== null) {
-          throw new Failed("lost", "making a pipeline", this.#lost);
-        }
-        // An internal error is of the shader, which the driver compiles now.
-        const kind = error.reason === "internal" ? "shader" : "internal";
-        const what = kind === "shader" ? pipeline.state.label : `a pipeline of ${pipeline.state.label}`;
-        throw new Failed(kind, what, error.message);
-      }
+      const make = () => this.#device.createRenderPipeline(descriptorOf(pipeline.state, module, layout));
+      // An internal error is of the shader, which the driver compiles now.
+      return this.#step(`a pipeline of ${label}`, make, { internal: { kind: "shader", what: label } });
     });
   }
 
@@ -364,6 +401,20 @@ class Executor {
       }
     }
   }
+}
+
+/** Waits for some milliseconds. */
+const pause = () =>
+  new Promise((resolve) => {
+    setTimeout(resolve, PAUSE);
+  });
+
+/** Returns the bytes of a list's output, which is mapped. */
+function bytesOf(made) {
+  const output = made.buffers[made.list.output];
+  const bytes = new Uint8Array(output.getMappedRange()).slice(0, made.list.reading.bytes);
+  output.unmap();
+  return bytes;
 }
 
 /** True if a command is a pass that is timed. */

@@ -19,7 +19,7 @@ const FEATURES = [
 ];
 
 /** The pause before another attempt to connect, in milliseconds. */
-const PAUSE = 500;
+const RECONNECTION = 500;
 
 /** What is told of the console with the next answer. */
 const messages = [];
@@ -130,23 +130,33 @@ class Page {
         }
       }
       if (request.list !== null) {
-        const made = await this.#executor.prepare(request.list, contents(request.contents, bytes));
-        this.#scenes.set(request.slot, made);
+        this.#scenes.set(request.slot, this.#executor.prepare(request.list, contents(request.contents, bytes)));
       }
       const made = this.#scenes.get(request.slot);
-      for (let frame = 0; frame < request.frames; frame += 1) {
-        answer.times.push(await this.#executor.submit(made));
+      for (let frame = 1; frame <= request.frames; frame += 1) {
+        const [times, bytes] = await this.#executor.submit(made, request.read && frame === request.frames);
+        answer.times.push(times);
+        output = bytes ?? output;
       }
-      if (request.read) {
+      if (request.read && request.frames === 0) {
         output = await this.#executor.read(made);
       }
-    } catch (error) {
-      const { kind = "internal", what = "executing a list" } = error;
-      answer.error = { kind, what, message: error.message };
+    } catch (thrown) {
+      answer.error = await this.#failure(thrown);
       this.#executor.forget();
     }
     answer.messages = messages.splice(0);
     return packed(answer, output);
+  }
+
+  /** Returns the report of an error, or of the one that came before it on the device. */
+  async #failure(thrown) {
+    try {
+      await this.#executor.check(thrown);
+      return null;
+    } catch ({ kind = "internal", what = "executing a list", message }) {
+      return { kind, what, message };
+    }
   }
 }
 
@@ -203,7 +213,7 @@ async function main() {
   for (;;) {
     await serve();
     await new Promise((resolve) => {
-      setTimeout(resolve, PAUSE);
+      setTimeout(resolve, RECONNECTION);
     });
   }
 }
