@@ -34,7 +34,8 @@ async function browser() {
   const data = navigator.userAgentData;
   try {
     const { fullVersionList = [] } = (await data?.getHighEntropyValues(["fullVersionList"])) ?? {};
-    const brand = fullVersionList.find(({ brand }) => /Chrom|Edge|Opera/.test(brand));
+    const known = /^(Chromium|Google Chrome|Microsoft Edge|Opera)$/;
+    const brand = fullVersionList.findLast(({ brand }) => known.test(brand));
     if (brand !== undefined) {
       return { name: brand.brand, version: brand.version };
     }

@@ -10,17 +10,20 @@ use etalon_backend::{
 };
 use etalon_frame::{Frame, Limits};
 use etalon_scene::Scene;
-use etalon_webgpu::{CallList, Device, lower};
+use etalon_webgpu::{CallList, Device, lower, plant};
 use std::cell::{Cell, RefCell};
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::net::SocketAddr;
 use std::process::Command;
 use std::time::{Duration, Instant};
+use std::{io, thread};
 
 /// The time in which a browser must open the page.
 const OPENING: Duration = Duration::from_secs(45);
 /// The time in which a person must open it.
-const WAITING: Duration = Duration::from_secs(24 * 60 * 60);
+pub const WAITING: Duration = Duration::from_secs(15 * 60);
+/// The time in which the worker before must have left its port.
+const LEAVING: Duration = Duration::from_secs(10);
 
 /// Options for [`open`].
 #[derive(Debug)]
@@ -69,7 +72,7 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
         Source::Started(..) => (SocketAddr::from(([127, 0, 0, 1], 0)), token()),
         Source::Listening(address, token) => (*address, token.clone()),
     };
-    let server = Server::start(address, &token).map_err(|error| {
+    let server = listening(address, &token).map_err(|error| {
         Unavailable::new(
             format!("{address} cannot be listened at: {error}"),
             "choose another port",
@@ -114,6 +117,9 @@ impl Backend for BrowserBackend {
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         let mut list = lower(&self.device, scene).map_err(BackendError::NotSupported)?;
+        if let Some(Fault::Call(fault)) = self.options.fault {
+            plant(fault, &mut list);
+        }
         let recorded = self.options.record.then(|| list.clone());
         let mut contents = Vec::new();
         let mut places = Vec::new();
@@ -148,6 +154,19 @@ impl Backend for BrowserBackend {
             messages
         } else {
             Vec::new()
+        }
+    }
+}
+
+/// Starts a server, as soon as the worker before has left the port.
+fn listening(address: SocketAddr, token: &str) -> io::Result<Server> {
+    let begun = Instant::now();
+    loop {
+        match Server::start(address, token) {
+            Err(error) if error.kind() == io::ErrorKind::AddrInUse && begun.elapsed() < LEAVING => {
+                thread::sleep(Duration::from_millis(50));
+            }
+            other => return other,
         }
     }
 }

@@ -16,5 +16,5 @@ mod request_head;
 mod server;
 mod session;
 
-pub use backend::{BrowserBackend, Options, Source, open, token};
+pub use backend::{BrowserBackend, Options, Source, WAITING, open, token};
 pub use keeper::{Browser, keep};

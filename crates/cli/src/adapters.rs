@@ -7,6 +7,7 @@ mod description;
 mod devices;
 mod discovery;
 mod faulty;
+mod listen;
 mod names;
 mod open;
 mod origin;

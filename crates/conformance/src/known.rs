@@ -101,6 +101,8 @@ pub const KNOWN: &[Known] = &[
         WGPU_SOFTPIPE,
         &[SOFTPIPE_WRONG, WGPU_GL_WRONG, WGPU_SOFTPIPE_WRONG],
     ),
+    driver("webgpu:chromium", Api::WebGpu, BROWSER, &[]),
+    driver("webgpu:firefox", Api::WebGpu, FIREFOX, &[]),
 ];
 
 const NOTHING: Lacks = Lacks {
@@ -174,7 +176,7 @@ const ES_SOFTPIPE: Lacks = Lacks {
     ..ES
 };
 
-const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one clear-commands \
+const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-coverage-without-alpha alpha-to-one clear-commands \
     clip-distance-mask cull-distances fragment-shader-absent-with-color \
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
     depth-output-without-depth front-and-back-culling inherited-queries last-provoking-vertex \
@@ -189,6 +191,28 @@ const WGPU_VULKAN: Lacks = Lacks {
     blending: &["rgba8snorm"],
     samples: &["rgba8snorm rgba8uint depth16unorm"],
     ..NOTHING
+};
+/// A browser has what WebGPU has. Over SwiftShader no second source is offered.
+const BROWSER: Lacks = Lacks {
+    features: &[
+        WGPU_FEATURES,
+        RESOLVES,
+        "conservative-depth dual-source-blending forced-early-tests forced-early-tests-with-depth fragment-invocations",
+    ],
+    drawing: &["rgba8snorm"],
+    blending: &[],
+    samples: &["rgba8snorm rgba8uint rgba32float depth16unorm"],
+    ..WGPU_VULKAN
+};
+const FIREFOX: Lacks = Lacks {
+    features: &[
+        WGPU_FEATURES,
+        RESOLVES,
+        "clip-distances conservative-depth dual-source-blending forced-early-tests forced-early-tests-with-depth \
+        fragment-invocations",
+    ],
+    blending: &["rgba32float"],
+    ..BROWSER
 };
 /// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It has no views of other
 /// formats, and all depths are read by a shader.

@@ -11,6 +11,8 @@ state_enum! {
         AdvancedBlend = "advanced-blend",
         /// Advanced blending of what the same pass has drawn before, in order.
         AdvancedBlendCoherent = "advanced-blend-coherent",
+        /// Alpha to coverage where the first color attachment lacks alpha, holds integers or is absent.
+        AlphaToCoverageWithoutAlpha = "alpha-to-coverage-without-alpha",
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
         /// A number that a draw call adds to every index.

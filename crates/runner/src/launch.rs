@@ -8,7 +8,11 @@ use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::Duration;
 use thiserror::Error;
+
+/// The time that a driver may take to start.
+pub const START_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// The command that starts a worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +29,10 @@ pub struct Launch {
     pub launcher: Option<Launcher>,
     /// The release of the driver, where the adapter's description says it.
     pub release: Option<Release>,
+    /// The longest wait for the adapter to open.
+    pub patience: Duration,
+    /// True if only one worker of the adapter can run at a time.
+    pub alone: bool,
 }
 
 /// A command prefix behind which a worker runs in another userland, a container or on another machine.

@@ -36,7 +36,7 @@ pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
 pub use drawing::draw_frames;
 pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
-pub use launch::{Launch, Launcher, Setup, StartError};
+pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
 pub use run::{Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};

@@ -14,9 +14,6 @@ use etalon_scene::Scene;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// The time that a driver may take to start.
-const START_TIMEOUT: Duration = Duration::from_secs(60);
-
 /// A running worker whose adapter is open.
 pub struct Worker {
     /// The adapter as the worker describes it.
@@ -33,7 +30,7 @@ impl Worker {
     /// When the program cannot be started, says that its adapter is unavailable, or does not answer.
     pub fn start(launch: &Launch) -> Result<Self, StartError> {
         let mut process = WorkerProcess::spawn(launch)?;
-        match process.response(START_TIMEOUT) {
+        match process.response(launch.patience) {
             Ok(Response::Hello(Ok(hello))) => Ok(Self {
                 hello: *hello,
                 release: launch.release.clone(),

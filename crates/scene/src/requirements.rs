@@ -72,6 +72,9 @@ impl Scene {
             let held = pass.depth_stencil;
             let holds_depth = held.is_some_and(|i| self.attachments[i].format.has_depth());
             for draw in &pass.draws {
+                if draw.multisample.alpha_to_coverage && !self.has_alpha(pass) {
+                    needed.insert(Requirement::Feature(Feature::AlphaToCoverageWithoutAlpha));
+                }
                 if draw.shader.writes_depth() && !holds_depth {
                     needed.insert(Requirement::Feature(Feature::DepthOutputWithoutDepth));
                 }
@@ -87,6 +90,17 @@ impl Scene {
             }
         }
         needed
+    }
+}
+
+impl Scene {
+    /// True if the first color attachment of a pass has an alpha channel and can be blended into.
+    fn has_alpha(&self, pass: &Pass) -> bool {
+        let first = pass.color.first();
+        first.is_some_and(|index| {
+            let format = self.attachments[*index].format;
+            format.color_channels().len() == 4 && !format.is_integer()
+        })
     }
 }
 

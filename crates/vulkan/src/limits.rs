@@ -130,6 +130,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::ReversedDepthRange
         | Feature::SampleMaskOutput
         | Feature::SampleMaskOutputWithAlphaToCoverage
+        | Feature::AlphaToCoverageWithoutAlpha
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks
         | Feature::TriangleFans

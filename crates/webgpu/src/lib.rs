@@ -13,6 +13,7 @@ mod calls;
 mod counting;
 mod device;
 mod draw;
+mod fault;
 mod fetch;
 mod format;
 mod lower;
@@ -36,6 +37,7 @@ pub use calls::{
 };
 pub use device::{Abilities, Device, SAMPLES, texture_usages};
 pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, StencilFace};
+pub use fault::plant;
 pub use format::{Format, is_known};
 pub use lower::lower;
 pub use offer::{DeviceLimits, Offer, Uses, standard_formats};

@@ -8,7 +8,7 @@ use crate::objects::Objects;
 use etalon_backend::{BackendError, Fault, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::Scene;
-use etalon_webgpu::{CallList, lower};
+use etalon_webgpu::{CallList, lower, plant};
 use std::time::Instant;
 
 /// A scene as calls, with all objects that they need.
@@ -21,7 +21,10 @@ pub(crate) struct PreparedScene<'a> {
 
 impl<'a> PreparedScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
-        let list = lower(&gpu.facts, scene).map_err(BackendError::NotSupported)?;
+        let mut list = lower(&gpu.facts, scene).map_err(BackendError::NotSupported)?;
+        if let Some(Fault::Call(fault)) = gpu.fault {
+            plant(fault, &mut list);
+        }
         let objects = gpu.guard("preparing a scene", || {
             let mut objects = Objects::new(gpu, &list)?;
             objects.bundles = bundles(gpu, &objects, &list)?;

@@ -7,7 +7,7 @@ use etalon_frame::Api;
 use serde::{Deserialize, Serialize};
 
 macro_rules! faults {
-    ($($(#[$doc:meta])* $fault:ident = $name:literal in $cases:literal $(of $api:ident)?;)+) => {
+    ($($(#[$doc:meta])* $fault:ident = $name:literal in $cases:literal $(of $($api:ident)+)?;)+) => {
         /// A planted fault of a driver's calls.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum CallFault {
@@ -35,13 +35,13 @@ macro_rules! faults {
             /// True if an API has the call.
             pub fn is_in(self, api: Api) -> bool {
                 let apis: &[Api] = match self {
-                    $(Self::$fault => faults!(@apis $($api)?),)+
+                    $(Self::$fault => faults!(@apis $($($api)+)?),)+
                 };
                 apis.contains(&api)
             }
         }
     };
-    (@apis $api:ident) => { &[Api::$api] };
+    (@apis $($api:ident)+) => { &[$(Api::$api),+] };
     (@apis) => { &[Api::Vulkan, Api::OpenGl] };
 }
 
@@ -55,7 +55,7 @@ faults! {
     /// Draws do not reach the second tile of 32×32 of the first row.
     SecondTile = "second-tile" in "size/spanning/*";
     /// Scissor rectangles whose right edge is a multiple of 16 are a column too small.
-    ScissorEdge = "scissor-edge" in "size/tiles/sizes/by=scissor/*";
+    ScissorEdge = "scissor-edge" in "size/tiles/sizes/by=scissor/*" of Vulkan OpenGl WebGpu;
     /// Draw number 256 of a pass is lost.
     Draw256 = "draw-256" in "size/tiles/draws/*";
     /// Indices past 65,535 are lost.
@@ -65,33 +65,33 @@ faults! {
     /// Points and lines past the first 500 are lost.
     Lines500 = "lines-500" in "size/primitives/{lines,points}/*";
     /// The base vertex is 0.
-    BaseVertex = "base-vertex" in "size/offsets/indexed/*";
+    BaseVertex = "base-vertex" in "size/offsets/indexed/*" of Vulkan OpenGl WebGpu;
     /// The first index is one too late.
-    FirstIndex = "first-index" in "size/offsets/indexed/*";
+    FirstIndex = "first-index" in "size/offsets/indexed/*" of Vulkan OpenGl WebGpu;
     /// The first instance is 0.
-    FirstInstance = "first-instance" in "size/instances/*";
+    FirstInstance = "first-instance" in "size/instances/*" of Vulkan OpenGl WebGpu;
     /// Instances after the first are lost.
-    SecondInstance = "second-instance" in "size/instances/*";
+    SecondInstance = "second-instance" in "size/instances/*" of Vulkan OpenGl WebGpu;
     /// The depth comparison is that of the draw before.
-    CompareKept = "compare-kept" in "sequence/state/depth-compare/*";
+    CompareKept = "compare-kept" in "sequence/state/depth-compare/*" of Vulkan OpenGl WebGpu;
     /// The write mask of depth is that of the draw before.
-    DepthWriteKept = "depth-write-kept" in "sequence/state/depth-write/*";
+    DepthWriteKept = "depth-write-kept" in "sequence/state/depth-write/*" of Vulkan OpenGl WebGpu;
     /// Culling is that of the draw before.
-    CullKept = "cull-kept" in "sequence/state/cull/*";
+    CullKept = "cull-kept" in "sequence/state/cull/*" of Vulkan OpenGl WebGpu;
     /// The stencil reference is that of the draw before.
-    StencilReferenceKept = "stencil-reference-kept" in "sequence/state/stencil-*reference/*";
+    StencilReferenceKept = "stencil-reference-kept" in "sequence/state/stencil-*reference/*" of Vulkan OpenGl WebGpu;
     /// The blend constant is that of the draw before.
-    BlendConstantKept = "blend-constant-kept" in "sequence/state/blend-constant/*";
+    BlendConstantKept = "blend-constant-kept" in "sequence/state/blend-constant/*" of Vulkan OpenGl WebGpu;
     /// The viewport is that of the draw before.
-    ViewportKept = "viewport-kept" in "sequence/state/viewport-rect/*";
+    ViewportKept = "viewport-kept" in "sequence/state/viewport-rect/*" of Vulkan OpenGl WebGpu;
     /// The scissor rectangle is that of the draw before.
-    ScissorKept = "scissor-kept" in "sequence/state/scissor/*";
+    ScissorKept = "scissor-kept" in "sequence/state/scissor/*" of Vulkan OpenGl WebGpu;
     /// The first draw of a pass is lost in every pass but the first.
-    LaterPassDraw = "later-pass-draw" in "sequence/depth-left/*";
+    LaterPassDraw = "later-pass-draw" in "sequence/depth-left/*" of Vulkan OpenGl WebGpu;
     /// The first draw after a pass that writes neither depth nor stencil is lost.
     AfterReadOnly = "after-read-only" in "sequence/read-only-between/*" of Vulkan;
     /// Passes after the first clear their colour attachments instead of loading them.
-    LoadClears = "load-clears" in "sequence/stored-and-loaded/*" of Vulkan;
+    LoadClears = "load-clears" in "sequence/stored-and-loaded/*" of Vulkan WebGpu;
     /// Clears of passes after the first draw are skipped.
     ClearSkipped = "clear-skipped" in "sequence/cleared-*/*";
     /// A clear of what was cleared with the same value before is skipped.
@@ -101,7 +101,7 @@ faults! {
     /// A clear of depth sets stencil to 0.
     StencilWithDepth = "stencil-with-depth" in "sequence/cleared-*/*";
     /// Of several targets, only the first is resolved.
-    ResolveFirst = "resolve-first" in "sequence/resolve-several/*";
+    ResolveFirst = "resolve-first" in "sequence/resolve-several/*" of Vulkan OpenGl WebGpu;
     /// Every query of a submission has the first one's result.
     QueryFirst = "query-first" in "sequence/queries-*/*";
     /// Queries after the first end before their draw.
@@ -117,20 +117,20 @@ faults! {
     /// Results that are read again are 0.
     ResultOnce = "result-once" in "sequence/spans/*/results=twice/*";
     /// Load operations do not clear colour.
-    LoadColorIgnored = "load-color-ignored" in "paths/write-masks/*/start=load-operation" of Vulkan;
+    LoadColorIgnored = "load-color-ignored" in "paths/write-masks/*/start=load-operation" of Vulkan WebGpu;
     /// Load operations do not clear depth.
-    LoadDepthIgnored = "load-depth-ignored" in "paths/depth-test/pass=*/start=load-operation/*" of Vulkan;
+    LoadDepthIgnored = "load-depth-ignored" in "paths/depth-test/pass=*/start=load-operation/*" of Vulkan WebGpu;
     /// Load operations do not clear stencil.
-    LoadStencilIgnored = "load-stencil-ignored" in "paths/stencil/*/start=load-operation/*" of Vulkan;
+    LoadStencilIgnored = "load-stencil-ignored" in "paths/stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// What is drawn in a render pass that is an object is not stored.
     StoreDropped = "store-dropped" in "paths/two-passes/*/pass=render-pass/*" of Vulkan;
     // OpenGL reads through attachments too, and sees what it drew there unless it is copied first.
     /// Attachments are layer 0.
-    LayerDropped = "layer-dropped" in "paths/{srgb,integers}/*/target=array-layer";
+    LayerDropped = "layer-dropped" in "paths/{srgb,integers}/*/target=array-layer" of Vulkan OpenGl WebGpu;
     /// Attachments are level 0.
-    LevelDropped = "level-dropped" in "paths/{srgb,blend-float}/*/target=mip-level";
+    LevelDropped = "level-dropped" in "paths/{srgb,blend-float}/*/target=mip-level" of Vulkan OpenGl WebGpu;
     /// Of several targets, the second is not resolved.
-    ResolveSecondDropped = "resolve-second-dropped" in "paths/resolve/pass=dynamic-rendering/*" of Vulkan;
+    ResolveSecondDropped = "resolve-second-dropped" in "paths/resolve/pass=dynamic-rendering/*" of Vulkan WebGpu;
     /// The second target receives what the first is resolved to.
     ResolveSecondFromFirst = "resolve-second-from-first" in "paths/resolve/pass=dynamic-rendering/*" of Vulkan;
     /// Culling is the pipeline's, although it is dynamic.
@@ -138,11 +138,11 @@ faults! {
     /// Culling in a pipeline is off.
     StaticIgnored = "static-ignored" in "paths/cull/*/state=static/*" of Vulkan;
     /// The first draw of a secondary command buffer is lost.
-    SecondaryFirstDraw = "secondary-first-draw" in "paths/strip/commands=secondary/*" of Vulkan;
+    SecondaryFirstDraw = "secondary-first-draw" in "paths/strip/commands=secondary/*" of Vulkan WebGpu;
     /// The second viewport is the first.
     ViewportFirst = "viewport-first" in "paths/viewport/*/viewport=array";
     /// The first index is 0.
-    IndexOffset = "index-offset" in "paths/strip/*/draws=base-vertex/*";
+    IndexOffset = "index-offset" in "paths/strip/*/draws=base-vertex/*" of Vulkan OpenGl WebGpu;
     /// Blits leave their target's last column.
     BlitColumn = "blit-column" in "paths/depth-ends/end=blit/*";
     /// Attachments are the first face of a cube.
@@ -207,6 +207,8 @@ faults! {
     ResolvePlace = "resolve-place" in "sequence/resolves/*";
     /// Behind a clear, the second scissor rectangle is the first.
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
+    /// All channels of colour are written.
+    WriteMaskOpen = "write-mask-open" in "paths/write-masks/*/start=load-operation" of WebGpu;
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
 }

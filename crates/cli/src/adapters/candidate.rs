@@ -8,10 +8,11 @@ use super::open::{FROM_INPUT, Open};
 use super::origin::Origin;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
+use crate::output::say;
 use etalon_backend::{AdapterInfo, Fault};
 use etalon_frame::Api;
 use etalon_record::AbsentAdapter;
-use etalon_runner::{Launch, Launcher, StartError, Worker};
+use etalon_runner::{Launch, Launcher, START_TIMEOUT, StartError, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -124,6 +125,9 @@ impl Candidate {
         let launch = self
             .launch(&resolved, query)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
+        if let Some(listen) = &resolved.listen {
+            say!("{}: {}", self.name(), listen.invitation());
+        }
         // A driver that fails to start gets a second attempt, one that hangs does not.
         let begun = Instant::now();
         let started = match Worker::start(&launch) {
@@ -209,6 +213,7 @@ impl Candidate {
                 device: description.device,
                 egl: resolved.egl.clone(),
                 browser: resolved.browser.clone(),
+                listen: resolved.listen.clone(),
                 fault: description.fault,
                 ..open(&description.name, description.backend)
             },
@@ -268,6 +273,11 @@ impl Candidate {
                 Self::Described(description, _) => description.release(),
                 Self::Enumerated(_) => None,
             },
+            patience: match resolved.listen {
+                Some(_) => etalon_browser::WAITING + START_TIMEOUT,
+                None => START_TIMEOUT,
+            },
+            alone: resolved.listen.is_some(),
         })
     }
 
@@ -296,7 +306,11 @@ fn fits(fault: Fault, backend: BackendName) -> bool {
     match (fault, backend) {
         (Fault::Call(fault), BackendName::Vulkan) => fault.is_in(Api::Vulkan),
         (Fault::Call(fault), BackendName::Gl | BackendName::GlEs) => fault.is_in(Api::OpenGl),
-        (Fault::Call(_), _) => false,
+        (
+            Fault::Call(fault),
+            BackendName::WgpuVulkan | BackendName::WgpuGl | BackendName::Webgpu,
+        ) => fault.is_in(Api::WebGpu),
+        (Fault::Call(_), BackendName::Cpu) => false,
         (Fault::Read(_), backend) => backend != BackendName::Cpu,
         (Fault::Process(..) | Fault::Slower(_), backend) => backend == BackendName::Cpu,
     }

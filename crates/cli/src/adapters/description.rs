@@ -1,6 +1,7 @@
 //! Files that describe adapters, built in or given by `--adapters`.
 
 use super::backend_name::BackendName;
+use super::listen::Listen;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
 use etalon_backend::Fault;
@@ -95,6 +96,8 @@ pub(super) struct Resolved {
     pub(super) egl: Option<PathBuf>,
     pub(super) library_path: Vec<PathBuf>,
     pub(super) browser: Option<Browser>,
+    /// The place of the page, with a token of this run.
+    pub(super) listen: Option<Listen>,
 }
 
 /// The reason for which an entry cannot be used on this machine.
@@ -400,6 +403,7 @@ impl Description {
             }
             resolved.egl = Some(found);
         }
+        resolved.listen = self.listen.map(Listen::new);
         if let Some(mut browser) = self.browser() {
             for word in &mut browser.command {
                 *word = expand(word, variable)?;

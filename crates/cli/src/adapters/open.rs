@@ -1,10 +1,10 @@
 //! The request that a worker process gets on its command line, or behind a launcher through its standard input.
 
 use super::backend_name::BackendName;
+use super::listen::Listen;
 use etalon_backend::Fault;
 use etalon_browser::Browser;
 use serde::{Deserialize, Serialize};
-use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// The word in place of a request that comes through standard input.
@@ -36,14 +36,6 @@ pub(crate) struct Open {
     /// The fault that the name ends in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) fault: Option<Fault>,
-}
-
-/// The place of a page.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Listen {
-    pub(crate) address: SocketAddr,
-    /// The first part of the page's path, which nobody guesses.
-    pub(crate) token: String,
 }
 
 fn is_false(value: &bool) -> bool {

@@ -56,6 +56,14 @@ fn every_fault_of_opengl_calls_fails() {
 }
 
 #[test]
+fn every_fault_of_webgpu_lists_fails() {
+    let all = CallFault::ALL.iter().copied();
+    let of_lists = all.filter(|fault| fault.is_in(Api::WebGpu));
+    faults_are_found("wgpu:vulkan:lavapipe", of_lists.clone());
+    faults_are_found("webgpu:chromium", of_lists);
+}
+
+#[test]
 fn faults_of_calls_have_names() {
     for name in [
         "gl:llvmpipe:call-fault=none",
@@ -63,9 +71,10 @@ fn faults_of_calls_have_names() {
         "gl:llvmpipe:call-fault=load-clears",
         // Vulkan's clip volume has one origin.
         "vulkan:lavapipe:call-fault=clip-origin-kept",
-        // Neither the rasterizer nor WebGPU's backend has a place for a fault.
+        // The rasterizer has no place for a fault, and a list of calls none for this one.
         "cpu:call-fault=last-row",
         "wgpu:vulkan:lavapipe:call-fault=last-row",
+        "webgpu:chromium:call-fault=last-row",
     ] {
         etalon(&["run", "--adapter", name]).assert().code(64);
     }

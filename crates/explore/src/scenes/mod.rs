@@ -63,6 +63,12 @@ struct Pass {
 }
 
 impl Pass {
+    /// True if alpha to coverage asks nothing unusual of its first color attachment.
+    fn has_alpha(&self) -> bool {
+        let first = self.color.first();
+        first.is_some_and(|(_, f)| f.color_channels().len() == 4 && !f.is_integer())
+    }
+
     fn is_integer(&self) -> bool {
         self.color.iter().any(|(_, f)| f.is_integer())
     }

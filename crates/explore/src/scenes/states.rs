@@ -206,7 +206,8 @@ impl Maker<'_> {
             }
             let masks = !shader.writes_mask()
                 || self.space.has(Feature::SampleMaskOutputWithAlphaToCoverage);
-            if shader.has_fragment() && masks && self.extra("alpha to coverage") {
+            let alpha = pass.has_alpha() || self.space.has(Feature::AlphaToCoverageWithoutAlpha);
+            if shader.has_fragment() && masks && alpha && self.extra("alpha to coverage") {
                 self.choices.note("alpha to coverage", true);
                 value["alpha_to_coverage"] = json!(true);
             }

@@ -2,7 +2,7 @@
 
 use super::plan::Rechecks;
 use super::round_trips::RoundTrips;
-use crate::launch::Launch;
+use crate::launch::{Launch, START_TIMEOUT};
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
@@ -95,6 +95,8 @@ impl AdapterQueue {
             environment: Vec::new(),
             launcher: None,
             release: None,
+            patience: START_TIMEOUT,
+            alone: false,
         };
         Self {
             start_error: Some(error),
@@ -235,8 +237,10 @@ impl AdapterQueue {
 /// The queue that a free thread takes from: one that has cases left, and the fewest threads.
 pub(super) fn next(queues: &[AdapterQueue]) -> Option<&AdapterQueue> {
     // Two threads may choose the same queue at the same time; then both take from it.
+    let threads = |queue: &AdapterQueue| queue.threads.load(Ordering::Relaxed);
     let open = queues.iter().filter(|q| q.has_more());
-    let queue = open.min_by_key(|q| q.threads.load(Ordering::Relaxed))?;
+    let open = open.filter(|q| !q.launch.alone || threads(q) == 0);
+    let queue = open.min_by_key(|q| threads(q))?;
     queue.threads.fetch_add(1, Ordering::Relaxed);
     Some(queue)
 }

@@ -20,12 +20,13 @@ const MAX_NAMED: usize = 8;
 
 /// Draws a case again in fresh processes, if `--repeat` says so or its verdict is bad and unexpected. The
 /// result is Flaky where verdicts differ, unless the case goes wrong reproducibly after certain others,
-/// which the record then names. `None` when the run is stopped.
+/// which the record then names. `make_room` is called before the first process starts. `None` when the run is stopped.
 pub(super) fn confirm(
     run: &AdapterRun<'_, '_>,
     number: usize,
     mut first: Observation,
     before: &[usize],
+    make_room: &mut dyn FnMut(),
 ) -> Option<Observation> {
     let options = run.shared.options;
     let more = match options.repeat.max(1) - 1 {
@@ -33,6 +34,9 @@ pub(super) fn confirm(
         more if first.record.verdict != Verdict::NotSupported => more,
         _ => 0,
     };
+    if more > 0 {
+        make_room();
+    }
     let mut others = Vec::new();
     for _ in 0..more {
         match draw_alone(run, &[], number) {

@@ -135,12 +135,22 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             let Some(observed) = self.observe(number, drawing) else {
                 break;
             };
-            if !self.supervisor.is_running() {
+            let alone = run.queue.launch.alone;
+            if !alone && !self.supervisor.is_running() {
                 self.request_again(&mut requested);
             }
-            let Some(mut observed) = confirm(&run, number, observed, &before) else {
+            let mut make_room = || {
+                if alone {
+                    self.supervisor.stop();
+                }
+            };
+            let Some(mut observed) = confirm(&run, number, observed, &before, &mut make_room)
+            else {
                 break;
             };
+            if alone && !self.supervisor.is_running() {
+                self.request_again(&mut requested);
+            }
             if let Err(error) = run.keep(number, &mut observed) {
                 shared.fail(error);
                 break;

@@ -8,7 +8,9 @@ use etalon_case::Library;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, Header, Record, ReportFiles, Run, Verdict};
-use etalon_runner::{Event, Launch, Launcher, Options, Plan, RunSummary, StartError, Worker};
+use etalon_runner::{
+    Event, Launch, Launcher, Options, Plan, RunSummary, START_TIMEOUT, StartError, Worker,
+};
 use etalon_scene::Scene;
 use std::io::Write;
 use std::sync::Mutex;
@@ -141,6 +143,8 @@ fn script(text: &str) -> Launch {
         environment: Vec::new(),
         launcher: None,
         release: None,
+        patience: START_TIMEOUT,
+        alone: false,
     }
 }
 

@@ -3,7 +3,7 @@
 //! libtest prints to standard output, so the protocol goes to descriptor 3.
 
 use etalon_backend::{Backend, Unavailable};
-use etalon_runner::{Launch, Setup};
+use etalon_runner::{Launch, START_TIMEOUT, Setup};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Write};
 use std::path::Path;
@@ -38,6 +38,8 @@ pub(crate) fn launch(test: &str, adapter: &str, fault: &str) -> Launch {
             .to_vec(),
         launcher: None,
         release: None,
+        patience: START_TIMEOUT,
+        alone: false,
     }
 }
 

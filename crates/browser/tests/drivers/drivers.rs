@@ -1,0 +1,84 @@
+//! The browsers. A missing one is a failure: nothing would have been tested.
+
+use etalon_backend::{Backend, Fault};
+use etalon_browser::{Browser, BrowserBackend, Options, Source, keep, open};
+use etalon_conformance::{Driver, Value, known};
+use etalon_frame::{Api, TextureFormat};
+use std::io::{BufReader, stdin};
+use std::process::Command;
+
+/// The browsers as `etalon` starts them.
+const ADAPTERS: &str = include_str!("../../../cli/adapters.json");
+
+/// The software driver below Firefox.
+const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+
+/// The process that keeps a browser; started by the tests alone.
+#[test]
+#[ignore = "a process of the other tests"]
+fn keeper() {
+    keep(BufReader::new(stdin())).expect("the browser is kept");
+}
+
+/// Returns the browser of an adapter.
+pub(crate) fn browser(name: &str) -> Browser {
+    let adapters: Vec<Value> = serde_json::from_str(ADAPTERS).expect("the built-in file is JSON");
+    let entry = adapters.iter().find(|entry| entry["name"] == name);
+    let entry = entry.unwrap_or_else(|| panic!("{name} is not built in"));
+    let profile = entry.get("profile").cloned().unwrap_or_default();
+    Browser {
+        command: serde_json::from_value(entry["browser"].clone()).expect("words"),
+        profile: serde_json::from_value::<Option<_>>(profile)
+            .expect("files")
+            .unwrap_or_default(),
+    }
+}
+
+/// Opens a browser.
+pub(crate) fn opened(name: &str, validate: bool, fault: Option<Fault>) -> BrowserBackend {
+    let program = std::env::current_exe().expect("this program has a path");
+    let mut keeper = Command::new(program);
+    keeper.args(["--exact", "drivers::keeper", "--ignored", "--nocapture"]);
+    let options = Options {
+        source: Source::Started(browser(name), keeper),
+        validate,
+        fault,
+        record: false,
+    };
+    let backend = open(name, options).unwrap_or_else(|e| {
+        panic!("{name} cannot be used: {e}: apt-get install chromium firefox-esr")
+    });
+    assert!(backend.adapter().software, "{name} draws in software");
+    backend
+}
+
+pub(crate) fn chromium() -> Driver<'static> {
+    Driver {
+        known: known("webgpu:chromium"),
+        environment: Vec::new(),
+        open: |validate| Box::new(opened("webgpu:chromium", validate, None)),
+        tolerated: &[],
+    }
+}
+
+pub(crate) fn firefox() -> Driver<'static> {
+    let manifest = || LAVAPIPE.to_owned();
+    Driver {
+        known: known("webgpu:firefox"),
+        environment: vec![
+            ("VK_DRIVER_FILES", manifest()),
+            ("VK_ICD_FILENAMES", manifest()),
+        ],
+        open: |validate| Box::new(opened("webgpu:firefox", validate, None)),
+        tolerated: &[],
+    }
+}
+
+/// What the drivers' descriptions do not hold.
+pub(crate) fn offers(backend: &dyn Backend) {
+    let limits = backend.limits();
+    assert_eq!(limits.api, Api::WebGpu);
+    assert_eq!(limits.formats[&TextureFormat::Rgba8Unorm].samples, [1, 4]);
+    assert_eq!(limits.formats[&TextureFormat::Rgba8Uint].samples, [1]);
+    assert!(!backend.adapter().driver_version.is_empty());
+}

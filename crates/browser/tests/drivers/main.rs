@@ -1,0 +1,8 @@
+//! The backend over real browsers, each in a process of its own: the environment chooses the driver below them.
+
+mod drivers;
+mod pages;
+
+etalon_conformance::driver_tests! {
+    chromium firefox; [drivers::offers]
+}

@@ -1,0 +1,211 @@
+//! Faults that a test plants between a list and its device.
+
+use crate::calls::{
+    Access, CallList, Command, DrawCommand, Filled, PassCommand, RenderPass, TextureView,
+};
+use crate::pipeline_state::PipelineState;
+use etalon_backend::CallFault;
+use std::mem::replace;
+
+/// Changes a list as a driver would that gets its calls wrong. A list has no place for some faults
+/// ([`CallFault::is_in`]).
+pub fn plant(fault: CallFault, list: &mut CallList) {
+    match fault {
+        CallFault::LayerDropped => parts(list, |[level, _]| [level, 0]),
+        CallFault::LevelDropped => parts(list, |[_, layer]| [0, layer]),
+        CallFault::WriteMaskOpen => {
+            let targets = list.pipelines.iter_mut();
+            for target in targets.flat_map(|pipeline| &mut pipeline.state.targets) {
+                target.write_mask = 0xf;
+            }
+        }
+        CallFault::SecondaryFirstDraw => {
+            for bundle in &mut list.bundles {
+                if let Some(first) = bundle.commands.iter().position(is_draw) {
+                    bundle.commands.remove(first);
+                }
+            }
+        }
+        CallFault::CompareKept => kept_state(list, |state, before| {
+            if let (Some(state), Some(before)) = (&mut state.depth_stencil, before.depth_stencil) {
+                state.depth_compare = before.depth_compare;
+            }
+        }),
+        CallFault::DepthWriteKept => kept_state(list, |state, before| {
+            if let (Some(state), Some(before)) = (&mut state.depth_stencil, before.depth_stencil) {
+                state.depth_write = before.depth_write;
+            }
+        }),
+        CallFault::CullKept => kept_state(list, |state, before| {
+            state.primitive.cull = before.primitive.cull;
+        }),
+        _ => {
+            for (number, pass) in passes(&mut list.frame).enumerate() {
+                in_pass(fault, number, pass);
+            }
+        }
+    }
+}
+
+fn passes(frame: &mut [Vec<Command>]) -> impl Iterator<Item = &mut RenderPass> {
+    frame
+        .iter_mut()
+        .flatten()
+        .filter_map(|command| match command {
+            Command::Pass(pass) => Some(pass),
+            _ => None,
+        })
+}
+
+fn is_draw(command: &DrawCommand) -> bool {
+    matches!(
+        command,
+        DrawCommand::Draw { .. }
+            | DrawCommand::DrawIndexed { .. }
+            | DrawCommand::DrawIndirect { .. }
+            | DrawCommand::DrawIndexedIndirect { .. }
+    )
+}
+
+/// Changes level and layer of the views that passes draw to.
+fn parts(list: &mut CallList, change: impl Fn([u32; 2]) -> [u32; 2]) {
+    let drawn: Vec<usize> = passes(&mut list.frame)
+        .flat_map(|pass| {
+            let depth_stencil = pass.depth_stencil.iter().map(|attachment| attachment.view);
+            let color = pass.color.iter().map(|attachment| attachment.view);
+            color.chain(depth_stencil).collect::<Vec<_>>()
+        })
+        .collect();
+    for view in drawn {
+        let TextureView { part, .. } = &mut list.views[view];
+        *part = part.map(&change);
+    }
+}
+
+/// Changes the state of each pipeline by that of the one that its pass set before.
+fn kept_state(list: &mut CallList, change: impl Fn(&mut PipelineState, &PipelineState)) {
+    let CallList {
+        frame, pipelines, ..
+    } = list;
+    for pass in passes(frame) {
+        let mut before: Option<PipelineState> = None;
+        for command in &mut pass.commands {
+            let PassCommand::Draw(DrawCommand::SetPipeline(place)) = command else {
+                continue;
+            };
+            let mut pipeline = pipelines[*place].clone();
+            let state = pipeline.state.clone();
+            if let Some(before) = replace(&mut before, Some(state)) {
+                change(&mut pipeline.state, &before);
+                pipelines.push(pipeline);
+                *place = pipelines.len() - 1;
+            }
+        }
+    }
+}
+
+fn in_pass(fault: CallFault, number: usize, pass: &mut RenderPass) {
+    match fault {
+        CallFault::LoadClears if number > 0 => {
+            for color in &mut pass.color {
+                color.operations.clear.get_or_insert([0.0; 4]);
+            }
+        }
+        CallFault::LoadColorIgnored => {
+            let colors = pass.color.iter_mut();
+            colors.for_each(|color| color.operations.clear = None);
+        }
+        CallFault::LoadDepthIgnored => {
+            if let Some(attachment) = &mut pass.depth_stencil {
+                loaded(&mut attachment.depth);
+            }
+        }
+        CallFault::LoadStencilIgnored => {
+            if let Some(attachment) = &mut pass.depth_stencil {
+                loaded(&mut attachment.stencil);
+            }
+        }
+        CallFault::ResolveFirst => {
+            let others = pass.color.iter_mut().skip(1);
+            others.for_each(|color| color.resolve = None);
+        }
+        CallFault::ResolveSecondDropped => {
+            let second = pass.color.iter_mut().nth(1);
+            second.into_iter().for_each(|color| color.resolve = None);
+        }
+        CallFault::LaterPassDraw if number > 0 => {
+            let is_draw =
+                |command: &PassCommand| matches!(command, PassCommand::Draw(c) if is_draw(c));
+            if let Some(first) = pass.commands.iter().position(is_draw) {
+                pass.commands.remove(first);
+            }
+        }
+        _ => in_commands(fault, &mut pass.commands),
+    }
+}
+
+/// Loads an aspect that is cleared.
+fn loaded<V>(access: &mut Access<V>) {
+    if let Access::Written(Filled { clear, .. }) = access {
+        *clear = None;
+    }
+}
+
+fn in_commands(fault: CallFault, commands: &mut [PassCommand]) {
+    let mut before = None;
+    for command in commands {
+        let keeps = match command {
+            PassCommand::SetViewport { .. } => fault == CallFault::ViewportKept,
+            PassCommand::SetScissorRect(_) => fault == CallFault::ScissorKept,
+            PassCommand::SetBlendConstant(_) => fault == CallFault::BlendConstantKept,
+            PassCommand::SetStencilReference(_) => fault == CallFault::StencilReferenceKept,
+            _ => false,
+        };
+        if keeps {
+            let given = command.clone();
+            if let Some(before) = before.replace(given) {
+                *command = before;
+            }
+        }
+        match (fault, command) {
+            (CallFault::ScissorEdge, PassCommand::SetScissorRect([x, _, width, _])) => {
+                if (*x + *width).is_multiple_of(16) {
+                    *width = width.saturating_sub(1);
+                }
+            }
+            (
+                CallFault::BaseVertex,
+                PassCommand::Draw(DrawCommand::DrawIndexed { base_vertex, .. }),
+            ) => *base_vertex = 0,
+            (
+                CallFault::IndexOffset,
+                PassCommand::Draw(DrawCommand::DrawIndexed { indices, .. }),
+            ) => {
+                *indices = 0..indices.end - indices.start;
+            }
+            (
+                CallFault::FirstIndex,
+                PassCommand::Draw(DrawCommand::DrawIndexed { indices, .. }),
+            ) => {
+                if indices.start > 0 && indices.start < indices.end {
+                    indices.start += 1;
+                }
+            }
+            (
+                CallFault::FirstInstance,
+                PassCommand::Draw(
+                    DrawCommand::Draw { instances, .. }
+                    | DrawCommand::DrawIndexed { instances, .. },
+                ),
+            ) => *instances = 0..instances.end - instances.start,
+            (
+                CallFault::SecondInstance,
+                PassCommand::Draw(
+                    DrawCommand::Draw { instances, .. }
+                    | DrawCommand::DrawIndexed { instances, .. },
+                ),
+            ) => instances.end = instances.end.min(instances.start + 1),
+            _ => {}
+        }
+    }
+}
