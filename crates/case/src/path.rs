@@ -75,6 +75,18 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             | PathDraws::IndirectBeside,
         )
         | PathValue::State(_) => (draws().next().is_some(), "there is no draw"),
+        PathValue::Draws(PathDraws::RestartUnindexed) => (
+            draws().any(Draw::is_unindexed_strip),
+            "no strip or fan is drawn without indices",
+        ),
+        PathValue::Tests(_) => (
+            scene.passes.iter().any(|pass| {
+                let format = pass.depth_stencil.map(|i| scene.attachments[i].format);
+                let both = format.is_some_and(|f| f.has_depth() && f.has_stencil());
+                !both && !pass.draws.is_empty()
+            }),
+            "every pass that draws has depth and stencil",
+        ),
         PathValue::Draws(_) => {
             let called = |s: &Scene| -> Vec<_> {
                 let draws = s.passes.iter().flat_map(|p| &p.draws);
@@ -271,6 +283,9 @@ mod tests {
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
                 json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);
+            if value.name() == "restart-unindexed" {
+                scene["passes"][0]["draws"][0]["topology"] = json!("triangle-strip");
+            }
             if value.name() == "dynamic-origin" {
                 scene["passes"][0]["draws"][0]["tessellation"] =
                     json!({ "order": "ccw", "origin": "lower-left" });
@@ -304,6 +319,11 @@ mod tests {
             (&grey, json!({ "start": "draw" }), "kept exactly"),
             (&several, json!({ "target": "mip-level" }), "single sample"),
             (&several, json!({ "end": "blit" }), "single sample"),
+            (
+                &grey,
+                json!({ "draws": "restart-unindexed" }),
+                "strip or fan",
+            ),
         ] {
             let error = parse_scene(&scene(attachment.clone(), path)).expect_err(words);
             assert!(error.message.contains(words), "{}", error.message);

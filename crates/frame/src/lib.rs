@@ -65,7 +65,8 @@ pub use message::{shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
     PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
-    PathResolves, PathResults, PathStart, PathState, PathTarget, PathValue, PathViewport,
+    PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
+    PathViewport,
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;

@@ -84,6 +84,8 @@ path_values! {
         Static = "static",
         /// Between the draws, with extended dynamic state 3 too.
         ExtendedDynamic3 = "extended-dynamic-3",
+        /// As with extended dynamic state 3, but before the pipeline is bound and while another one is.
+        BeforePipeline = "before-pipeline",
         /// Between the draws, with the logic operation too.
         DynamicLogic = "dynamic-logic",
         /// Twice before every draw, to other values first.
@@ -147,6 +149,8 @@ path_values! {
         IndirectBeside = "indirect-beside",
         /// Lists as strips that the greatest index ends.
         Restart = "restart",
+        /// Strips and fans without indices, while restart is on, which acts on indices alone.
+        RestartUnindexed = "restart-unindexed",
     }
     /// The way from an attachment to the host.
     End(PathEnd) = "end" {
@@ -218,6 +222,13 @@ path_values! {
         Written = "written",
         /// Three, of which two are views: a draw reaches both, which are read in turns.
         Multiview = "multiview",
+    }
+    /// The tests of aspects that a pass lacks.
+    Tests(PathTests) = "tests" {
+        /// Off.
+        Off = "off",
+        /// On, and none passes, which nothing may come of without an attachment.
+        Unattached = "unattached",
     }
     /// The resolves of colors.
     Resolves(PathResolves) = "resolves" {

@@ -94,6 +94,8 @@ pub(crate) struct DrawCall {
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
     pub(crate) fetched: Fetched,
+    /// True if primitive restart is on although nothing is indexed.
+    pub(crate) restarts_unindexed: bool,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
     /// True if the commands are flushed behind the draw.
@@ -227,10 +229,16 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
             gl.bind_buffer(PARAMETER_BUFFER, Some(buffer));
         }
         draw.state.begin_advanced(context);
+        if draw.restarts_unindexed {
+            state::set_restart_unindexed(context, draw.fetched.second_vertex());
+        }
         draw.fetched.draw(context, draw.mode, place);
         if let Some(again) = draw.again {
             gl.use_program(Some(again));
             draw.fetched.draw(context, draw.mode, place);
+        }
+        if draw.restarts_unindexed {
+            state::unset_restart_unindexed(context);
         }
         draw.state.end_advanced(context);
         if numbers.is_some() {

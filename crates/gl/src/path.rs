@@ -31,6 +31,9 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => {
             context.entry_points.draw_arrays_indirect_count.is_some()
         }
+        // Up to 4.4, an index also restarts draws without indices (OpenGL 4.2, 2.8.1).
+        PathValue::Draws(PathDraws::RestartUnindexed) => caps.es || caps.version >= (4, 5),
+        PathValue::Tests(_) => true,
         PathValue::Draws(_) => true,
         PathValue::End(PathEnd::Copy) => caps.copy_image,
         PathValue::End(_) => true,
@@ -51,6 +54,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
+            | PathState::BeforePipeline
             | PathState::DynamicLogic
             | PathState::OtherPipeline
             | PathState::DynamicSamples

@@ -33,6 +33,8 @@ struct Planted {
     multisampled: HashSet<u32>,
     /// True behind a clear of the framebuffer that is drawn to.
     cleared: bool,
+    /// True if restart is on at a number.
+    restarts: bool,
     /// The buffer that is read.
     read: u32,
     /// True before the first clear behind what leaves contents undefined.
@@ -478,6 +480,9 @@ impl Planted {
             on = self.calls.kept(CallFault::CullKept, 1, on);
         }
         let restart = [glow::PRIMITIVE_RESTART, glow::PRIMITIVE_RESTART_FIXED_INDEX];
+        if capability == glow::PRIMITIVE_RESTART {
+            self.restarts = on;
+        }
         on &= !(restart.contains(&capability) && self.calls.has(CallFault::RestartIgnored));
         if on {
             driver!(self.driver, glEnable(capability));
@@ -487,11 +492,14 @@ impl Planted {
     }
 
     /// Draws with the numbers that the fault leaves, in parts if it asks for it.
-    fn draw(&mut self, numbers: DrawNumbers, draw: impl Fn(&Driver, &DrawNumbers)) {
+    fn draw(&mut self, mut numbers: DrawNumbers, draw: impl Fn(&Driver, &DrawNumbers)) {
         if self.calls.draws == 0 {
             self.calls.begin_pass();
         }
         self.blits = 0;
+        if self.calls.has(CallFault::RestartUnindexed) && self.restarts && !numbers.indexed {
+            numbers.count -= 1;
+        }
         let driver = self.driver;
         for open in self.calls.queries_before_draw() {
             driver!(driver, glEndQuery(open.owner as u32));

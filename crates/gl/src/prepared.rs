@@ -386,6 +386,8 @@ impl<'a> PreparedScene<'a> {
                 Some(_) => glow::PATCHES,
             },
             fetched,
+            restarts_unindexed: self.path.draws == PathDraws::RestartUnindexed
+                && draw.is_unindexed_strip(),
             arguments,
             flushed: self.path.commands == PathCommands::Several,
         };

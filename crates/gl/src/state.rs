@@ -464,6 +464,30 @@ pub(crate) fn set_restart(context: &Context) {
     }
 }
 
+/// Enables primitive restart, which acts on indices alone, for a draw without any: at the number of a vertex that it
+/// draws, where a context takes numbers.
+pub(crate) fn set_restart_unindexed(context: &Context, vertex: u32) {
+    let gl = &context.gl;
+    match context.entry_points.primitive_restart_index {
+        Some(index) if !context.caps.es => {
+            // It would come before the number.
+            set(gl, glow::PRIMITIVE_RESTART_FIXED_INDEX, false);
+            set(gl, glow::PRIMITIVE_RESTART, true);
+            // SAFETY: the context is current and has the function.
+            unsafe { index(vertex) };
+        }
+        _ => set_restart(context),
+    }
+}
+
+/// Undoes [`set_restart_unindexed`].
+pub(crate) fn unset_restart_unindexed(context: &Context) {
+    if !context.caps.es {
+        set(&context.gl, glow::PRIMITIVE_RESTART, false);
+    }
+    set_restart(context);
+}
+
 /// Sets primitive restart for one draw of indices of a type: on at the type's largest index, or off, so
 /// that this index names a vertex.
 pub(crate) fn set_restart_of(context: &Context, kind: u32, on: bool) {

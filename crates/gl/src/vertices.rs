@@ -219,6 +219,15 @@ impl Fetched {
         }
     }
 
+    /// Returns the second vertex of a draw without indices.
+    pub(crate) fn second_vertex(&self) -> u32 {
+        let first = match self {
+            Self::Shared { first, .. } => *first,
+            Self::Own(call) => call.first,
+        };
+        first.cast_unsigned() + 1
+    }
+
     /// Calls the driver's draw, with arguments from an offset in the bound buffer where there is one.
     ///
     /// # Safety

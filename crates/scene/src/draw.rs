@@ -103,6 +103,19 @@ impl Draw {
         all
     }
 
+    /// True if primitives share vertices in their order: those of a strip or fan without indices.
+    pub fn is_unindexed_strip(&self) -> bool {
+        let strips = match self.topology {
+            PrimitiveTopology::LineStrip
+            | PrimitiveTopology::TriangleStrip
+            | PrimitiveTopology::TriangleFan => true,
+            PrimitiveTopology::PointList
+            | PrimitiveTopology::LineList
+            | PrimitiveTopology::TriangleList => false,
+        };
+        strips && self.mesh.indices.is_none()
+    }
+
     /// The bits of the shader's clip distances that clip.
     pub fn clipping_distances(&self) -> u8 {
         // A shader has eight at most.

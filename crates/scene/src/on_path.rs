@@ -1,7 +1,7 @@
 //! A scene made over by its path.
 //!
-//! The values of [`PathStart`] and [`PathDraws`] need nothing of an API that scenes cannot say: a load
-//! operation, a clear command, a draw, indices. So they are made here once, as another scene with the same
+//! The values of [`PathStart`], [`PathDraws`] and [`PathTests`] need nothing of an API that scenes cannot say: a load
+//! operation, a clear command, a draw, indices, a test. So they are made here once, as another scene with the same
 //! picture, and every backend has them; a backend executes the other keys itself.
 
 use crate::attachment::Contents;
@@ -13,28 +13,59 @@ use crate::draw::{Draw, Params};
 use crate::fetch::{IndexFormat, RESTART_16};
 use crate::mesh::{Mesh, RESTART, Vertex};
 use crate::pass::{Clear, ClearTarget, LoadOperation, Operations, Pass};
+use crate::path::Path;
 use crate::rasterization::{PrimitiveTopology, Viewport};
 use crate::scene::Scene;
 use crate::shader::Shader;
-use etalon_frame::{ChannelEncoding, PathDraws, PathStart};
+use etalon_frame::{ChannelEncoding, PathDraws, PathStart, PathTests, TextureFormat};
 use std::borrow::Cow;
 
 impl Scene {
-    /// The scene that backends draw: the same picture, by the path's `start` and `draws`.
+    /// The scene that backends draw: the same picture, by the path's `start`, `draws` and `tests`.
     ///
     /// Attachments that receive their contents within a pass hold others before it, so that a start that is
     /// lost shows. What a value does not apply to is as it was: texels are uploaded, an attachment that is
     /// read or resolved to before it is drawn to is cleared by a transfer, and so are values that a draw
     /// might convert in two ways.
     pub fn on_path(&self) -> Cow<'_, Self> {
-        if self.path.start == PathStart::Transfer && self.path.draws == PathDraws::Direct {
+        let Path {
+            start,
+            draws,
+            tests,
+            ..
+        } = self.path;
+        if (start, draws, tests) == (PathStart::Transfer, PathDraws::Direct, PathTests::Off) {
             return Cow::Borrowed(self);
         }
         let mut made = self.clone();
         made.start();
         let draws = made.passes.iter_mut().flat_map(|p| &mut p.draws);
         draws.for_each(|draw| call_by(draw, self.path.draws));
+        if tests == PathTests::Unattached {
+            made.test_unattached();
+        }
         Cow::Owned(made)
+    }
+
+    /// Enables the tests of aspects that passes lack: they are skipped, or pass, and write nothing (Vulkan, Depth Test,
+    /// Stencil Test; OpenGL 4.6, 17.3.3, 17.3.4; OpenGL ES 3.2, 15.1.2, 15.1.3).
+    fn test_unattached(&mut self) {
+        for pass in &mut self.passes {
+            let format = pass
+                .depth_stencil
+                .map(|index| self.attachments[index].format);
+            for draw in &mut pass.draws {
+                if !format.is_some_and(TextureFormat::has_depth) {
+                    draw.depth = Some(REJECTING_DEPTH);
+                }
+                if !format.is_some_and(TextureFormat::has_stencil) {
+                    draw.stencil = Some(StencilState {
+                        front: REJECTING_FACE,
+                        back: REJECTING_FACE,
+                    });
+                }
+            }
+        }
     }
 
     /// Moves the initial contents of attachments into the passes that first use them.
@@ -260,6 +291,23 @@ impl Scene {
     }
 }
 
+/// A depth test that none passes.
+const REJECTING_DEPTH: DepthState = DepthState {
+    compare: CompareFunction::Never,
+    write: true,
+};
+
+/// A face of a stencil test that none passes.
+const REJECTING_FACE: StencilFace = StencilFace {
+    compare: CompareFunction::Never,
+    fail_op: StencilOperation::Invert,
+    depth_fail_op: StencilOperation::Invert,
+    pass_op: StencilOperation::Invert,
+    read_mask: 0xff,
+    write_mask: 0xff,
+    reference: 0,
+};
+
 /// The vertices and indices in front of those of a draw with a base vertex.
 const UNUSED: u32 = 2;
 
@@ -269,7 +317,8 @@ fn call_by(draw: &mut Draw, draws: PathDraws) {
         PathDraws::Direct
         | PathDraws::Indirect
         | PathDraws::IndirectCount
-        | PathDraws::IndirectBeside => {}
+        | PathDraws::IndirectBeside
+        | PathDraws::RestartUnindexed => {}
         PathDraws::Indexed16 => index(draw, IndexFormat::Uint16),
         PathDraws::Indexed32 => index(draw, IndexFormat::Uint32),
         PathDraws::BaseVertex => {
@@ -335,9 +384,7 @@ fn restart(draw: &mut Draw) {
 mod tests {
     use super::*;
     use crate::attachment::Attachment;
-    use crate::path::Path;
     use crate::query_scope::QueryScope;
-    use etalon_frame::TextureFormat;
 
     fn scene(path: Path) -> Scene {
         let attachment = |format, contents| Attachment {
@@ -390,6 +437,21 @@ mod tests {
             ..Path::default()
         };
         scene(path).on_path().into_owned()
+    }
+
+    #[test]
+    fn tests_are_on_that_have_no_attachment() {
+        let mut scene = scene(Path {
+            tests: PathTests::Unattached,
+            ..Path::default()
+        });
+        scene.passes[1].depth_stencil = None;
+        scene.attachments[1].format = TextureFormat::Depth16Unorm;
+        let tests = |pass: usize| {
+            let draw = scene.on_path().passes[pass].draws[0].clone();
+            (draw.depth.is_some(), draw.stencil.is_some())
+        };
+        assert_eq!((tests(0), tests(1)), ((false, true), (true, true)));
     }
 
     fn drawn(draws: PathDraws) -> Draw {

@@ -6,7 +6,8 @@
 
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
-    PathResolves, PathResults, PathStart, PathState, PathTarget, PathValue, PathViewport,
+    PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
+    PathViewport,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,8 @@ pub struct Path {
     pub viewport: PathViewport,
     /// The layers of a pass.
     pub layers: PathLayers,
+    /// The tests of aspects that a pass lacks.
+    pub tests: PathTests,
     /// The resolves of colors.
     pub resolves: PathResolves,
 }
@@ -63,6 +66,7 @@ impl Path {
             clip,
             viewport,
             layers,
+            tests,
             resolves,
         } = *self;
         let all = [
@@ -79,6 +83,7 @@ impl Path {
             PathValue::Clip(clip),
             PathValue::Viewport(viewport),
             PathValue::Layers(layers),
+            PathValue::Tests(tests),
             PathValue::Resolves(resolves),
         ];
         all.into_iter().filter(|v| !v.is_default()).collect()

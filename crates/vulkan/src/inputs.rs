@@ -42,7 +42,7 @@ pub(crate) struct DrawInputs {
     pub(crate) colors: Option<u64>,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
-    /// True if an index restarts the primitive.
+    /// True if restart is on.
     pub(crate) restarts: bool,
     pub(crate) call: CallNumbers,
 }
@@ -154,7 +154,10 @@ impl Inputs {
                     || device.features.draw_indirect_first_instance != 0;
                 let counted = scene.path.draws == PathDraws::IndirectCount;
                 let indirect = (counted || scene.path.draws == PathDraws::Indirect) && first;
-                DrawInputs::place(&mut offsets, uniform, draw, indirect, counted)
+                let mut place = DrawInputs::place(&mut offsets, uniform, draw, indirect, counted);
+                place.restarts |=
+                    scene.path.draws == PathDraws::RestartUnindexed && draw.is_unindexed_strip();
+                place
             };
             draws.push(pass.draws.iter().map(place).collect());
         }

@@ -22,7 +22,9 @@ use std::collections::BTreeSet;
 /// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
-        PathValue::State(PathState::ExtendedDynamic3) => device.all_extended,
+        PathValue::State(PathState::ExtendedDynamic3 | PathState::BeforePipeline) => {
+            device.all_extended
+        }
         PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
         PathValue::State(state) => {
             SingleState::of(state).is_none_or(|single| device.singles.contains(&single))
@@ -43,7 +45,10 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
 
 /// Returns the states beyond Vulkan 1.3's that are dynamic where state is set in a way.
 pub(crate) fn further(device: &Device, state: PathState) -> Further {
-    let extended = state == PathState::ExtendedDynamic3;
+    let extended = matches!(
+        state,
+        PathState::ExtendedDynamic3 | PathState::BeforePipeline
+    );
     let logic = match state {
         PathState::DynamicLogic => DynamicLogic::Operation,
         _ if extended && device.logic_enable => DynamicLogic::All,

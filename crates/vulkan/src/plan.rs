@@ -21,7 +21,9 @@ use crate::state;
 use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::{BackendError, Blits};
-use etalon_frame::{PathClears, PathEnd, PathTarget, Requirement};
+use etalon_frame::{
+    PathClears, PathEnd, PathTarget, PathTests, PathValue, Requirement, TextureFormat,
+};
 use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
@@ -114,6 +116,8 @@ pub(crate) struct DrawPlan {
     pub(crate) again: Option<Rc<Pipeline>>,
     /// True if the state is set to another before.
     pub(crate) overwritten: bool,
+    /// True if the state is set before the pipeline is bound.
+    pub(crate) before_pipeline: bool,
     /// The further dynamic state, where the path asks for it.
     pub(crate) extended: Option<Extended>,
     /// The state that is dynamic alone, where the path asks for one.
@@ -282,6 +286,7 @@ impl DrawPlan {
             other: None,
             again: None,
             overwritten: false,
+            before_pipeline: false,
             extended: None,
             single: None,
             set,
@@ -426,6 +431,12 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
     }
     if let Some(index) = &pass.depth_stencil {
         let (format, raw) = attachment(index)?;
+        // A native aspect that the format lacks is attached in a render pass.
+        let tests = scene.path.tests;
+        if tests != PathTests::Off && format::aspect_mask(raw) != aspects(format) {
+            let value = Requirement::Path(PathValue::Tests(tests));
+            return Err(BackendError::NotSupported(value));
+        }
         if format.has_depth() {
             targets.depth = raw;
         }
@@ -434,4 +445,10 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
         }
     }
     Ok(targets)
+}
+
+/// Returns the aspects of a format.
+fn aspects(format: TextureFormat) -> vk::ImageAspectFlags {
+    let flags = format.aspects().iter().map(|a| format::aspect_flag(*a));
+    flags.fold(vk::ImageAspectFlags::empty(), |all, flag| all | flag)
 }

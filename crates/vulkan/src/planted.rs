@@ -60,6 +60,14 @@ struct Planted {
     /// True before the first draw of a secondary command buffer.
     secondary: bool,
     topology: vk::PrimitiveTopology,
+    /// True if restart is on.
+    restarts: bool,
+    /// True if the pass has depth.
+    depth: bool,
+    /// True if the depth test is on.
+    tests_depth: bool,
+    /// The sample mask that was set last, and its number of samples.
+    mask: Option<(vk::SampleCountFlags, vk::SampleMask)>,
 }
 
 /// Puts a fault into the function table of a device.
@@ -89,6 +97,10 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         cleared: false,
         secondary: false,
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+        restarts: false,
+        depth: false,
+        tests_depth: false,
+        mask: None,
     }));
     if let Some(extended) = &mut device.extended {
         *extended = functions.ext3;
@@ -350,7 +362,7 @@ functions! {
         let read_only = vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL;
         planted.after_read_only = planted.read_only;
         planted.read_only = depth.iter().chain(&stencil).any(|tested| tested.image_layout == read_only);
-        planted.stencil = !stencil.is_empty();
+        (planted.depth, planted.stencil) = (!depth.is_empty(), !stencil.is_empty());
         let is_undefined =
             |attachment: &Attachment<'_>| attachment.load_op == vk::AttachmentLoadOp::DONT_CARE;
         planted.undefined = colors.iter().chain(&depth).chain(&stencil).any(is_undefined);
@@ -397,12 +409,29 @@ functions! {
         commands: vk::CommandBuffer, samples: vk::SampleCountFlags, masks: *const vk::SampleMask
     ) [masks; 1] |planted| {
         masks[0] = planted.calls.kept(CallFault::SampleMaskKept, 0, masks[0]);
+        planted.mask = Some((samples, masks[0]));
     }
     before ext3 cmd_set_polygon_mode_ext(commands: vk::CommandBuffer, mode: vk::PolygonMode) |planted| {
         mode = planted.calls.kept(CallFault::PolygonModeKept, 0, mode);
     }
     before ext3 cmd_set_depth_clamp_enable_ext(commands: vk::CommandBuffer, clamp: vk::Bool32) |planted| {
         clamp = planted.calls.kept(CallFault::DepthClampKept, 0, clamp);
+    }
+    before v13 cmd_set_primitive_restart_enable(commands: vk::CommandBuffer, restarts: vk::Bool32) |planted| {
+        planted.restarts = restarts != vk::FALSE;
+    }
+    before v13 cmd_set_depth_test_enable(commands: vk::CommandBuffer, tests: vk::Bool32) |planted| {
+        planted.tests_depth = tests != vk::FALSE;
+    }
+    instead v10 cmd_bind_pipeline(
+        commands: vk::CommandBuffer, point: vk::PipelineBindPoint, pipeline: vk::Pipeline
+    ) |planted| {
+        // SAFETY: the caller's.
+        unsafe { (planted.driver.v10.cmd_bind_pipeline)(commands, point, pipeline) };
+        if let (true, Some((samples, mask))) = (planted.calls.has(CallFault::SetBeforeBind), planted.mask) {
+            // SAFETY: as above; the mask was set before. The backend leaves the opposite in a pipeline.
+            unsafe { (planted.driver.ext3.cmd_set_sample_mask_ext)(commands, samples, &!mask) };
+        }
     }
     before v13 cmd_set_primitive_topology(
         commands: vk::CommandBuffer, topology: vk::PrimitiveTopology
@@ -492,6 +521,8 @@ functions! {
         planted.calls.begin_pass();
         planted.calls.area = area(infos[0].render_area);
         (planted.in_pass, planted.in_render_pass) = (true, true);
+        // Which attachments the object has is not seen.
+        planted.depth = true;
         planted.cleared = false;
     }
     before v10 cmd_resolve_image(
@@ -600,6 +631,7 @@ impl Planted {
             Some(CallFault::StoreDropped) => self.in_render_pass,
             Some(CallFault::SecondaryFirstDraw) => mem::take(&mut self.secondary),
             Some(CallFault::AfterReadOnly) => mem::take(&mut self.after_read_only),
+            Some(CallFault::TestUnattached) => self.tests_depth && !self.depth,
             _ => false,
         };
         if lost {
@@ -611,6 +643,9 @@ impl Planted {
             vk::PrimitiveTopology::LINE_STRIP,
         ];
         numbers.thin = thin.contains(&self.topology);
+        if self.calls.has(CallFault::RestartUnindexed) && self.restarts && !numbers.indexed {
+            numbers.count -= 1;
+        }
         let driver = &self.driver;
         let set_scissor = |part| {
             // SAFETY: the caller's commands are recorded; the scissor is dynamic in every pipeline.

@@ -387,7 +387,8 @@ impl Drawing<'_> {
         let pipeline = get(held, layer)?;
         let again = again.map(|_| get(held, again)).transpose()?;
         let single = SingleState::of(self.state).is_some();
-        let other = if single || self.state == PathState::OtherPipeline {
+        let before_pipeline = self.state == PathState::BeforePipeline;
+        let other = if single || before_pipeline || self.state == PathState::OtherPipeline {
             Some(get(&path::other(draw), layer)?)
         } else {
             None
@@ -399,6 +400,7 @@ impl Drawing<'_> {
         );
         let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
         drawn.overwritten = self.state == PathState::Overwritten;
+        drawn.before_pipeline = before_pipeline;
         (drawn.other, drawn.again, drawn.extended) = (other, again, extended);
         let state = setting.further.single;
         drawn.single = state.map(|state| Single::new(state, draw, targets.samples));

@@ -498,9 +498,12 @@ unsafe fn draws(
                 single.set(device, commands);
                 bound = None;
             }
-            if bound.is_none_or(|b| b.raw != pipeline.raw) {
+            if !draw.before_pipeline && bound.is_none_or(|b| b.raw != pipeline.raw) {
                 bind(pipeline);
                 bound = Some(pipeline);
+            }
+            if let Some(other) = draw.other.as_ref().filter(|_| draw.before_pipeline) {
+                bind(other);
             }
             if draw.overwritten {
                 draw.dynamic.opposite().set(device, commands);
@@ -515,7 +518,10 @@ unsafe fn draws(
             if let Some(extended) = &draw.extended {
                 extended.set(device, commands);
             }
-            if let Some(other) = &draw.other {
+            if draw.before_pipeline {
+                bind(pipeline);
+                bound = Some(pipeline);
+            } else if let Some(other) = &draw.other {
                 bind(other);
                 bind(pipeline);
             }

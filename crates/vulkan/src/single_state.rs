@@ -40,6 +40,7 @@ impl SingleState {
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
+            | PathState::BeforePipeline
             | PathState::DynamicLogic
             | PathState::Overwritten
             | PathState::OtherPipeline

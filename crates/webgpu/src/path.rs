@@ -23,6 +23,8 @@ pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<Pa
         PathValue::Draws(PathDraws::Indirect) => indirect,
         PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => false,
         PathValue::Draws(_) => true,
+        // A test needs its attachment (10.3.6).
+        PathValue::Tests(_) => false,
         PathValue::End(end) => matches!(
             end,
             PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
@@ -35,6 +37,7 @@ pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<Pa
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
+            | PathState::BeforePipeline
             | PathState::DynamicLogic
             | PathState::Kept
             | PathState::DynamicSamples

@@ -7,7 +7,7 @@ use crate::pipeline_state::{
     VertexBuffer,
 };
 use crate::tables::Lowering;
-use etalon_frame::{Requirement, TextureFormat};
+use etalon_frame::{PathDraws, Requirement, TextureFormat};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, CompareFunction, Draw, EarlyTests, Pass,
     PrimitiveTopology, Scene, Shader, Vertex,
@@ -48,7 +48,7 @@ pub(crate) fn of_draw(
         vertex: "vs".into(),
         fragment: shader.has_fragment().then(|| "fs".into()),
         buffers: vertex_buffers(shader, draw),
-        primitive: primitive(draw),
+        primitive: primitive(draw, scene.path.draws),
         depth_stencil: depth_stencil.transpose()?,
         samples: scene.pass_samples(pass),
         mask: draw.multisample.mask,
@@ -129,15 +129,16 @@ fn of_depth_stencil(format: TextureFormat, draw: &Draw) -> Result<DepthStencil, 
     })
 }
 
-fn primitive(draw: &Draw) -> Primitive {
+fn primitive(draw: &Draw, draws: PathDraws) -> Primitive {
     let strips = [
         PrimitiveTopology::LineStrip,
         PrimitiveTopology::TriangleStrip,
     ];
-    let indexed = draw.mesh.indices.is_some() && strips.contains(&draw.topology);
+    let restarts = draw.mesh.indices.is_some() || draws == PathDraws::RestartUnindexed;
+    let restarts = restarts && strips.contains(&draw.topology);
     Primitive {
         topology: draw.topology,
-        strip_index: indexed.then_some(draw.fetch.index),
+        strip_index: restarts.then_some(draw.fetch.index),
         front_face: draw.front_face,
         cull: draw.cull,
         unclipped_depth: draw.depth_clamp,

@@ -81,7 +81,7 @@ impl VertexAttribute {
 pub struct Primitive {
     /// The topology, which is no fan.
     pub topology: PrimitiveTopology,
-    /// The size of the indices of an indexed strip.
+    /// The size of the indices whose greatest restarts a strip.
     pub strip_index: Option<IndexFormat>,
     /// The orientation of front faces.
     pub front_face: FrontFace,

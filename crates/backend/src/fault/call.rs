@@ -157,6 +157,12 @@ faults! {
     PolygonModeKept = "polygon-mode-kept" in "sequence/shared/polygon-mode/*/state=extended-dynamic-3/*" of Vulkan;
     /// Depth clamping is that of the draw before, where it is dynamic.
     DepthClampKept = "depth-clamp-kept" in "sequence/shared/depth-clamp/*/state=extended-dynamic-3/*" of Vulkan;
+    /// A sample mask that is set before the pipeline is bound is lost: it is the pipeline's.
+    SetBeforeBind = "set-before-bind" in "sequence/shared/multisample/*/state=before-pipeline/*" of Vulkan;
+    /// Depth tests that none passes lose their draws, also without an attachment.
+    TestUnattached = "test-unattached" in "paths/tests/*/tests=unattached" of Vulkan;
+    /// Restart ends a draw without indices before its last vertex.
+    RestartUnindexed = "restart-unindexed" in "paths/restart-unindexed/*";
     /// Rasterizer discard is that of the draw before, where it is dynamic.
     DiscardKept = "discard-kept" in "sequence/shared/rasterizer-discard/*" of Vulkan;
     /// Of several targets, only the first is cleared when a pass begins.
