@@ -183,6 +183,37 @@ pub fn compare(
     Ok(result)
 }
 
+impl LegalSet {
+    /// Holds one sample of a frame, whose images are the set's, against another set: column, row and sample of the images
+    /// of one size and sample count. `None` if it is legal.
+    pub fn refused(
+        &self,
+        frame: &Frame,
+        shape: ([u32; 2], u32),
+        [x, y, sample]: [u32; 3],
+        set: &TexelSet,
+    ) -> Option<WrongTexel> {
+        let numbered = self.images.iter().enumerate();
+        let images: Vec<_> = numbered
+            .filter(|(_, info)| (info.size, info.samples) == shape)
+            .collect();
+        let orders = images.iter().flat_map(|(i, info)| {
+            let codes = frame.images[*i].sample(x, y, sample).iter();
+            codes
+                .zip(&info.channels)
+                .map(|(code, e)| e.order_of_code(*code))
+        });
+        let orders: Vec<i64> = orders.collect();
+        (!set.allows(&orders)).then(|| WrongTexel {
+            x,
+            y,
+            sample,
+            band: Band::Fail,
+            channels: mismatches(&images, set, &orders),
+        })
+    }
+}
+
 fn check_images(frame: &Frame, legal: &LegalSet) -> Result<(), FrameError> {
     if frame.images.len() != legal.images.len() {
         return Err(FrameError::ImageCount {

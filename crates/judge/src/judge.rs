@@ -4,6 +4,7 @@ use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
 use crate::grade::Grades;
 use crate::judgement_cache::{JudgementCache, judged_scene};
+use crate::line_gap::{gap_message, note_gap, proven_line_gap};
 use crate::relation::{self, Differences};
 use crate::story;
 use etalon_case::{Case, Relation};
@@ -105,12 +106,26 @@ impl Judge {
     ) -> Result<(Verdict, Option<WrongTexel>), String> {
         let mut worst: Option<Band> = None;
         let mut first = None;
-        let each = self.compare_each(number, case, limits, frames, |compared| compared.comparison);
-        for comparison in each {
-            let comparison = comparison?;
-            if comparison.worst() > worst {
-                worst = comparison.worst();
-                first = comparison.wrong.into_iter().next();
+        let each = self.compare_each(number, case, limits, frames, |compared| {
+            let Compared {
+                index,
+                frame,
+                comparison,
+                judgement,
+                ..
+            } = compared;
+            let scene = judged_scene(case, index);
+            let judged = (frame, comparison.worst());
+            let gap = proven_line_gap(scene, limits, judged, &judgement.legal);
+            (comparison, gap)
+        });
+        for compared in each {
+            let (comparison, gap) = compared?;
+            let found = comparison.worst().max(gap.as_ref().map(|_| Band::Fail));
+            if found > worst {
+                worst = found;
+                let wrong = gap.map_or(comparison.wrong, |gap| gap.wrong);
+                first = wrong.into_iter().next();
             }
         }
         if let Some(relation) = &case.relation {
@@ -167,6 +182,12 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
         worst = Some(grades.frame());
         regrade(&mut comparison, &grades);
     }
+    let scene = judged_scene(case, index);
+    let gap = proven_line_gap(scene, limits, (frame, worst), &judgement.legal);
+    let has_story = gap.as_ref().is_none_or(|gap| {
+        worst = Some(Band::Fail);
+        note_gap(&mut comparison, gap)
+    });
     record.texels = comparison.texels;
     record.wrong = comparison.wrong;
     record.counters = comparison.counters;
@@ -185,6 +206,8 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
     };
     if let Some(message) = counter_message(&record.counters) {
         record.message = message;
+    } else if let Some(gap) = &gap {
+        record.message = gap_message(gap);
     } else if judgement.looked_at < record.texels.total {
         record.message = share_message(judgement.looked_at, record.texels.total);
     }
@@ -193,7 +216,7 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
     }
     let mut file = None;
     if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
-        if let Some(wrong) = record.wrong.first() {
+        if let Some(wrong) = record.wrong.first().filter(|_| has_story) {
             let rules = match wrong.band {
                 Band::Imprecise => Rules::yardstick(&judgement.limits),
                 _ => judgement.rules.clone(),

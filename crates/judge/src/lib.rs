@@ -9,6 +9,7 @@ mod frame_file;
 mod grade;
 mod judge;
 mod judgement_cache;
+mod line_gap;
 mod relation;
 mod requirement;
 mod story;

@@ -63,6 +63,16 @@ pub(super) fn add(list: &mut List) {
         .draws(|draw| {
             draw.mesh.vertices.pop();
         });
+    list.bug("slanted-lines-lost: Lines along no axis are lost.")
+        .when(|draw| draw.topology == T::LineList && draw.mesh.indices.is_none())
+        .draws(|draw| {
+            let lines = draw.mesh.vertices.chunks_exact(2);
+            let axial = lines.filter(|ends| {
+                let [[x0, y0, ..], [x1, y1, ..]] = [ends[0].position, ends[1].position];
+                x0 == x1 || y0 == y1
+            });
+            draw.mesh.vertices = axial.flatten().copied().collect();
+        });
     list.bug("last-point-lost: The last point is lost.")
         .when(|draw| draw.topology == T::PointList)
         .draws(|draw| {

@@ -3,7 +3,7 @@
 use crate::notes::Notes;
 use crate::primitive::{Shape, Side, Times, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::walk::{Place, Walk};
+use crate::walk::{Forced, Place, Walk};
 use crate::world::{Decision, World, Worlds};
 use etalon_frame::{Coverage, Effect, Rejection, Step};
 use etalon_pipeline::{front_facing, is_top_left};
@@ -66,7 +66,14 @@ impl Walk<'_> {
     pub(crate) fn times(&self, place: Place<'_>) -> Times {
         let (least, most) = place.primitive.times(place.point, self.units);
         let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
-        if least > 0 && is_line && !self.rules.lines_cover_texels.value() {
+        let forced = Forced {
+            at: place.at,
+            draw: place.draw_id,
+            primitive: place.primitive.index,
+        };
+        if is_line && self.forced.get() == Some(forced) {
+            (least.max(1), most.max(1))
+        } else if least > 0 && is_line && !self.rules.lines_cover_texels.value() {
             (0, most)
         } else {
             (least, most)

@@ -24,6 +24,7 @@ mod interval;
 mod judging;
 mod known_sets;
 mod legal_sets;
+mod lines;
 mod notes;
 mod pass_operations;
 mod picture;
@@ -59,6 +60,7 @@ pub use legal_sets::{
     Judgement, Sets, explain, judgements, judgements_by, judgements_of, legal_set,
     legal_set_of_texels, set_by, shared_sets,
 };
+pub use lines::{LineGap, line_gap};
 pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;

@@ -370,7 +370,7 @@ fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
 
 /// A line that runs along an axis covers, away from its ends, the texels it runs through; near the ends and beside
 /// slanted lines the rules (diamond exit, rectangle) differ, so that anything is legal there.
-fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
+pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let [a, b] = ends;
     let all = a.hull(b);
     let unit = units as f64;

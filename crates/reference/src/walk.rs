@@ -25,7 +25,7 @@ use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -55,7 +55,19 @@ pub(crate) struct Walk<'a> {
     pub(crate) undefined: Undefined,
     /// The samples after some passes that a story needed.
     known: RefCell<Known>,
+    /// The line that covers a sample, whatever the rules leave open.
+    pub(crate) forced: Cell<Option<Forced>>,
     pub(crate) pictures: RefCell<Pictures>,
+}
+
+/// A line, or an outline, that covers a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Forced {
+    pub(crate) at: Sample,
+    /// The draw, counted over the scene from 1.
+    pub(crate) draw: u32,
+    /// The primitive's place in the draw.
+    pub(crate) primitive: u32,
 }
 
 /// How a primitive meets a sample.
@@ -151,6 +163,7 @@ impl<'a> Walk<'a> {
             texels,
             undefined: Undefined::of(scene),
             known: RefCell::default(),
+            forced: Cell::default(),
             pictures: RefCell::default(),
         }
     }
@@ -175,6 +188,12 @@ impl<'a> Walk<'a> {
     /// Takes away what was kept of other samples.
     #[cfg(test)]
     pub(crate) fn forget(&self) {
+        self.known.borrow_mut().clear();
+    }
+
+    /// Makes a line cover a sample from now on, and no other one.
+    pub(crate) fn force(&self, forced: Forced) {
+        self.forced.set(Some(forced));
         self.known.borrow_mut().clear();
     }
 

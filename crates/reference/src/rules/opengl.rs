@@ -306,6 +306,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
+        lines_lack: permit(
+            Some(1),
+            text.cite([
+                "OpenGL 3.3: 3.5.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+                "OpenGL 4.5: 14.5.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+                "OpenGL 4.6: 14.5.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

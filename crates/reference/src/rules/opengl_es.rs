@@ -258,6 +258,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.6.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
+        lines_lack: permit(
+            Some(1),
+            text.cite([
+                "OpenGL ES 3.0: 3.5.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+                "OpenGL ES 3.1: 13.4.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+                "OpenGL ES 3.2: 13.6.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

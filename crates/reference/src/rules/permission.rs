@@ -464,6 +464,8 @@ rules! {
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
+    /// The number of fragments that a line may have less than by the diamond-exit rule; `None` if no text counts them.
+    lines_lack: Option<usize>,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.

@@ -202,6 +202,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             )
         },
+        lines_lack: permit(
+            Some(1),
+            "Vulkan: Bresenham Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule; rectangles and parallelograms have one in each column",
+        ),
         points_face_front: permit(
             true,
             "Vulkan: Fragment Shading, FrontFacing: fragments of other primitives than polygons are front-facing",

@@ -163,6 +163,10 @@ pub(super) fn rules() -> Rules {
             Grade::Disputed,
             "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined; by a rectangle, or by Bresenham's in which a fragment may deviate by one unit",
         ),
+        lines_lack: permit(
+            None,
+            "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
+        ),
         points_face_front: permit(
             false,
             "WebGPU: 23.2.5: facing of points and lines is not asserted",

@@ -132,6 +132,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: nothing outside of the clip volume is drawn",
         ),
         lines_cover_texels: permit(true, "Yardstick: no gap in a line"),
+        lines_lack: permit(Some(0), "Yardstick: no gap in a line"),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",

@@ -10,6 +10,7 @@ mod families;
 mod frames;
 mod golden;
 mod homogeneous;
+mod lines;
 mod resolves;
 mod scenes;
 mod steps;

@@ -1,0 +1,125 @@
+//! Lines that have too few fragments in a frame.
+
+use etalon_frame::{Band, Comparison, Frame, Grade, LegalSet, Limits, WrongTexel};
+use etalon_record::MAX_WRONG_TEXELS;
+use etalon_reference::{LineGap, Rules, line_gap};
+use etalon_scene::Scene;
+
+/// Returns a line that has fewer fragments than musts of the text allow, whatever the depth encodings are; `None` if no
+/// line has, or if a frame fails anyway.
+pub(crate) fn proven_line_gap(
+    scene: &Scene,
+    limits: &Limits,
+    (frame, worst): (&Frame, Option<Band>),
+    legal: &LegalSet,
+) -> Option<LineGap> {
+    if worst == Some(Band::Fail) {
+        return None;
+    }
+    let rules = Rules::of(limits).bound_by(Grade::Proven);
+    let mut gaps = Vec::new();
+    for limits in limits.alternatives(&scene.formats()) {
+        gaps.push(line_gap(scene, &limits, &rules, frame, legal)?);
+    }
+    gaps.into_iter().next()
+}
+
+/// Adds the texels of a line's gap to a comparison, as proven violations before all others. Returns true if the first one is
+/// outside of its own legal set too, so that its story tells why it is wrong.
+pub(crate) fn note_gap(comparison: &mut Comparison, gap: &LineGap) -> bool {
+    let all_known = comparison.wrong.len() < MAX_WRONG_TEXELS;
+    let place = |w: &WrongTexel| (w.x, w.y, w.sample);
+    let (mut wrong, mut others) = (Vec::new(), Vec::new());
+    for texel in &gap.wrong {
+        let mut known = comparison.wrong.iter();
+        let known = known.position(|w| place(w) == place(texel));
+        let band = known.map(|i| comparison.wrong.remove(i).band);
+        match band {
+            Some(Band::Imprecise) => {
+                comparison.texels.imprecise -= 1;
+                comparison.texels.wrong += 1;
+            }
+            None if all_known => comparison.texels.wrong += 1,
+            Some(_) | None => {}
+        }
+        if band > Some(Band::Imprecise) {
+            wrong.push(texel.clone());
+        } else {
+            others.push(texel.clone());
+        }
+    }
+    let has_story = !wrong.is_empty();
+    wrong.append(&mut others);
+    wrong.append(&mut comparison.wrong);
+    wrong.truncate(MAX_WRONG_TEXELS);
+    comparison.wrong = wrong;
+    has_story
+}
+
+/// Returns the message about a line that has too few fragments.
+pub(crate) fn gap_message(gap: &LineGap) -> String {
+    let [pass, draw, primitive] = gap.origin;
+    let [least, most] = gap.fragments;
+    format!(
+        "the line of primitive {primitive} of draw {draw} of pass {pass} has at most {most} fragments, at least {least} are legal: {}",
+        gap.citation
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Judge;
+    use etalon_backend::Backend;
+    use etalon_case::{Library, Profile};
+    use etalon_cpu::CpuBackend;
+    use etalon_frame::{Api, Band, Frame};
+    use etalon_record::{Record, Verdict};
+
+    /// The record of a case of slanted lines, of which those within some columns are missing.
+    fn lacking(api: Api, columns: std::ops::Range<usize>) -> Record {
+        let id = "cull/slanted-lines/blend=opaque/topology=line-list";
+        let library = Library::built_in().expect("built-in files parse");
+        let found = library.cases(Profile::Full).find(|case| case.id() == id);
+        let case = found.and_then(|case| case.build().ok()).expect("it builds");
+        let backend = CpuBackend::new("cpu");
+        let mut prepared = backend.prepare(&case.scene).expect("it prepares");
+        prepared.submit().expect("it draws");
+        let mut frame: Frame = prepared.read_back().expect("it is read back");
+        for image in &mut frame.images {
+            let (width, channels) = (image.size[0] as usize, image.channels.len());
+            for (i, texel) in image.codes.chunks_exact_mut(channels).enumerate() {
+                if columns.contains(&(i % width)) {
+                    texel.copy_from_slice(match channels {
+                        1 => &[0],
+                        _ => &[0, 0, 255, 0],
+                    });
+                }
+            }
+        }
+        let mut limits = backend.limits().clone();
+        limits.api = api;
+        Judge::default()
+            .judge(0, &case, "test", &limits, &[frame])
+            .record
+    }
+
+    #[test]
+    fn a_slanted_line_that_is_missing_is_a_fail() {
+        for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
+            let record = lacking(api, 0..36);
+            assert_eq!(record.verdict, Verdict::Fail, "{api}");
+            assert_eq!(record.wrong[0].band, Band::Fail);
+            assert!(
+                record.message.contains("at most 0 fragments"),
+                "{}",
+                record.message
+            );
+            assert_eq!(lacking(api, 8..9).verdict, Verdict::Pass, "{api}");
+        }
+    }
+
+    #[test]
+    fn no_text_counts_fragments_for_webgpu() {
+        assert_ne!(lacking(Api::WebGpu, 0..36).verdict, Verdict::Fail);
+    }
+}

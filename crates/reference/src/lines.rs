@@ -1,0 +1,235 @@
+//! Lines whose fragments are too few. Which texel of a column a fragment of a line lies in is open, so that a line that
+//! is missing breaks no texel's legal set; how many fragments there are is not open. A column has one if a texel of it
+//! may hold what the line leaves there.
+
+use crate::notes::Notes;
+use crate::primitive::{Edge, Shape, Side, SnappedPrimitive, line_times};
+use crate::rules::Rules;
+use crate::sample::Sample;
+use crate::snap::SnapBox;
+use crate::texels::Texels;
+use crate::walk::{Forced, Walk, in_scissor};
+use etalon_frame::{Frame, LegalSet, Limits, TexelSet, WrongTexel};
+use etalon_pipeline::Point;
+use etalon_scene::{Draw, PolygonMode, PrimitiveTopology, Scene};
+use std::ops::Range;
+
+/// The most columns of lines of a scene that are looked at.
+const MOST_COLUMNS: usize = 4096;
+
+/// A line with fewer fragments than any algorithm may give it.
+#[derive(Clone, Debug)]
+pub struct LineGap {
+    /// The pass, the draw and the primitive that the line is, or is an edge of.
+    pub origin: [usize; 3],
+    /// The fewest fragments that are legal, and the most that the frame can hold.
+    pub fragments: [usize; 2],
+    /// A texel of each column without a fragment, as it must be if the line covers it.
+    pub wrong: Vec<WrongTexel>,
+    /// The clause.
+    pub citation: &'static str,
+}
+
+/// A line of a draw.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    pass: usize,
+    draw: usize,
+    primitive: &'a SnappedPrimitive,
+    ends: [SnapBox; 2],
+}
+
+/// Returns the first line of a scene that has too few fragments in a frame of the legal set's images; `None` if no line
+/// has.
+pub fn line_gap(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    frame: &Frame,
+    legal: &LegalSet,
+) -> Option<LineGap> {
+    let counts = |pass: usize| scene.pass_samples(&scene.passes[pass]) == 1;
+    let passes = (0..scene.passes.len()).filter(|pass| counts(*pass));
+    let drawn: Vec<(usize, usize)> = passes
+        .flat_map(|p| (0..scene.passes[p].draws.len()).map(move |d| (p, d)))
+        .filter(|(p, d)| has_lines(&scene.passes[*p].draws[*d]))
+        .collect();
+    if drawn.is_empty() {
+        return None;
+    }
+    let lack = rules.lines_lack.value()?;
+    let walk = Walk::new(scene, limits, rules, Texels::All);
+    let mut columns = 0;
+    for (pass, draw) in drawn {
+        for primitive in walk.setups[pass].primitives_of(draw) {
+            for ends in segments(primitive) {
+                let Some((axis, due)) = columns_of(ends, walk.units) else {
+                    continue;
+                };
+                columns += due.clone().count();
+                if due.clone().count() <= lack {
+                    continue;
+                }
+                if columns > MOST_COLUMNS {
+                    return None;
+                }
+                let line = Line {
+                    pass,
+                    draw,
+                    primitive,
+                    ends,
+                };
+                let least = due.clone().count() - lack;
+                let found = walk.fragments(line, (axis, due), frame, legal);
+                if let Some((most, wrong)) = found.filter(|(most, _)| *most < least) {
+                    return Some(LineGap {
+                        origin: [pass, draw, primitive.index as usize],
+                        fragments: [least, most],
+                        wrong,
+                        citation: rules.lines_lack.citation,
+                    });
+                }
+            }
+        }
+    }
+    None
+}
+
+/// True if a draw's primitives are lines, or drawn as lines.
+fn has_lines(draw: &Draw) -> bool {
+    let lines = [PrimitiveTopology::LineList, PrimitiveTopology::LineStrip];
+    lines.contains(&draw.topology) || draw.polygon_mode == PolygonMode::Line
+}
+
+/// Returns the lines of a primitive. Edges that are cut have no ends that are known.
+fn segments(primitive: &SnappedPrimitive) -> Vec<[SnapBox; 2]> {
+    match &primitive.shape {
+        Shape::Line(ends) => vec![*ends],
+        Shape::Outline(triangle) => {
+            let ends = triangle.edges.iter().map(|edge| match edge {
+                Edge::Between(ends) => Some(*ends),
+                Edge::Cut { .. } => None,
+            });
+            ends.flatten().collect()
+        }
+        Shape::Triangle(_) | Shape::Point(_) => Vec::new(),
+    }
+}
+
+/// Returns a point's coordinate: x along axis 0, y along axis 1.
+fn along(point: Point, axis: usize) -> i64 {
+    if axis == 0 { point.x } else { point.y }
+}
+
+/// Returns the axis along which a line is longer, wherever its ends are snapped, and the columns, or rows, that it crosses
+/// from side to side: the diamond-exit rule gives each a fragment. `None` if the axis depends on the snapping.
+fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
+    let inner = |axis: usize| {
+        let (first, second) = if along(a.low, axis) <= along(b.low, axis) {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        (along(first.high, axis), along(second.low, axis))
+    };
+    let least = |axis: usize| inner(axis).1 - inner(axis).0;
+    let most = |axis: usize| {
+        let all = a.hull(b);
+        along(all.high, axis) - along(all.low, axis)
+    };
+    let axis = [0, 1]
+        .into_iter()
+        .find(|axis| least(*axis) > most(1 - axis))?;
+    let (low, high) = inner(axis);
+    // At either side of its texel an end may lie in the next one's diamond.
+    let (first, end) = (low.div_euclid(units) + 1, -(-high).div_euclid(units) - 1);
+    Some((axis, first..end.max(first)))
+}
+
+impl Walk<'_> {
+    /// Returns the number of columns in which a frame can hold a fragment of a line, those out of sight included, and a
+    /// texel of each column of `due` that has none; `None` if a part of the line may be clipped.
+    fn fragments(
+        &self,
+        line: Line<'_>,
+        (axis, due): (usize, Range<i64>),
+        frame: &Frame,
+        legal: &LegalSet,
+    ) -> Option<(usize, Vec<WrongTexel>)> {
+        let [a, b] = line.ends;
+        let all = a.hull(b);
+        // A fragment is off by at most a texel, and an end on the side of a texel may count as the next one's.
+        let cells = |axis: usize| {
+            let low = (along(all.low, axis) - 1).div_euclid(self.units);
+            let high = along(all.high, axis).div_euclid(self.units);
+            low - 1..high + 2
+        };
+        let (mut found, mut wrong) = (0, Vec::new());
+        for column in cells(axis) {
+            let (mut is_possible, mut refused) = (false, Vec::new());
+            for row in cells(1 - axis) {
+                let [x, y] = if axis == 0 {
+                    [column, row]
+                } else {
+                    [row, column]
+                };
+                let middle = |texel: i64| texel * self.units + self.units / 2;
+                let center = Point {
+                    x: middle(x),
+                    y: middle(y),
+                };
+                if line_times(line.ends, center, self.units).1 == 0 {
+                    continue;
+                }
+                let sides = [Side::Unknown; 3];
+                let hit = self.hit((line.pass, line.draw), line.primitive, sides, center);
+                hit.ok().filter(|hit| hit.is_certain())?;
+                if is_possible {
+                    continue;
+                }
+                match self.covered_by(line, [x, y]) {
+                    None => is_possible = true,
+                    Some((at, set)) => {
+                        match legal.refused(frame, (at.size, 1), [at.x, at.y, 0], &set) {
+                            None => is_possible = true,
+                            Some(texel) => refused.push(texel),
+                        }
+                    }
+                }
+            }
+            if is_possible {
+                found += 1;
+            } else if due.contains(&column) {
+                // The middle one is nearest to the line.
+                let middle = refused.len() / 2;
+                wrong.extend(refused.into_iter().nth(middle));
+            }
+        }
+        Some((found, wrong))
+    }
+
+    /// Returns a texel with its legal values if a line covers it; `None` if no fragment shows there.
+    fn covered_by(&self, line: Line<'_>, texel: [i64; 2]) -> Option<(Sample, TexelSet)> {
+        let pass = &self.scene.passes[line.pass];
+        let size = self.scene.pass_size(pass);
+        let [x, y] = texel.map(|v| u32::try_from(v).ok());
+        let at = Sample {
+            size,
+            samples: 1,
+            x: x.filter(|x| *x < size[0])?,
+            y: y.filter(|y| *y < size[1])?,
+            sample: 0,
+        };
+        if !in_scissor(&pass.draws[line.draw], at) {
+            return None;
+        }
+        self.force(Forced {
+            at,
+            draw: self.draw_ids[line.pass] + line.draw as u32,
+            primitive: line.primitive.index,
+        });
+        let worlds = self.worlds(at, self.scene.passes.len(), &mut Notes(None));
+        let set = worlds.map(|worlds| self.finish(&worlds, at, &mut Notes(None)));
+        Some((at, set.unwrap_or_default()))
+    }
+}
