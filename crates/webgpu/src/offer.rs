@@ -217,3 +217,57 @@ pub fn standard_formats(has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, U
     let formats = TextureFormat::ALL.into_iter();
     formats.filter_map(|f| Some((f, uses(f)?))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_widen_the_uses_of_formats() {
+        let plain = standard_formats(|_| false);
+        let wide = standard_formats(|_| true);
+        assert_eq!(plain[&TextureFormat::Rgba8Snorm], Uses::default());
+        assert_eq!(plain[&TextureFormat::Rg11b10Ufloat], Uses::default());
+        assert!(!plain[&TextureFormat::Rgba32Float].blended);
+        assert!(!plain.contains_key(&TextureFormat::Depth32FloatStencil8));
+        assert!(wide[&TextureFormat::Rgba8Snorm].drawn);
+        assert!(wide[&TextureFormat::Rg11b10Ufloat].multisampled);
+        assert!(wide[&TextureFormat::Rgba32Float].blended);
+        assert!(wide.contains_key(&TextureFormat::Depth32FloatStencil8));
+        assert!(!wide.contains_key(&TextureFormat::B5g6r5Unorm));
+    }
+
+    #[test]
+    fn limits_follow_the_offer() {
+        let offer = |texture_2d, color_bytes_per_sample| Offer {
+            formats: standard_formats(|_| false),
+            abilities: Abilities {
+                copies: true,
+                casts: true,
+            },
+            features: BTreeSet::new(),
+            indirect: true,
+            indirect_first_instance: false,
+            complete: true,
+            limits: DeviceLimits {
+                texture_2d,
+                texture_3d: 2048,
+                color_attachments: 8,
+                color_bytes_per_sample,
+                uniform_alignment: 256,
+                storage_alignment: 256,
+            },
+        };
+        let small = Device::new(offer(4096, 32)).limits;
+        assert_eq!(small.max_color_attachments, 2);
+        assert!(!small.features.contains(&Feature::ViewportOutside));
+        assert!(small.features.contains(&Feature::FragmentShaderAbsent));
+        // WebGPU resolves no integers, and fetches do not tell the codes of 16 bits.
+        assert_eq!(small.formats[&TextureFormat::Rgba8Uint].samples, [1]);
+        assert_eq!(small.formats[&TextureFormat::Depth16Unorm].samples, [1]);
+        assert_eq!(small.formats[&TextureFormat::Depth32Float].samples, [1, 4]);
+        let large = Device::new(offer(8192, 128)).limits;
+        assert_eq!(large.max_color_attachments, 8);
+        assert!(large.features.contains(&Feature::ViewportOutside));
+    }
+}

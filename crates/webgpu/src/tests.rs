@@ -37,7 +37,7 @@ fn device() -> Device {
         Feature::StorageCounters,
         Feature::ViewportOutside,
     ]);
-    limits.paths = crate::paths(true, &limits.features);
+    limits.paths = crate::path::paths(true, &limits.features);
     Device {
         limits,
         abilities: Abilities {
