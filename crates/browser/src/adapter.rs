@@ -32,7 +32,10 @@ pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
         device,
         driver: hello.browser.name.clone(),
         driver_version: hello.browser.version.clone(),
-        driver_id: named.join(", "),
+        driver_id: std::iter::once("WebGPU")
+            .chain(named)
+            .collect::<Vec<_>>()
+            .join(", "),
         api_version: "WebGPU".to_owned(),
         software,
     }

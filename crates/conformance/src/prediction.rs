@@ -81,10 +81,14 @@ mod tests {
     use crate::known::{KNOWN, WHOLE, known};
 
     /// The drivers that each crate's tests run the suite on.
-    const TESTED: [(&str, &str); 3] = [
+    const TESTED: [(&str, &str); 4] = [
         ("vulkan", include_str!("../../vulkan/tests/driver/main.rs")),
         ("gl", include_str!("../../gl/tests/drivers/main.rs")),
         ("wgpu", include_str!("../../wgpu/tests/drivers/main.rs")),
+        (
+            "webgpu",
+            include_str!("../../browser/tests/drivers/main.rs"),
+        ),
     ];
 
     /// Checks that draw on none of the drivers, each with its reason.

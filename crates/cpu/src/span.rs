@@ -466,8 +466,14 @@ impl<'a, S: Steps> SpanState<'a, S> {
         and(mask, inside)
     }
 
+    /// The attachment that has stencil; a test without one passes.
+    fn stencil(&self) -> Option<usize> {
+        let index = self.pass.depth_stencil?;
+        (!self.surfaces[index].stencil.is_empty()).then_some(index)
+    }
+
     fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &Face) -> Mask {
-        let Some(index) = self.pass.depth_stencil else {
+        let Some(index) = self.stencil() else {
             return [true; LANES];
         };
         let at = self.at(index, span);
@@ -487,7 +493,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         path: Path,
         mask: Mask,
     ) {
-        let Some(index) = self.pass.depth_stencil else {
+        let Some(index) = self.stencil() else {
             return;
         };
         let at = self.at(index, span);

@@ -5,7 +5,6 @@ use crate::calls::{
 };
 use crate::pipeline_state::PipelineState;
 use etalon_backend::CallFault;
-use std::mem::replace;
 
 /// Changes a list as a driver would that gets its calls wrong. A list has no place for some faults
 /// ([`CallFault::is_in`]).
@@ -95,7 +94,7 @@ fn kept_state(list: &mut CallList, change: impl Fn(&mut PipelineState, &Pipeline
             };
             let mut pipeline = pipelines[*place].clone();
             let state = pipeline.state.clone();
-            if let Some(before) = replace(&mut before, Some(state)) {
+            if let Some(before) = before.replace(state) {
                 change(&mut pipeline.state, &before);
                 pipelines.push(pipeline);
                 *place = pipelines.len() - 1;
@@ -130,8 +129,9 @@ fn in_pass(fault: CallFault, number: usize, pass: &mut RenderPass) {
             others.for_each(|color| color.resolve = None);
         }
         CallFault::ResolveSecondDropped => {
-            let second = pass.color.iter_mut().nth(1);
-            second.into_iter().for_each(|color| color.resolve = None);
+            if let Some(second) = pass.color.get_mut(1) {
+                second.resolve = None;
+            }
         }
         CallFault::LaterPassDraw if number > 0 => {
             let is_draw =
@@ -167,45 +167,42 @@ fn in_commands(fault: CallFault, commands: &mut [PassCommand]) {
                 *command = before;
             }
         }
-        match (fault, command) {
-            (CallFault::ScissorEdge, PassCommand::SetScissorRect([x, _, width, _])) => {
-                if (*x + *width).is_multiple_of(16) {
-                    *width = width.saturating_sub(1);
-                }
+        match command {
+            PassCommand::SetScissorRect([x, _, width, _])
+                if fault == CallFault::ScissorEdge && (*x + *width).is_multiple_of(16) =>
+            {
+                *width = width.saturating_sub(1);
             }
-            (
-                CallFault::BaseVertex,
-                PassCommand::Draw(DrawCommand::DrawIndexed { base_vertex, .. }),
-            ) => *base_vertex = 0,
-            (
-                CallFault::IndexOffset,
-                PassCommand::Draw(DrawCommand::DrawIndexed { indices, .. }),
-            ) => {
-                *indices = 0..indices.end - indices.start;
-            }
-            (
-                CallFault::FirstIndex,
-                PassCommand::Draw(DrawCommand::DrawIndexed { indices, .. }),
-            ) => {
-                if indices.start > 0 && indices.start < indices.end {
-                    indices.start += 1;
-                }
-            }
-            (
-                CallFault::FirstInstance,
-                PassCommand::Draw(
-                    DrawCommand::Draw { instances, .. }
-                    | DrawCommand::DrawIndexed { instances, .. },
-                ),
-            ) => *instances = 0..instances.end - instances.start,
-            (
-                CallFault::SecondInstance,
-                PassCommand::Draw(
-                    DrawCommand::Draw { instances, .. }
-                    | DrawCommand::DrawIndexed { instances, .. },
-                ),
-            ) => instances.end = instances.end.min(instances.start + 1),
+            PassCommand::Draw(draw) => in_draw(fault, draw),
             _ => {}
         }
+    }
+}
+
+fn in_draw(fault: CallFault, draw: &mut DrawCommand) {
+    let (DrawCommand::Draw { instances, .. } | DrawCommand::DrawIndexed { instances, .. }) = draw
+    else {
+        return;
+    };
+    match fault {
+        CallFault::FirstInstance => *instances = 0..instances.end - instances.start,
+        CallFault::SecondInstance => instances.end = instances.end.min(instances.start + 1),
+        _ => {}
+    }
+    let DrawCommand::DrawIndexed {
+        indices,
+        base_vertex,
+        ..
+    } = draw
+    else {
+        return;
+    };
+    match fault {
+        CallFault::BaseVertex => *base_vertex = 0,
+        CallFault::IndexOffset => *indices = 0..indices.end - indices.start,
+        CallFault::FirstIndex if indices.start > 0 && indices.start < indices.end => {
+            indices.start += 1;
+        }
+        _ => {}
     }
 }

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 27] = [
+const TABLE: [(&str, &[&str], &[&str]); 28] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -32,6 +32,7 @@ const TABLE: [(&str, &[&str], &[&str]); 27] = [
         &["glow", "khronos-egl", "naga"],
     ),
     ("webgpu", &["backend", "frame", "scene"], &[]),
+    ("browser", &["backend", "frame", "scene", "webgpu"], &[]),
     (
         "wgpu",
         &["backend", "frame", "scene", "webgpu"],
@@ -79,6 +80,7 @@ const TABLE: [(&str, &[&str], &[&str]); 27] = [
         "cli",
         &[
             "backend",
+            "browser",
             "bundle",
             "case",
             "cpu",

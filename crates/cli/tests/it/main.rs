@@ -4,6 +4,7 @@
 mod adapters;
 mod bench;
 mod bisect;
+mod browsers;
 mod bundle_c;
 mod bundle_wgpu;
 mod bundling;

@@ -500,6 +500,8 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     let bare = |arguments: &[&str]| {
         let mut command = etalon(arguments);
         command.env("LD_LIBRARY_PATH", libraries.path());
+        // No browser either.
+        command.env("PATH", libraries.path());
         command
     };
     let output = bare(&["adapters", "--format", "json"]).assert().code(0);
