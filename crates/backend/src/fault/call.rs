@@ -119,7 +119,7 @@ faults! {
     /// Load operations do not clear colour.
     LoadColorIgnored = "load-color-ignored" in "paths/write-masks/*/start=load-operation" of Vulkan WebGpu;
     /// Load operations do not clear depth.
-    LoadDepthIgnored = "load-depth-ignored" in "{paths/depth-test/pass=*/start=load-operation/*,depth/compare/*}" of Vulkan WebGpu;
+    LoadDepthIgnored = "load-depth-ignored" in "paths/depth-stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// Load operations do not clear stencil.
     LoadStencilIgnored = "load-stencil-ignored" in "paths/stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// What is drawn in a render pass that is an object is not stored.

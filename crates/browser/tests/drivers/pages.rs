@@ -250,7 +250,11 @@ fn only_who_has_the_token_is_served() {
         &mut first,
         &json!({ "protocol": 1, "unavailable": "no adapter" }),
     );
-    let error = worker.join().expect("no panic").map(|_| ()).unwrap_err();
+    let error = worker
+        .join()
+        .expect("no panic")
+        .map(|_| ())
+        .expect_err("it is refused");
     assert!(error.contains("no adapter"), "{error}");
 }
 
@@ -261,7 +265,11 @@ fn a_page_of_another_version_is_refused() {
     let mut greeting = hello("a");
     greeting["protocol"] = json!(2);
     greet(&mut page.opened(), &greeting);
-    let error = worker.join().expect("no panic").map(|_| ()).unwrap_err();
+    let error = worker
+        .join()
+        .expect("no panic")
+        .map(|_| ())
+        .expect_err("it is refused");
     assert!(error.contains("another version"), "{error}");
 }
 
