@@ -121,7 +121,7 @@ faults! {
     /// Load operations do not clear depth.
     LoadDepthIgnored = "load-depth-ignored" in "paths/depth-stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// Load operations do not clear stencil.
-    LoadStencilIgnored = "load-stencil-ignored" in "paths/stencil/*/start=load-operation/*" of Vulkan WebGpu;
+    LoadStencilIgnored = "load-stencil-ignored" in "paths/depth-stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// What is drawn in a render pass that is an object is not stored.
     StoreDropped = "store-dropped" in "paths/two-passes/*/pass=render-pass/*" of Vulkan;
     // OpenGL reads through attachments too, and sees what it drew there unless it is copied first.
