@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn a_message_keeps_its_header_and_its_bytes() {
         let parts: [&[u8]; 2] = [b"ab", b"c"];
-        let message = packed(&7, parts.into_iter()).unwrap();
+        let message = packed(&7, parts.into_iter()).expect("it is packed");
         assert_eq!(unpacked::<u32>(&message), Ok((7, b"abc".as_slice())));
     }
 

@@ -64,7 +64,8 @@ mod tests {
     use super::*;
 
     fn head(text: &str) -> RequestHead {
-        RequestHead::parse(text.as_bytes()).unwrap().unwrap()
+        let head = RequestHead::parse(text.as_bytes()).expect("a head");
+        head.expect("a whole one")
     }
 
     #[test]
