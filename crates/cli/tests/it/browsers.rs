@@ -150,7 +150,7 @@ fn whoever_opens_the_page_is_the_adapter() {
         format!(r#"[{{ "name": "webgpu:mine", "backend": "webgpu", "listen": "{address}" }}]"#);
     fs::write(&file, entry).unwrap();
     let mut command = Command::new(BINARY);
-    // A selftest makes a second worker of one that must be alone.
+    // What fails is drawn again by a second worker, which the first one must leave the page to.
     command
         .args([
             "run",
