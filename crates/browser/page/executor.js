@@ -514,7 +514,12 @@ function depthStencilOf(state) {
   return descriptor;
 }
 
-function target({ format, blend, write_mask: writeMask }) {
+/** A location without an attachment has `null` for a target. */
+function target(state) {
+  if (state === null) {
+    return null;
+  }
+  const { format, blend, write_mask: writeMask } = state;
   const component = ({ operation, src_factor: srcFactor, dst_factor: dstFactor }) => ({
     operation,
     srcFactor,
@@ -555,7 +560,11 @@ function pass(made, encoder, described, clock) {
   rendering.end();
 }
 
+/** A location without an attachment has `null`. */
 function colorAttachment(made, color) {
+  if (color === null) {
+    return null;
+  }
   const { clear, store } = color.operations;
   const attachment = {
     view: made.views[color.view],

@@ -79,6 +79,10 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             draws().any(Draw::is_unindexed_strip),
             "no strip or fan is drawn without indices",
         ),
+        PathValue::Colors(_) => (
+            any(&|i, _| drawn(i) && scene.is_gap(i)),
+            "every colour attachment is read, or its pass has no other that is",
+        ),
         PathValue::Tests(_) => (
             scene.passes.iter().any(|pass| {
                 let format = pass.depth_stencil.map(|i| scene.attachments[i].format);

@@ -74,6 +74,11 @@ impl TextureFormat {
         !self.has_depth() && !self.has_stencil()
     }
 
+    /// True if texels are colours with alpha and no integers.
+    pub fn has_alpha(self) -> bool {
+        self.color_channels().len() == 4 && !self.is_integer()
+    }
+
     /// True if texels are integers, which shaders write as integers and nothing blends.
     pub fn is_integer(self) -> bool {
         self == Self::Rgba8Uint

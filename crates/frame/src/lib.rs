@@ -64,8 +64,8 @@ pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::{shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
-    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
-    PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
+    PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
+    PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
     PathViewport,
 };
 pub use property::Property;

@@ -230,6 +230,13 @@ path_values! {
         /// On, and none passes, which nothing may come of without an attachment.
         Unattached = "unattached",
     }
+    /// The colour attachments of passes.
+    Colors(PathColors) = "colors" {
+        /// All.
+        Attached = "attached",
+        /// Those that something reads; the locations of the others have no attachment.
+        Gaps = "gaps",
+    }
     /// The resolves of colors.
     Resolves(PathResolves) = "resolves" {
         /// With the pass.

@@ -33,7 +33,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         }
         // Up to 4.4, an index also restarts draws without indices (OpenGL 4.2, 2.8.1).
         PathValue::Draws(PathDraws::RestartUnindexed) => caps.es || caps.version >= (4, 5),
-        PathValue::Tests(_) => true,
+        PathValue::Tests(_) | PathValue::Colors(_) => true,
         PathValue::Draws(_) => true,
         PathValue::End(PathEnd::Copy) => caps.copy_image,
         PathValue::End(_) => true,

@@ -225,6 +225,11 @@ functions! {
             }
             buffers = all.as_ptr();
         }
+        if planted.calls.has(CallFault::GapEnds) {
+            let behind = all.iter_mut().skip_while(|buffer| **buffer != glow::NONE);
+            behind.for_each(|buffer| *buffer = glow::NONE);
+            buffers = all.as_ptr();
+        }
     }
     before glInvalidateFramebuffer(target: u32, count: i32, points: *const u32) |planted| {
         planted.undefined = true;

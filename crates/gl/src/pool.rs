@@ -23,7 +23,7 @@ pub(crate) struct Target {
     key: TargetKey,
 }
 
-type TargetKey = (Vec<u64>, Option<u64>, bool);
+type TargetKey = (Vec<Option<u64>>, Option<u64>, bool);
 
 /// Unused objects.
 #[derive(Default)]
@@ -90,12 +90,12 @@ impl Pool {
     pub(crate) fn target(
         &mut self,
         context: &Context,
-        color: &[&Surface],
+        color: &[Option<&Surface>],
         depth_stencil: Option<&Surface>,
         layered: bool,
     ) -> Result<Option<Target>, BackendError> {
         let key = (
-            color.iter().map(|s| s.id).collect::<Vec<_>>(),
+            color.iter().map(|s| s.map(|s| s.id)).collect::<Vec<_>>(),
             depth_stencil.map(|s| s.id),
             layered,
         );
@@ -103,8 +103,8 @@ impl Pool {
             return Ok(Some(Target { framebuffer, key }));
         }
         let mut attachments = Vec::new();
-        for (i, surface) in color.iter().enumerate() {
-            attachments.push((surface.storage, glow::COLOR_ATTACHMENT0 + i as u32));
+        for (surface, point) in color.iter().zip(glow::COLOR_ATTACHMENT0..) {
+            attachments.extend(surface.map(|surface| (surface.storage, point)));
         }
         if let Some(surface) = depth_stencil {
             attachments.push((surface.storage, surface.attachment));

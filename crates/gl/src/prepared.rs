@@ -24,6 +24,7 @@ use etalon_frame::{
 };
 use etalon_scene::{Contents, Draw, Path, Scene};
 use glow::HasContext;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// A scene's objects. They return to the pool on drop.
@@ -37,6 +38,8 @@ pub(crate) struct PreparedScene<'a> {
     /// The attachments that are read, and the way of each to the host.
     read: Vec<(usize, PathEnd)>,
     inputs: Inputs,
+    /// The attachments that the path leaves out of passes.
+    gaps: BTreeSet<usize>,
     counters: Counters,
     submitted: bool,
     /// True if nothing has failed, so that other scenes may reuse the objects.
@@ -67,6 +70,9 @@ impl<'a> PreparedScene<'a> {
             attachments: Vec::new(),
             passes: Vec::new(),
             path: scene.path,
+            gaps: (0..scene.attachments.len())
+                .filter(|i| scene.is_gap(*i))
+                .collect(),
             pool: scene.pool,
             read: ends(objects, scene),
             inputs: Inputs::default(),
@@ -158,7 +164,7 @@ impl<'a> PreparedScene<'a> {
         };
         let layers = if let SurfaceKind::Layered(..) = kind {
             let (color, depth_stencil) = if format.is_color() {
-                (vec![&surface], None)
+                (vec![Some(&surface)], None)
             } else {
                 (Vec::new(), Some(&surface))
             };
@@ -277,7 +283,10 @@ impl<'a> PreparedScene<'a> {
                 between: between.transpose()?,
             });
         }
-        let surfaces: Vec<&Surface> = color.iter().map(|a| &a.surface).collect();
+        let surfaces = color.iter().zip(&pass.color);
+        let surfaces: Vec<Option<&Surface>> = surfaces
+            .map(|(a, index)| (!self.gaps.contains(index)).then_some(&a.surface))
+            .collect();
         let target = pool
             .target(context, &surfaces, depth.map(|a| &a.surface), layered)?
             .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;

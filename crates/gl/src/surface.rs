@@ -447,7 +447,7 @@ pub(crate) fn framebuffer(
             .create_framebuffer()
             .map_err(|e| BackendError::refused("a framebuffer", e))?;
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
-        let mut buffers = Vec::new();
+        let (mut buffers, mut next) = (Vec::new(), glow::COLOR_ATTACHMENT0);
         for (storage, point) in attachments {
             match storage {
                 Storage::Texture(part) if layered => gl.framebuffer_texture(
@@ -483,10 +483,13 @@ pub(crate) fn framebuffer(
                 glow::DEPTH_STENCIL_ATTACHMENT,
             ];
             if !depth_stencil.contains(point) {
+                buffers.extend((next..*point).map(|_| glow::NONE));
                 buffers.push(*point);
+                next = point + 1;
             }
         }
-        let read = buffers.first().copied().unwrap_or(glow::NONE);
+        let attached = buffers.iter().find(|point| **point != glow::NONE);
+        let read = attached.copied().unwrap_or(glow::NONE);
         if buffers.is_empty() {
             buffers.push(glow::NONE);
         }

@@ -36,6 +36,14 @@ pub struct DepthState {
     pub write: bool,
 }
 
+impl DepthState {
+    /// A test that nothing passes.
+    pub const REJECTING: Self = Self {
+        compare: CompareFunction::Never,
+        write: true,
+    };
+}
+
 /// The depth bias of a polygon: `constant * r + slope * m`, where `r` is the least step of
 /// the attachment's depth and `m` the polygon's steepest slope, then held to `clamp` where that is
 /// not 0. Off when all are 0.
@@ -98,4 +106,17 @@ pub struct StencilFace {
     pub write_mask: u8,
     /// The reference.
     pub reference: u8,
+}
+
+impl StencilFace {
+    /// A test that nothing passes, and that changes all bits.
+    pub const REJECTING: Self = Self {
+        compare: CompareFunction::Never,
+        fail_op: StencilOperation::Invert,
+        depth_fail_op: StencilOperation::Invert,
+        pass_op: StencilOperation::Invert,
+        read_mask: 0xff,
+        write_mask: 0xff,
+        reference: 0,
+    };
 }

@@ -56,12 +56,12 @@ impl Scene {
                 .map(|index| self.attachments[index].format);
             for draw in &mut pass.draws {
                 if !format.is_some_and(TextureFormat::has_depth) {
-                    draw.depth = Some(REJECTING_DEPTH);
+                    draw.depth = Some(DepthState::REJECTING);
                 }
                 if !format.is_some_and(TextureFormat::has_stencil) {
                     draw.stencil = Some(StencilState {
-                        front: REJECTING_FACE,
-                        back: REJECTING_FACE,
+                        front: StencilFace::REJECTING,
+                        back: StencilFace::REJECTING,
                     });
                 }
             }
@@ -290,23 +290,6 @@ impl Scene {
         depth == 0.0 || depth == 1.0 || encodings.iter().all(|e| e.is_float())
     }
 }
-
-/// A depth test that none passes.
-const REJECTING_DEPTH: DepthState = DepthState {
-    compare: CompareFunction::Never,
-    write: true,
-};
-
-/// A face of a stencil test that none passes.
-const REJECTING_FACE: StencilFace = StencilFace {
-    compare: CompareFunction::Never,
-    fail_op: StencilOperation::Invert,
-    depth_fail_op: StencilOperation::Invert,
-    pass_op: StencilOperation::Invert,
-    read_mask: 0xff,
-    write_mask: 0xff,
-    reference: 0,
-};
 
 /// The vertices and indices in front of those of a draw with a base vertex.
 const UNUSED: u32 = 2;

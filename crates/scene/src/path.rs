@@ -5,8 +5,8 @@
 //! its limits which values it has; each value that is not the default is a requirement.
 
 use etalon_frame::{
-    PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
-    PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
+    PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
+    PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
     PathViewport,
 };
 use schemars::JsonSchema;
@@ -44,6 +44,8 @@ pub struct Path {
     pub layers: PathLayers,
     /// The tests of aspects that a pass lacks.
     pub tests: PathTests,
+    /// The colour attachments of passes.
+    pub colors: PathColors,
     /// The resolves of colors.
     pub resolves: PathResolves,
 }
@@ -67,6 +69,7 @@ impl Path {
             viewport,
             layers,
             tests,
+            colors,
             resolves,
         } = *self;
         let all = [
@@ -84,6 +87,7 @@ impl Path {
             PathValue::Viewport(viewport),
             PathValue::Layers(layers),
             PathValue::Tests(tests),
+            PathValue::Colors(colors),
             PathValue::Resolves(resolves),
         ];
         all.into_iter().filter(|v| !v.is_default()).collect()

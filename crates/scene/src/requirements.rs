@@ -97,10 +97,7 @@ impl Scene {
     /// True if the first color attachment of a pass has an alpha channel and can be blended into.
     fn has_alpha(&self, pass: &Pass) -> bool {
         let first = pass.color.first();
-        first.is_some_and(|index| {
-            let format = self.attachments[*index].format;
-            format.color_channels().len() == 4 && !format.is_integer()
-        })
+        first.is_some_and(|index| self.attachments[*index].format.has_alpha())
     }
 }
 

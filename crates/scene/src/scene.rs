@@ -9,7 +9,7 @@ use crate::pass::Pass;
 use crate::path::Path;
 use crate::pool::Pool;
 use crate::query_scope::QueryScope;
-use etalon_frame::{CounterKind, PathLayers, TextureFormat};
+use etalon_frame::{CounterKind, PathColors, PathLayers, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -67,6 +67,25 @@ impl Scene {
         } else {
             self.path.layers
         }
+    }
+
+    /// True if the path leaves a colour attachment out of its passes: nothing reads it, and each of them has another.
+    pub fn is_gap(&self, index: usize) -> bool {
+        let mut passes = self.passes.iter().filter(|p| p.color.contains(&index));
+        self.path.colors == PathColors::Gaps
+            && self.is_unread(index)
+            && passes.all(|pass| pass.color.iter().any(|other| !self.is_unread(*other)))
+    }
+
+    /// True if nobody reads an attachment: neither the host nor a draw nor a resolve.
+    fn is_unread(&self, index: usize) -> bool {
+        let read = |pass: &Pass| {
+            let mut resolved = pass.color.iter().zip(&pass.resolve);
+            resolved.any(|(from, to)| *from == index && to.is_some())
+                || pass.resolve_targets().any(|to| to == index)
+                || pass.draws.iter().any(|draw| draw.textures.contains(&index))
+        };
+        !self.read.contains(&index) && !self.passes.iter().any(read)
     }
 
     /// The scene with something counted over all its draws, and nothing else.

@@ -5,6 +5,7 @@ use ash::vk;
 
 /// A colour attachment of a pass.
 pub(crate) struct ColorPlan {
+    /// Null where no attachment is.
     pub(crate) view: vk::ImageView,
     pub(crate) ends: Ends,
     /// The view and mode of the resolve, if the pass resolves it.

@@ -13,8 +13,8 @@ use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::PathViewport;
 use etalon_scene::{
-    CompareFunction, CullMode, DepthBias, DepthState, Draw, FrontFace, PrimitiveTopology,
-    StencilFace, StencilOperation, StencilState, Tessellation, Viewport,
+    CullMode, DepthBias, DepthState, Draw, FrontFace, PrimitiveTopology, StencilFace, StencilState,
+    Tessellation, Viewport,
 };
 
 /// The dynamic states of a pipeline besides viewports. The topology stays in the class of the pipeline's own.
@@ -150,8 +150,8 @@ impl Dynamic {
 
     fn stencil(&self) -> StencilState {
         self.stencil.unwrap_or(StencilState {
-            front: IDLE_FACE,
-            back: IDLE_FACE,
+            front: StencilFace::REJECTING,
+            back: StencilFace::REJECTING,
         })
     }
 
@@ -173,7 +173,7 @@ impl Dynamic {
             IDLE_BIAS
         };
         other.depth = match self.depth {
-            None => Some(IDLE_DEPTH),
+            None => Some(DepthState::REJECTING),
             Some(_) => None,
         };
         other.stencil = match self.stencil {
@@ -212,7 +212,7 @@ impl Dynamic {
     /// Returns the state of the depth and stencil tests for a pipeline.
     pub(crate) fn depth_stencil(&self) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
         let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
-        let depth = self.depth.unwrap_or(IDLE_DEPTH);
+        let depth = self.depth.unwrap_or(DepthState::REJECTING);
         let face = |side: &StencilFace| vk::StencilOpState {
             fail_op: state::stencil(side.fail_op),
             pass_op: state::stencil(side.pass_op),
@@ -266,7 +266,7 @@ impl Dynamic {
         }
         let (bias, biased) = self.bias();
         let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
-        let depth = self.depth.unwrap_or(IDLE_DEPTH);
+        let depth = self.depth.unwrap_or(DepthState::REJECTING);
         // SAFETY: as above.
         unsafe {
             api.cmd_set_primitive_topology(
@@ -316,23 +316,6 @@ const IDLE_BIAS: DepthBias = DepthBias {
 
 /// Disabled depth bounds, which no depth that a case stores lies in.
 const IDLE_BOUNDS: [f32; 2] = [0.999_999, 0.999_999_5];
-
-/// A disabled depth test.
-const IDLE_DEPTH: DepthState = DepthState {
-    compare: CompareFunction::Never,
-    write: true,
-};
-
-/// A face of a disabled stencil test.
-const IDLE_FACE: StencilFace = StencilFace {
-    compare: CompareFunction::Never,
-    fail_op: StencilOperation::Invert,
-    depth_fail_op: StencilOperation::Invert,
-    pass_op: StencilOperation::Invert,
-    read_mask: 0xff,
-    write_mask: 0xff,
-    reference: 0,
-};
 
 /// The negative height turns clip space's y axis up: y = 1 is at the top of the rectangle, nearer
 /// to the origin (Vulkan, Controlling the Viewport). A mirrored viewport becomes one of positive

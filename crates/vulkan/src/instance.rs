@@ -210,9 +210,12 @@ fn messenger(
 }
 
 /// True for a warning about something legal and intended: a depth-only pass does not use the
-/// shader's colour.
-fn is_intended(id: &CStr) -> bool {
-    let id = id.to_bytes();
+/// shader's colour, and neither does a location without an attachment.
+fn is_intended(id: &CStr, text: &CStr) -> bool {
+    let (id, text) = (id.to_bytes(), text.to_string_lossy());
+    if id == b"UNASSIGNED-CoreValidation-Shader-InterfaceTypeMismatch" {
+        return text.contains("Attachment") && text.contains("VK_FORMAT_UNDEFINED");
+    }
     // The second is the name since layer version 1.4.
     [
         &b"Undefined-Value-ShaderOutputNotConsumed"[..],
@@ -234,10 +237,11 @@ unsafe extern "system" fn on_message(
     if let (Some(data), Some(messages)) = (data, messages) {
         // SAFETY: the layer's strings are null or zero-terminated, and live during the call.
         let (id, text) = unsafe { (data.message_id_name_as_c_str(), data.message_as_c_str()) };
-        if !id.is_some_and(is_intended) {
+        let text = text.unwrap_or_default();
+        if !id.is_some_and(|id| is_intended(id, text)) {
             let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
             if messages.len() < MAX_MESSAGES {
-                messages.push(text.unwrap_or_default().to_string_lossy().into_owned());
+                messages.push(text.to_string_lossy().into_owned());
             }
         }
     }

@@ -236,7 +236,11 @@ impl PassPlan {
                 color: color_value(color, integer(location)),
             };
             plan.color.push(ColorPlan {
-                view: image(*index)?.attached()?,
+                view: if scene.is_gap(*index) {
+                    vk::ImageView::null()
+                } else {
+                    image(*index)?.attached()?
+                },
                 ends: Ends::new(pass.color_operations(location), value),
                 resolve,
             });
@@ -427,7 +431,11 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
         layers: scene.layers(),
     };
     for index in &pass.color {
-        targets.color.push(attachment(index)?.1);
+        targets.color.push(if scene.is_gap(*index) {
+            vk::Format::UNDEFINED
+        } else {
+            attachment(index)?.1
+        });
     }
     if let Some(index) = &pass.depth_stencil {
         let (format, raw) = attachment(index)?;

@@ -706,6 +706,13 @@ impl Planted {
                     |stencil: &&mut Attachment<'_>| stencil.load_op != vk::AttachmentLoadOp::CLEAR;
                 stencil.iter_mut().filter(kept).for_each(clear);
             }
+            Some(CallFault::GapEnds) => {
+                let is_attached =
+                    |color: &&mut Attachment<'_>| color.image_view != vk::ImageView::null();
+                for color in colors.iter_mut().skip_while(is_attached) {
+                    color.image_view = vk::ImageView::null();
+                }
+            }
             Some(CallFault::ResolveFirst) => colors.iter_mut().skip(1).for_each(drop_resolve),
             Some(CallFault::ResolveSecondDropped) => {
                 colors.iter_mut().skip(1).take(1).for_each(drop_resolve);

@@ -68,8 +68,6 @@ impl Attachments {
     }
 }
 
-const UNUSED: u32 = vk::ATTACHMENT_UNUSED;
-
 impl RenderPass {
     /// Returns a planned pass as an object. With a second subpass, the first names the same attachments
     /// and draws nothing, so load operations and draws are apart.
@@ -83,12 +81,18 @@ impl RenderPass {
         let mut attachments = Attachments::default();
         let kept = Ends::kept();
         let (mut color, mut resolves) = (Vec::new(), Vec::new());
+        let unused = || vk::AttachmentReference2::default().attachment(vk::ATTACHMENT_UNUSED);
         for (plan, format) in colors.iter().zip(&targets.color) {
+            if plan.view == vk::ImageView::null() {
+                color.push(unused());
+                resolves.push(unused());
+                continue;
+            }
             let shape = (plan.view, *format, targets.samples);
             let aspect = vk::ImageAspectFlags::COLOR;
             color.push(attachments.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
             resolves.push(match plan.resolve {
-                None => vk::AttachmentReference2::default().attachment(UNUSED),
+                None => unused(),
                 Some((view, _)) => {
                     attachments.add((view, *format, 1), COLOR.layout, aspect, [&kept, &kept])
                 }

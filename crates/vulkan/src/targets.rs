@@ -7,6 +7,7 @@ use etalon_frame::PathLayers;
 /// The formats and sample count of a pass's attachments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Targets {
+    /// `UNDEFINED` where no attachment is.
     pub(crate) color: Vec<vk::Format>,
     /// `UNDEFINED` without a depth aspect.
     pub(crate) depth: vk::Format,

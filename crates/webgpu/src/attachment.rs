@@ -112,7 +112,7 @@ impl Attached {
             InitialContents::Color(_) if self.cleared_by.is_none() => {
                 let color = self.as_color(lowering, None, None, Operations::default());
                 each.push(Command::Pass(RenderPass {
-                    color: vec![color],
+                    color: vec![Some(color)],
                     ..RenderPass::default()
                 }));
             }

@@ -262,8 +262,8 @@ pub struct Query {
 /// Draws that are recorded ahead of their pass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderBundle {
-    /// The formats of the colour attachments.
-    pub color: Vec<Format>,
+    /// The formats of the colour attachments; `None` where a location has none.
+    pub color: Vec<Option<Format>>,
     /// The format of the depth and stencil attachment.
     pub depth_stencil: Option<Format>,
     /// True if depth and stencil are read only.
@@ -362,8 +362,8 @@ pub struct TexturePart {
 /// A render pass.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RenderPass {
-    /// The colour attachments.
-    pub color: Vec<ColorAttachment>,
+    /// The colour attachments; `None` where a location has none.
+    pub color: Vec<Option<ColorAttachment>>,
     /// The depth and stencil attachment.
     pub depth_stencil: Option<DepthStencilAttachment>,
     /// The occlusion queries.
@@ -522,4 +522,17 @@ pub enum DrawCommand {
         /// The first byte.
         offset: u64,
     },
+}
+
+impl DrawCommand {
+    /// True if the command draws.
+    pub fn is_draw(&self) -> bool {
+        matches!(
+            self,
+            Self::Draw { .. }
+                | Self::DrawIndexed { .. }
+                | Self::DrawIndirect { .. }
+                | Self::DrawIndexedIndirect { .. }
+        )
+    }
 }

@@ -14,13 +14,24 @@ pub fn plant(fault: CallFault, list: &mut CallList) {
         CallFault::LevelDropped => parts(list, |[_, layer]| [0, layer]),
         CallFault::WriteMaskOpen => {
             let targets = list.pipelines.iter_mut();
-            for target in targets.flat_map(|pipeline| &mut pipeline.state.targets) {
+            for target in targets
+                .flat_map(|pipeline| &mut pipeline.state.targets)
+                .flatten()
+            {
                 target.write_mask = 0xf;
+            }
+        }
+        CallFault::GapEnds => {
+            for pipeline in &mut list.pipelines {
+                let targets = pipeline.state.targets.iter_mut();
+                for target in targets.skip_while(|target| target.is_some()).flatten() {
+                    target.write_mask = 0;
+                }
             }
         }
         CallFault::SecondaryFirstDraw => {
             for bundle in &mut list.bundles {
-                if let Some(first) = bundle.commands.iter().position(is_draw) {
+                if let Some(first) = bundle.commands.iter().position(DrawCommand::is_draw) {
                     bundle.commands.remove(first);
                 }
             }
@@ -56,22 +67,16 @@ fn passes(frame: &mut [Vec<Command>]) -> impl Iterator<Item = &mut RenderPass> {
         })
 }
 
-fn is_draw(command: &DrawCommand) -> bool {
-    matches!(
-        command,
-        DrawCommand::Draw { .. }
-            | DrawCommand::DrawIndexed { .. }
-            | DrawCommand::DrawIndirect { .. }
-            | DrawCommand::DrawIndexedIndirect { .. }
-    )
-}
-
 /// Changes level and layer of the views that passes draw to.
 fn parts(list: &mut CallList, change: impl Fn([u32; 2]) -> [u32; 2]) {
     let drawn: Vec<usize> = passes(&mut list.frame)
         .flat_map(|pass| {
             let depth_stencil = pass.depth_stencil.iter().map(|attachment| attachment.view);
-            let color = pass.color.iter().map(|attachment| attachment.view);
+            let color = pass
+                .color
+                .iter()
+                .flatten()
+                .map(|attachment| attachment.view);
             color.chain(depth_stencil).collect::<Vec<_>>()
         })
         .collect();
@@ -106,12 +111,12 @@ fn kept_state(list: &mut CallList, change: impl Fn(&mut PipelineState, &Pipeline
 fn in_pass(fault: CallFault, number: usize, pass: &mut RenderPass) {
     match fault {
         CallFault::LoadClears if number > 0 => {
-            for color in &mut pass.color {
+            for color in pass.color.iter_mut().flatten() {
                 color.operations.clear.get_or_insert([0.0; 4]);
             }
         }
         CallFault::LoadColorIgnored => {
-            let colors = pass.color.iter_mut();
+            let colors = pass.color.iter_mut().flatten();
             colors.for_each(|color| color.operations.clear = None);
         }
         CallFault::LoadDepthIgnored => {
@@ -125,17 +130,17 @@ fn in_pass(fault: CallFault, number: usize, pass: &mut RenderPass) {
             }
         }
         CallFault::ResolveFirst => {
-            let others = pass.color.iter_mut().skip(1);
+            let others = pass.color.iter_mut().skip(1).flatten();
             others.for_each(|color| color.resolve = None);
         }
         CallFault::ResolveSecondDropped => {
-            if let Some(second) = pass.color.get_mut(1) {
+            if let Some(Some(second)) = pass.color.get_mut(1) {
                 second.resolve = None;
             }
         }
         CallFault::LaterPassDraw if number > 0 => {
             let is_draw =
-                |command: &PassCommand| matches!(command, PassCommand::Draw(c) if is_draw(c));
+                |command: &PassCommand| matches!(command, PassCommand::Draw(c) if c.is_draw());
             if let Some(first) = pass.commands.iter().position(is_draw) {
                 pass.commands.remove(first);
             }

@@ -105,11 +105,11 @@ pub(crate) fn pipeline(lowering: &mut Lowering<'_>, key: FetchKey) -> Result<usi
         samples: 1,
         mask: u32::MAX,
         alpha_to_coverage: false,
-        targets: vec![PipelineTarget {
+        targets: vec![Some(PipelineTarget {
             format: key.target()?,
             blend: None,
             write_mask,
-        }],
+        })],
     };
     Ok(lowering.pipeline(shader, layout, state))
 }

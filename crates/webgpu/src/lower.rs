@@ -122,7 +122,11 @@ fn bundled(
 ) -> Result<Vec<PassCommand>, Requirement> {
     let pass = &scene.passes[number];
     let known = |i: &usize| Format::of(scene.attachments[*i].format);
-    let color: Vec<Format> = pass.color.iter().map(known).collect::<Result<_, _>>()?;
+    let colors = pass.color.iter().map(|index| match scene.is_gap(*index) {
+        true => Ok(None),
+        false => known(index).map(Some),
+    });
+    let color = colors.collect::<Result<Vec<_>, _>>()?;
     let depth_stencil = pass.depth_stencil.as_ref().map(known).transpose()?;
     let mut commands = Vec::new();
     for run in runs(draws) {
@@ -155,9 +159,19 @@ fn render_pass(
     let pass = &scene.passes[number];
     let mut color = Vec::new();
     for (location, (index, resolve)) in pass.color.iter().zip(&pass.resolve).enumerate() {
+        if scene.is_gap(*index) {
+            color.push(None);
+            continue;
+        }
         let resolve = resolve.map(|target| lowering.view(attachments[target].target));
         let operations = pass.color_operations(location);
-        color.push(attachments[*index].as_color(lowering, Some(number), resolve, operations));
+        let attachment = &attachments[*index];
+        color.push(Some(attachment.as_color(
+            lowering,
+            Some(number),
+            resolve,
+            operations,
+        )));
     }
     let depth_stencil = pass.depth_stencil.map(|index| {
         let attachment = &attachments[index];

@@ -30,7 +30,7 @@ pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<Pa
             PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
         ),
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
-        PathValue::Results(PathResults::Twice) => true,
+        PathValue::Results(PathResults::Twice) | PathValue::Colors(_) => true,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
         // pipeline, everything else always is.
         PathValue::State(

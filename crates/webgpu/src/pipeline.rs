@@ -35,11 +35,14 @@ pub(crate) fn of_draw(
     // The bindings are those of the draw, of which the shader may use fewer.
     let layout = lowering.layout(Bindings::of(draw.shader).entries());
     let targets = pass.color.iter().zip(&draw.targets).map(|(index, target)| {
-        Ok(PipelineTarget {
+        if scene.is_gap(*index) {
+            return Ok(None);
+        }
+        Ok(Some(PipelineTarget {
             format: Format::of(scene.attachments[*index].format)?,
             blend: target.blend.map(with_constant),
             write_mask: target.write_mask,
-        })
+        }))
     });
     let targets = targets.collect::<Result<Vec<_>, Requirement>>()?;
     let depth_stencil = depth_stencil.map(|format| of_depth_stencil(format, draw));

@@ -41,7 +41,7 @@ pub struct PipelineState {
     /// True for alpha to coverage.
     pub alpha_to_coverage: bool,
     /// The colour attachments.
-    pub targets: Vec<PipelineTarget>,
+    pub targets: Vec<Option<PipelineTarget>>,
 }
 
 /// A vertex buffer.

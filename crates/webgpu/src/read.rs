@@ -99,10 +99,10 @@ fn spoiled(
     let mut pass = RenderPass::default();
     if format.is_color() {
         let value = if format.is_integer() { 77.0 } else { 0.3 };
-        pass.color = vec![ColorAttachment {
+        pass.color = vec![Some(ColorAttachment {
             operations: Filled::cleared([value; 4]),
             ..cleared(lowering, target)
-        }];
+        })];
     } else {
         let depth = Access::Written(Filled::cleared(0.3));
         let stencil = Access::Written(Filled::cleared(77));
@@ -246,7 +246,7 @@ impl Read<'_> {
             },
         ];
         commands.push(Command::Pass(RenderPass {
-            color: vec![cleared(lowering, target)],
+            color: vec![Some(cleared(lowering, target))],
             commands: draws.map(PassCommand::Draw).to_vec(),
             ..RenderPass::default()
         }));
@@ -274,7 +274,7 @@ impl Read<'_> {
         let depth = Access::Written(Filled::kept());
         let stencil = Access::Written(Filled::kept());
         Ok(RenderPass {
-            color: vec![cleared(lowering, target)],
+            color: vec![Some(cleared(lowering, target))],
             depth_stencil: Some(accessed(lowering, self.target, format, depth, stencil)),
             commands,
             ..RenderPass::default()

@@ -189,15 +189,7 @@ fn every_draw_of_a_scene_is_in_its_list() {
                 _ => None,
             })
             .chain(list.bundles.iter().flat_map(|bundle| &bundle.commands))
-            .filter(|command| {
-                matches!(
-                    command,
-                    DrawCommand::Draw { .. }
-                        | DrawCommand::DrawIndexed { .. }
-                        | DrawCommand::DrawIndirect { .. }
-                        | DrawCommand::DrawIndexedIndirect { .. }
-                )
-            });
+            .filter(|command| command.is_draw());
         let asked: usize = scene.passes.iter().map(|pass| pass.draws.len()).sum();
         assert_eq!(drawn.count(), asked, "{case}");
         let timed: Vec<_> = passes(list).filter(|pass| pass.timed[0]).collect();

@@ -22,7 +22,10 @@ fn bundle(
     gpu: &Gpu,
     bundle: &RenderBundle,
 ) -> Result<wgpu::RenderBundle, BackendError> {
-    let colors = bundle.color.iter().map(|f| format::known(*f).map(Some));
+    let colors = bundle
+        .color
+        .iter()
+        .map(|f| f.map(format::known).transpose());
     let colors = colors.collect::<Result<Vec<_>, _>>()?;
     let depth_stencil = bundle.depth_stencil.map(format::known).transpose()?;
     let mut encoder =

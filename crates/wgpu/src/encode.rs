@@ -84,7 +84,7 @@ fn pass(
     let colors = pass
         .color
         .iter()
-        .map(|color| Some(as_color(objects, color)));
+        .map(|color| color.as_ref().map(|color| as_color(objects, color)));
     let colors: Vec<_> = colors.collect();
     let depth_stencil = pass
         .depth_stencil

@@ -121,7 +121,8 @@ fn create(
         .iter()
         .zip(attributes.iter().map(Vec::as_slice));
     let buffers: Vec<_> = given.map(buffer).collect();
-    let targets: Result<Vec<_>, _> = state.targets.iter().map(state::target).collect();
+    let target = |target: &Option<_>| target.as_ref().map(state::target).transpose();
+    let targets: Result<Vec<_>, _> = state.targets.iter().map(target).collect();
     let (targets, depth_stencil) = (targets?, state.depth_stencil.as_ref());
     let options = wgpu::PipelineCompilationOptions::default;
     Ok(

@@ -156,15 +156,13 @@ pub(crate) fn primitive(primitive: Primitive) -> wgpu::PrimitiveState {
 }
 
 /// Returns a colour attachment of a pipeline.
-pub(crate) fn target(
-    target: &PipelineTarget,
-) -> Result<Option<wgpu::ColorTargetState>, BackendError> {
-    Ok(Some(wgpu::ColorTargetState {
+pub(crate) fn target(target: &PipelineTarget) -> Result<wgpu::ColorTargetState, BackendError> {
+    Ok(wgpu::ColorTargetState {
         format: format::known(target.format)?,
         blend: target.blend.map(blend),
         // Bit 0 is red in both.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
-    }))
+    })
 }
 
 /// Returns an attribute of a vertex buffer.

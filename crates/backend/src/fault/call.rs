@@ -161,6 +161,8 @@ faults! {
     SetBeforeBind = "set-before-bind" in "sequence/shared/multisample/*/state=before-pipeline/*" of Vulkan;
     /// Depth tests that none passes lose their draws, also without an attachment.
     TestUnattached = "test-unattached" in "paths/tests/*/tests=unattached" of Vulkan;
+    /// Behind a location without a colour attachment nothing is written.
+    GapEnds = "gap-ends" in "paths/gaps/*/pass=dynamic-rendering/*" of Vulkan OpenGl WebGpu;
     /// Restart ends a draw without indices before its last vertex.
     RestartUnindexed = "restart-unindexed" in "paths/restart-unindexed/*";
     /// Rasterizer discard is that of the draw before, where it is dynamic.

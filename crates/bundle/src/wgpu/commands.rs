@@ -114,7 +114,7 @@ fn part(part: &TexturePart) -> Code {
 
 /// Returns the statements of a render pass.
 fn pass(encoder: &str, pass: &RenderPass) -> Vec<Code> {
-    let colors = pass.color.iter().map(|c| option(Some(as_color(c))));
+    let colors = pass.color.iter().map(|c| option(c.as_ref().map(as_color)));
     let queries = pass.occlusion.map(|set| object("query_set", set));
     let descriptor = Structure::of("wgpu::RenderPassDescriptor")
         .of_wgpu("label", "None")
@@ -262,10 +262,7 @@ pub(super) fn bundle(bundle: &RenderBundle, place: usize) -> Vec<Code> {
             option(Some(state.members()))
         }
     };
-    let colors = bundle
-        .color
-        .iter()
-        .map(|known| option(Some(format(*known))));
+    let colors = bundle.color.iter().map(|known| option(known.map(format)));
     let descriptor = Structure::of("wgpu::RenderBundleEncoderDescriptor")
         .of_wgpu("label", "None")
         .with("color_formats", list(colors))

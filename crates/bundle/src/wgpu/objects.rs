@@ -351,7 +351,10 @@ fn pipeline(pipeline: &Pipeline, layout: usize) -> Code {
     };
     let buffers = list(state.buffers.iter().map(|b| option(Some(vertex_buffer(b)))));
     let fragment = state.fragment.as_ref().map(|entry| {
-        let targets = state.targets.iter().map(|t| option(Some(color_target(t))));
+        let targets = state
+            .targets
+            .iter()
+            .map(|t| option(t.as_ref().map(color_target)));
         let stage = stage("wgpu::FragmentState", entry);
         stage.with("targets", list(targets)).end()
     });

@@ -66,7 +66,7 @@ impl Pass {
     /// True if alpha to coverage asks nothing unusual of its first color attachment.
     fn has_alpha(&self) -> bool {
         let first = self.color.first();
-        first.is_some_and(|(_, f)| f.color_channels().len() == 4 && !f.is_integer())
+        first.is_some_and(|(_, format)| format.has_alpha())
     }
 
     fn is_integer(&self) -> bool {
