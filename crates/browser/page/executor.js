@@ -94,7 +94,7 @@ class Executor {
 
   /**
    * Draws a frame, and waits for the device. Returns its times in milliseconds, and the bytes that its list reads
-   * back if `read` asks for them: then one wait serves both.
+   * back if `read` asks for them: one wait serves all.
    */
   async submit(made, read) {
     const { list } = made;
@@ -116,13 +116,15 @@ class Executor {
       });
       this.#device.queue.submit(buffers);
       submitted = performance.now();
-      return read ? this.#mapped(made) : this.#device.queue.onSubmittedWorkDone();
+      return Promise.all([
+        read ? this.#mapped(made) : this.#device.queue.onSubmittedWorkDone(),
+        clock?.mapped.mapAsync(GPUMapMode.READ),
+      ]);
     });
     made.begun = true;
     await this.#settled(done);
     const times = { cpu: submitted - begin, wall: performance.now() - begin, gpu: null };
     if (clock !== null) {
-      await this.#awaited(clock.mapped.mapAsync(GPUMapMode.READ));
       const [start, end] = new BigUint64Array(clock.mapped.getMappedRange());
       times.gpu = end >= start ? Number(end - start) / 1e6 : null;
       clock.mapped.unmap();

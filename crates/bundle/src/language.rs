@@ -1,4 +1,7 @@
-//! The language of a program, and how it is built.
+//! The language of a program, and how it is built and run.
+
+/// The command that builds a program of C in its folder.
+pub(crate) const BUILD_C: &str = "cc repro.c -ldl -o repro";
 
 /// The language of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,23 +10,36 @@ pub enum Language {
     C,
     /// Rust: a package `repro`.
     Rust,
+    /// JavaScript in a page: the file `repro.html`.
+    Page,
 }
 
 impl Language {
-    /// Returns the command that builds the program as `repro`, in its folder.
-    pub fn build(self) -> &'static str {
-        match self {
-            Self::C => "cc repro.c -ldl -o repro",
+    /// Returns the commands that build the program as `repro` in its folder and run it, the latter given; `None` for a
+    /// page, which a browser opens.
+    pub(crate) fn commands(self, run: &str) -> Option<[String; 2]> {
+        let build = match self {
+            Self::C => BUILD_C,
             Self::Rust => "cargo build && cp target/debug/repro .",
-        }
+            Self::Page => return None,
+        };
+        Some([build, run].map(str::to_owned))
     }
 
-    /// Returns what building needs, in a sentence.
-    pub fn needs(self) -> &'static str {
+    /// Returns what building needs and how the program answers, in sentences.
+    pub(crate) fn needs(self) -> &'static str {
         match self {
-            Self::C => "`repro.c` needs a C compiler and no header of the API.",
+            Self::C => {
+                "`repro.c` needs a C compiler and no header of the API. Exit status 1: the bug is there; 0: it is not; 77: \
+                 the driver lacks something; 2: a call fails."
+            }
             Self::Rust => {
-                "It needs Rust; `Cargo.toml` names wgpu in the version whose calls were recorded."
+                "It needs Rust; `Cargo.toml` names wgpu in the version whose calls were recorded. Exit status 1: the bug is \
+                 there; 0: it is not; 77: the driver lacks something; 2: a call fails."
+            }
+            Self::Page => {
+                "Open `repro.html` in the browser, from the disk or from a server of this machine. Its title becomes what is \
+                 wrong, `right`, what the browser lacks, or the call that fails."
             }
         }
     }

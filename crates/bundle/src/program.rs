@@ -61,13 +61,7 @@ pub fn program(
             device,
             features,
             list,
-        } => {
-            let files = wgpu::program(head, [api, device], features, list, recording, due)?;
-            return Ok(Program {
-                language: Language::Rust,
-                files,
-            });
-        }
+        } => return wgpu::program(head, [api, device], features, list, recording, due),
     };
     Ok(Program {
         language: Language::C,

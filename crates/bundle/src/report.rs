@@ -73,6 +73,14 @@ pub struct Expected {
 }
 
 impl Report {
+    /// Returns the way to run the program, in a line.
+    pub fn way(&self) -> String {
+        match self.language.commands(&self.run) {
+            Some(commands) => format!("build and run: {}", commands.join(" && ")),
+            None => "open repro.html in the browser".to_owned(),
+        }
+    }
+
     /// Returns the report as Markdown.
     pub fn markdown(&self) -> String {
         let mut text = format!("# {}\n\n", plain(&self.title));
@@ -114,20 +122,17 @@ impl Report {
                 plain(message)
             ),
         });
-        let _ = write!(
-            text,
-            "\n## Run it\n\n```sh\n{}\n{}\n```\n\n{} Exit status 1: the bug is there; 0: it is not; 77: the driver lacks \
-             something; 2: a call fails.\n",
-            self.language.build(),
-            self.run,
-            self.language.needs(),
-        );
+        text.push_str("\n## Run it\n\n");
+        if let Some(commands) = self.language.commands(&self.run) {
+            let _ = write!(text, "```sh\n{}\n```\n\n", commands.join("\n"));
+        }
+        let _ = writeln!(text, "{}", self.language.needs());
         text.push_str(&match &self.built {
             Some(line) => format!(
                 "\nBuilt and run on the driver above, it ends with 1: `{}`\n",
                 line.replace('`', "'")
             ),
-            None => "\nIt was not built and run on the driver above.\n".to_owned(),
+            None => "\nIt was not run on the driver above.\n".to_owned(),
         });
         if !self.states.is_empty() {
             text.push_str("\n## State\n\nWhat is not the default:\n\n");

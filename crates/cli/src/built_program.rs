@@ -46,6 +46,9 @@ pub(crate) fn built_and_run(
     let made = match program.language {
         Language::C => built_c(program, folder),
         Language::Rust => built_rust(program, folder),
+        Language::Page => Err(Unbuilt::Here(
+            "it is a page; open repro.html in the browser".to_owned(),
+        )),
     };
     match made {
         Ok(made) => {

@@ -8,7 +8,7 @@ use crate::check;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
-use crate::language::Language;
+use crate::language::BUILD_C;
 use calls::Printer;
 use etalon_backend::Recording;
 use trim::trimmed;
@@ -45,7 +45,7 @@ pub(crate) fn program(
     let mut printer = Printer::default();
     let body = printer.body(&trimmed(&recording.calls, trim))?;
     let check = check::check(recording, due)?;
-    let mut text = head.beginning(Language::C.build(), "the EGL library to load", "");
+    let mut text = head.beginning(BUILD_C, "the EGL library to load", "");
     text.push_str(TYPES);
     text.push_str(&printer.constants());
     text.push_str(&printer.declarations.functions());

@@ -7,7 +7,7 @@ use crate::check;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
-use crate::language::Language;
+use crate::language::BUILD_C;
 use calls::Printer;
 use etalon_backend::{Recording, VulkanNeeds};
 
@@ -37,7 +37,7 @@ pub(crate) fn program(
     let body = printer.body(&recording.calls)?;
     let check = check::check(recording, due)?;
     let mut text = head.beginning(
-        Language::C.build(),
+        BUILD_C,
         "the index of the device; otherwise it is the one whose name is that below, or the first",
         "Structures and functions have the names of the specification; the names of values are comments.",
     );

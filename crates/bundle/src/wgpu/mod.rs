@@ -1,4 +1,4 @@
-//! wgpu: a package of one file that depends on wgpu, and a page for browsers.
+//! wgpu: a package of one file that depends on wgpu, and a page for browsers; of a browser's calls the page alone.
 
 mod check;
 mod code;
@@ -14,10 +14,13 @@ use crate::archive::File;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
+use crate::language::Language;
+use crate::program::Program;
 use etalon_backend::Recording;
 use program::Api;
 
-/// Returns the files of the program for an API below wgpu and a device, and a page if WebGPU has all that it needs.
+/// Returns the program for an API below wgpu and a device, with a page if WebGPU has all that it needs. The API of a
+/// browser is `webgpu`, and its features have WebGPU's names.
 pub(crate) fn program(
     head: &Head,
     [api, device]: [&str; 2],
@@ -25,24 +28,37 @@ pub(crate) fn program(
     calls: &str,
     recording: &Recording,
     due: &Due,
-) -> Result<Vec<File>, BundleError> {
-    let api = match api {
-        "vulkan" => Api::Vulkan,
-        "gl" => Api::Gl,
-        other => return Err(BundleError::Call(other.to_owned())),
-    };
+) -> Result<Program, BundleError> {
     let unread = |error| BundleError::Call(format!("wgpu: {error}"));
     let calls = serde_json::from_str(calls).map_err(unread)?;
-    let statements = printer::statements(recording, &calls, features);
     let check = check::check(recording, due)?;
-    let text = program::program(head, api, device, &statements, &check);
+    let below = match api {
+        "vulkan" => Api::Vulkan,
+        "gl" => Api::Gl,
+        "webgpu" => {
+            let features = page::names_of_wgpu(features);
+            let statements = printer::statements(recording, &calls, &features);
+            let page = page::page(head, &statements, &check);
+            let page = page.ok_or_else(|| BundleError::Call("a browser".to_owned()))?;
+            return Ok(Program {
+                language: Language::Page,
+                files: vec![File::text("repro.html", "the program, a page", page)],
+            });
+        }
+        other => return Err(BundleError::Call(other.to_owned())),
+    };
+    let statements = printer::statements(recording, &calls, features);
+    let text = program::program(head, below, device, &statements, &check);
     let mut files = vec![
         File::text("main.rs", "the program", text),
-        File::text("Cargo.toml", "its package", program::package(api)),
+        File::text("Cargo.toml", "its package", program::package(below)),
     ];
     if let Some(page) = page::page(head, &statements, &check) {
         let about = "the same calls as a page: open it in a browser";
         files.push(File::text("repro.html", about, page));
     }
-    Ok(files)
+    Ok(Program {
+        language: Language::Rust,
+        files,
+    })
 }

@@ -20,6 +20,14 @@ const FEATURES: [(&str, &str); 8] = [
     ),
 ];
 
+/// Returns wgpu's names of a browser's features, of those that calls may need.
+pub(super) fn names_of_wgpu(features: &[String]) -> Vec<String> {
+    let known = FEATURES
+        .iter()
+        .filter(|(_, web)| features.iter().any(|f| f == web));
+    known.map(|(rust, _)| (*rust).to_owned()).collect()
+}
+
 /// Returns the page; `None` if the calls use what WebGPU does not have.
 pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Option<String> {
     let body = statements.body.script.as_ref()?;

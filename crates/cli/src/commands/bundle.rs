@@ -94,11 +94,10 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
     let [failed, runs] = report.frequency;
     match arguments.failing.format {
         Format::Text => summarize(&format!(
-            "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
+            "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  {}\nBundle: {}\nArchive: {}\n",
             report.title,
             report.sentence,
-            report.language.build(),
-            report.run,
+            report.way(),
             written.folder.display(),
             written.archive.display(),
         )),

@@ -168,6 +168,24 @@ fn a_package_shows_the_bug_and_a_page_starts() {
     }
 }
 
+#[test]
+fn a_page_shows_the_bug_of_a_browser() {
+    let out = TempDir::new().unwrap();
+    let case = "order/repeat-multisample/compare=less/depth=depth24plus";
+    let (code, summary, error) = bundle(case, "webgpu:chromium", out.path(), &[]);
+    assert_eq!(code, 0, "{error}");
+    assert!(error.contains("open repro.html in the browser"), "{error}");
+    let folder = Path::new(summary["folder"].as_str().unwrap());
+    assert!(!folder.join("main.rs").exists());
+    let report = fs::read_to_string(folder.join("report.md")).unwrap();
+    assert!(
+        report.contains("Open `repro.html` in the browser"),
+        "{report}"
+    );
+    let answer = answer(&folder.join("repro.html"));
+    assert!(answer.contains("is wrong: "), "{answer}");
+}
+
 /// Builds the package in an empty folder, in the versions of its lock file.
 fn built(folder: &Path, empty: &Path) {
     for file in ["main.rs", "Cargo.toml", "Cargo.lock"] {
