@@ -5,8 +5,11 @@ use crate::error::RecordError;
 use crate::frame_file::FrameFile;
 use crate::json::json_line;
 use crate::paths::{frame_path, picture_path};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use std::collections::HashSet;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -38,7 +41,7 @@ impl FrameWriter {
         Ok(())
     }
 
-    /// Writes a frame file and returns its path below the run folder, for [`Record::frame`](crate::Record::frame). Call
+    /// Writes a frame file, compressed, and returns its path below the run folder, for [`Record::frame`](crate::Record::frame). Call
     /// it before the record is appended, so that no record names a file that is not there.
     ///
     /// # Errors
@@ -48,7 +51,10 @@ impl FrameWriter {
         let path = self.folder.join(&relative);
         self.make_folder_of(&path)?;
         let bytes = json_line("a frame", frame)?;
-        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
+        let packed = GzEncoder::new(Vec::new(), Compression::fast());
+        write_all(packed, &bytes)
+            .and_then(|packed| fs::write(&path, packed))
+            .map_err(RecordError::io("write", &path))?;
         Ok(relative)
     }
 
@@ -71,4 +77,9 @@ impl FrameWriter {
             .map_err(RecordError::io("write", &path))?;
         Ok(relative)
     }
+}
+
+fn write_all(mut packed: GzEncoder<Vec<u8>>, bytes: &[u8]) -> io::Result<Vec<u8>> {
+    packed.write_all(bytes)?;
+    packed.finish()
 }

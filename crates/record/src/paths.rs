@@ -18,13 +18,13 @@ pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     }
 }
 
-/// `frames/<adapter>/<area>/<rest of the case>.json`, with `,` between the parts of the rest and every
+/// `frames/<adapter>/<area>/<rest of the case>.json.gz`, with `,` between the parts of the rest and every
 /// character that a file system may treat specially replaced. A folder per part would cost a file system
 /// more than the frames.
 pub(crate) fn frame_path(adapter: &str, case: &str) -> String {
     let (area, path) = case.split_once('/').unwrap_or(("", case));
     let (adapter, area) = (safe(adapter), safe(area));
-    format!("{FRAMES}/{adapter}/{area}/{}.json", safe(path))
+    format!("{FRAMES}/{adapter}/{area}/{}.json.gz", safe(path))
 }
 
 /// `pictures/<case>.png`, likewise.
@@ -73,7 +73,7 @@ mod tests {
     fn frame_paths_stay_below_the_folder_and_apart() {
         assert_eq!(
             frame_path("gl:es:softpipe", "depth/compare/stored=0.5"),
-            "frames/gl_es_softpipe/depth/compare,stored=0.5.json"
+            "frames/gl_es_softpipe/depth/compare,stored=0.5.json.gz"
         );
         for hostile in [
             "../../x",

@@ -8,6 +8,7 @@ use crate::json::without_position;
 use crate::json_lines::JsonLines;
 use crate::paths::below;
 use crate::record::{MAX_LINE, Record};
+use flate2::read::GzDecoder;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -97,15 +98,23 @@ impl Run {
             .saturating_sub(self.records.len() as u64)
     }
 
-    /// Reads a frame file by the path that a record names.
+    /// Reads a frame file by the path that a record names. Runs of earlier versions hold it uncompressed.
     ///
     /// # Errors
     /// When the path leaves the folder, or the file cannot be read or does not parse.
     pub fn read_frame(folder: &Path, frame: &str) -> Result<FrameFile, RecordError> {
         let path = folder.join(below(frame)?);
         let mut bytes = Vec::new();
+        let packed = path.extension().is_some_and(|extension| extension == "gz");
         File::open(&path)
-            .and_then(|file| file.take(MAX_FRAME).read_to_end(&mut bytes))
+            .and_then(|file| {
+                let contents: Box<dyn Read> = if packed {
+                    Box::new(GzDecoder::new(file))
+                } else {
+                    Box::new(file)
+                };
+                contents.take(MAX_FRAME).read_to_end(&mut bytes)
+            })
             .map_err(RecordError::io("read", &path))?;
         serde_json::from_slice(&bytes).map_err(|e| RecordError::Parse {
             line: e.line(),

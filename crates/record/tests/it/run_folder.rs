@@ -486,7 +486,7 @@ fn frames_come_back_and_do_not_leave_the_folder() {
     };
     assert!(frame.images[0].is_whole());
     let path = writer.frames().write_frame(&frame).unwrap();
-    assert_eq!(path, "frames/gl_es_soft/depth/a,b=1.json");
+    assert_eq!(path, "frames/gl_es_soft/depth/a,b=1.json.gz");
     assert_eq!(Run::read_frame(folder.path(), &path).unwrap(), frame);
     for outside in ["", "..", "../x", "/etc/hostname", "frames/../../x"] {
         assert!(matches!(

@@ -1,6 +1,7 @@
 //! One adapter's part of a run, without its workers: judging drawings and writing records.
 
 use super::adapter_queue::AdapterQueue;
+use super::plan::KeptFrames;
 use super::shared::Shared;
 use crate::drawing::Drawing;
 use crate::event::Event;
@@ -13,12 +14,16 @@ use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{Judged, is_due_to_fail, note_requirement};
-use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_record::{
+    Expectation, Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict,
+};
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// Frame files and stories of imprecise cases per adapter and case file; failures keep all of theirs.
+/// Frame files and stories of imprecise cases per adapter and case file.
 const IMPRECISE_FRAMES: u32 = 3;
+/// Frame files of each known bug per adapter, and of each case file of selftests.
+const KNOWN_FRAMES: u32 = 1;
 /// The factor by which a case that is measured may take longer than others.
 const MEASURING: u32 = 4;
 /// The most bytes of one validation message that a record keeps.
@@ -240,16 +245,31 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
-        if record.verdict.is_violation() || record.verdict == Verdict::Flaky {
-            return true;
+        let Shared {
+            options,
+            expectations,
+            ..
+        } = self.shared;
+        if options.frames == KeptFrames::None {
+            return false;
         }
+        let file = record.case_file();
+        let (kind, most) = if record.verdict == Verdict::Imprecise {
+            (file, IMPRECISE_FRAMES)
+        } else if options.frames == KeptFrames::All {
+            return true;
+        } else {
+            let adapter = &self.queue.adapter;
+            match expectations.look_up_record(adapter, &record.case, record.shown()) {
+                Expectation::Agrees(entry) => (entry.reason.as_str(), KNOWN_FRAMES),
+                _ if record.due_fail => (file, KNOWN_FRAMES),
+                _ => return true,
+            }
+        };
         let mut state = self.queue.state();
-        let kept = state
-            .imprecise_frames
-            .entry(record.case_file().to_owned())
-            .or_default();
+        let kept = state.frames_of_a_kind.entry(kind.to_owned()).or_default();
         *kept += 1;
-        *kept <= IMPRECISE_FRAMES
+        *kept <= most
     }
 
     /// Writes a record. An error ends the run.
