@@ -496,7 +496,14 @@ fn frames_come_back_and_do_not_leave_the_folder() {
     }
     fs::write(folder.path().join(&path), "{").unwrap();
     let error = Run::read_frame(folder.path(), &path).unwrap_err();
-    assert!(error.to_string().contains("b=1.json:1: "), "{error}");
+    assert!(error.to_string().contains("b=1.json.gz"), "{error}");
+    // As earlier versions wrote them.
+    let text = serde_json::to_vec(&frame).unwrap();
+    fs::write(folder.path().join("plain.json"), text).unwrap();
+    assert_eq!(Run::read_frame(folder.path(), "plain.json").unwrap(), frame);
+    fs::write(folder.path().join("plain.json"), "{").unwrap();
+    let error = Run::read_frame(folder.path(), "plain.json").unwrap_err();
+    assert!(error.to_string().contains("plain.json:1: "), "{error}");
 }
 
 #[test]

@@ -221,7 +221,7 @@ fn test(record: &Record) -> Test<'_> {
             .as_deref()
             .map(|path| Attachment {
                 name: "frame",
-                content_type: "application/json",
+                content_type: "application/gzip",
                 path,
             })
             .into_iter()
