@@ -193,8 +193,9 @@ impl<'s> AdapterRun<'s, '_> {
             };
         }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
-        if record.due_fail && record.verdict.is_violation() {
-            // The frame file shows the rest of a failure that is due.
+        let known = record.expected.is_some() && kept.is_none();
+        if (record.due_fail || known) && record.verdict.is_violation() {
+            // A frame file shows the rest: its own, or that of the first failure of a known bug.
             record.wrong.truncate(4);
         }
         if record.verdict == Verdict::Imprecise {
@@ -245,26 +246,15 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
-        let Shared {
-            options,
-            expectations,
-            ..
-        } = self.shared;
-        if options.frames == KeptFrames::None {
-            return false;
-        }
+        let frames = self.shared.options.frames;
         let file = record.case_file();
-        let (kind, most) = if record.verdict == Verdict::Imprecise {
-            (file, IMPRECISE_FRAMES)
-        } else if options.frames == KeptFrames::All {
-            return true;
-        } else {
-            let adapter = &self.queue.adapter;
-            match expectations.look_up_record(adapter, &record.case, record.shown()) {
-                Expectation::Agrees(entry) => (entry.reason.as_str(), KNOWN_FRAMES),
-                _ if record.due_fail => (file, KNOWN_FRAMES),
-                _ => return true,
-            }
+        let (kind, most) = match &record.expected {
+            _ if frames == KeptFrames::None => return false,
+            _ if record.verdict == Verdict::Imprecise => (file, IMPRECISE_FRAMES),
+            _ if frames == KeptFrames::All => return true,
+            Some(known) => (known.reason.as_str(), KNOWN_FRAMES),
+            None if record.due_fail => (file, KNOWN_FRAMES),
+            None => return true,
         };
         let mut state = self.queue.state();
         let kept = state.frames_of_a_kind.entry(kind.to_owned()).or_default();
