@@ -304,6 +304,11 @@ mod tests {
                 scene["passes"][0]["resolve"] = json!(["one"]);
                 scene["passes"][0]["draws"][0]["mesh"] = json!({ "kind": "cover" });
             }
+            if let PathValue::Colors(_) = value {
+                scene["attachments"]["unread"] = json!({ "format": "rgba16float" });
+                scene["passes"][0]["color"] = json!(["color", "unread"]);
+                scene["read"] = json!(["color"]);
+            }
             let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");
         }
@@ -327,6 +332,11 @@ mod tests {
                 &grey,
                 json!({ "draws": "restart-unindexed" }),
                 "strip or fan",
+            ),
+            (
+                &grey,
+                json!({ "colors": "gaps" }),
+                "every colour attachment is read",
             ),
         ] {
             let error = parse_scene(&scene(attachment.clone(), path)).expect_err(words);
