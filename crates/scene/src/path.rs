@@ -7,7 +7,7 @@
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd, PathLayers, PathPass,
     PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
-    PathViewport,
+    PathViewport, PathViews,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,8 @@ pub struct Path {
     pub tests: PathTests,
     /// The resolves of colors.
     pub resolves: PathResolves,
+    /// The format of the textures that color attachments are views of.
+    pub views: PathViews,
 }
 
 impl Path {
@@ -68,6 +70,7 @@ impl Path {
             layers,
             tests,
             resolves,
+            views,
         } = *self;
         let all = [
             PathValue::Start(start),
@@ -85,6 +88,7 @@ impl Path {
             PathValue::Layers(layers),
             PathValue::Tests(tests),
             PathValue::Resolves(resolves),
+            PathValue::Views(views),
         ];
         all.into_iter().filter(|v| !v.is_default()).collect()
     }
