@@ -6,7 +6,7 @@
 use crate::error::At;
 use etalon_frame::{
     ChannelEncoding, PathArea, PathClears, PathDraws, PathEnd, PathLayers, PathStart, PathState,
-    PathTarget, PathValue, PathViewport, TextureFormat,
+    PathTarget, PathValue, PathViewport, PathViews, TextureFormat,
 };
 use etalon_scene::{
     Attachment, ClearTarget, ColorTarget, Contents, Draw, Multisample, Pass, Scene, Shader, Vertex,
@@ -169,6 +169,25 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
             "a draw in two parts counts twice, or nothing has two columns",
         ),
+        PathValue::Views(PathViews::Srgb) => (
+            any(&|_, a| {
+                matches!(
+                    a.format,
+                    TextureFormat::Rgba8Unorm
+                        | TextureFormat::Rgba8UnormSrgb
+                        | TextureFormat::Bgra8Unorm
+                )
+            }),
+            "no attachment has a format with and without sRGB conversion",
+        ),
+        PathValue::Views(PathViews::Same | PathViews::Uint) => (
+            any(&|_, a| a.format.is_color())
+                && matches!(
+                    scene.path.end,
+                    PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
+                ),
+            "no attachment is of color, or it is blitted, which converts integers to integers alone",
+        ),
         PathValue::Pass(_)
         | PathValue::Target(_)
         | PathValue::Commands(_)
@@ -283,6 +302,9 @@ mod tests {
             let attachment = json!({ "format": "rgba16float" });
             let path = json!({ value.key(): value.name() });
             let mut scene = scene(attachment, path);
+            if value.to_string() == "views=srgb" {
+                scene["attachments"]["color"]["format"] = json!("rgba8unorm");
+            }
             // The values of this shader are its parameters, which is what one of the paths asks for.
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
@@ -318,6 +340,7 @@ mod tests {
     fn a_value_that_applies_to_nothing_is_refused() {
         let several = json!({ "format": "rgba8unorm", "samples": 4 });
         let texels = json!({ "format": "rgba8unorm", "texels": { "kind": "codes" } });
+        let float = json!({ "format": "rgba16float" });
         let grey = json!({ "format": "rgba8unorm", "clear": [0.5, 0.5, 0.5, 0.5] });
         for (attachment, path, words) in [
             (
@@ -328,6 +351,8 @@ mod tests {
             (&grey, json!({ "start": "draw" }), "kept exactly"),
             (&several, json!({ "target": "mip-level" }), "single sample"),
             (&several, json!({ "end": "blit" }), "single sample"),
+            (&float, json!({ "views": "srgb" }), "sRGB conversion"),
+            (&float, json!({ "views": "uint", "end": "blit" }), "blitted"),
             (
                 &grey,
                 json!({ "draws": "restart-unindexed" }),

@@ -66,7 +66,7 @@ pub use operation::Operation;
 pub use path::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
     PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
-    PathViewport,
+    PathViewport, PathViews,
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;

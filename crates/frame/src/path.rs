@@ -244,6 +244,15 @@ path_values! {
         /// Commands behind the pass, each of a part that changes its place.
         Moved = "moved",
     }
+    /// The format of the textures that color attachments are views of.
+    Views(PathViews) = "views" {
+        /// The attachment's.
+        Same = "same",
+        /// With sRGB conversion if the attachment lacks it, and without if it has it.
+        Srgb = "srgb",
+        /// Unsigned integers of as many bits.
+        Uint = "uint",
+    }
 }
 
 impl fmt::Display for PathValue {

@@ -8,7 +8,7 @@ use crate::read::{Reading, Source, bits, spoil};
 use crate::state;
 use crate::surface::{Surface, SurfaceKind};
 use etalon_backend::{BackendError, Blit, Blits};
-use etalon_frame::{Aspect, Image, PathEnd, PathTarget, PathValue, Requirement};
+use etalon_frame::{Aspect, Image, PathEnd, PathValue, Requirement};
 use glow::HasContext;
 
 /// The destination of blits: a framebuffer and its surfaces, the last of which is read.
@@ -88,7 +88,7 @@ impl Reading<'_> {
         count: usize,
     ) -> Result<Destination, BackendError> {
         let context = self.context;
-        let kind = SurfaceKind::Attachment(source.format, 1, PathTarget::Plain);
+        let kind = SurfaceKind::plain(source.format, 1);
         let mut surfaces = Vec::with_capacity(count);
         for _ in 0..count {
             surfaces.push(self.pool.surface(context, kind, size)?);

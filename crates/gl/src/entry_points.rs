@@ -48,6 +48,7 @@ entry_points! {
     draw_elements_instanced_base_vertex_base_instance: fn(u32, i32, u32, Offset, i32, i32, u32);
     draw_arrays_indirect_count: fn(u32, Offset, isize, i32, i32);
     draw_elements_indirect_count: fn(u32, u32, Offset, isize, i32, i32);
+    texture_view: fn(u32, u32, u32, u32, u32, u32, u32, u32);
 }
 
 impl EntryPoints {
@@ -187,6 +188,18 @@ impl EntryPoints {
                 draw_elements_indirect_count,
                 c"glMultiDrawElementsIndirectCountARB"
             );
+        }
+        let viewed = [
+            "GL_ARB_texture_view",
+            "GL_ARB_texture_storage_multisample",
+            "GL_ARB_internalformat_query",
+        ];
+        if !es && (version >= (4, 3) || viewed.into_iter().all(has)) {
+            load!(texture_view, c"glTextureView");
+        } else if has("GL_OES_texture_view") {
+            load!(texture_view, c"glTextureViewOES");
+        } else if has("GL_EXT_texture_view") {
+            load!(texture_view, c"glTextureViewEXT");
         }
         if !es && (version >= (4, 6) || has("GL_ARB_polygon_offset_clamp")) {
             load!(polygon_offset_clamp, c"glPolygonOffsetClamp");

@@ -1,6 +1,7 @@
 //! GL's texel formats.
 
-use etalon_frame::TextureFormat;
+use crate::codes;
+use etalon_frame::{PathViews, TextureFormat};
 
 /// GL's description of a format.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +85,45 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     })
 }
 
+/// Returns the internal format of the textures that attachments of a format are views of; `None` if the path does not
+/// apply to the format (OpenGL 4.6, table 8.22).
+pub(crate) fn viewed(format: TextureFormat, views: PathViews) -> Option<u32> {
+    let in_class = !matches!(
+        format,
+        TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm
+    );
+    match views {
+        PathViews::Srgb if format == TextureFormat::Rgba8Unorm => Some(glow::SRGB8_ALPHA8),
+        PathViews::Srgb if format == TextureFormat::Rgba8UnormSrgb => Some(glow::RGBA8),
+        PathViews::Uint if format.is_color() && in_class => match codes::texel_bytes(format) {
+            1 => Some(glow::R8UI),
+            2 => Some(glow::R16UI),
+            4 => Some(glow::R32UI),
+            8 => Some(glow::RG32UI),
+            16 => Some(glow::RGBA32UI),
+            _ => None,
+        },
+        PathViews::Same | PathViews::Srgb | PathViews::Uint => None,
+    }
+}
+
 fn color(internal: u32, format: u32, kind: u32) -> (u32, u32, u32, u32) {
     (internal, format, kind, glow::COLOR_ATTACHMENT0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attachments_are_views_of_formats_of_their_class() {
+        let srgb = |format| viewed(format, PathViews::Srgb);
+        let (unorm, converted) = (TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb);
+        assert_eq!(srgb(unorm), gl_format(converted).map(|f| f.internal));
+        assert_eq!(srgb(converted), gl_format(unorm).map(|f| f.internal));
+        let integers = TextureFormat::ALL.map(|format| viewed(format, PathViews::Uint));
+        assert_eq!(integers.iter().flatten().count(), 11);
+        assert!(integers.contains(&Some(glow::RGBA32UI)));
+        assert_eq!(viewed(unorm, PathViews::Same), None);
+    }
 }

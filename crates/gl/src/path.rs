@@ -8,7 +8,7 @@ use crate::support::{ReadPlan, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
     PathLayers, PathPass, PathResolves, PathResults, PathState, PathTarget, PathValue,
-    PathViewport,
+    PathViewport, PathViews,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
@@ -46,6 +46,9 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Layers(PathLayers::Written) => caps.vertex_layer.is_some(),
         // Several samples are resolved in their places in ES (OpenGL ES 3.2, 16.2.1).
         PathValue::Resolves(PathResolves::Moved) => !caps.es,
+        PathValue::Views(PathViews::Srgb | PathViews::Uint) => {
+            context.entry_points.texture_view.is_some()
+        }
         // OpenGL has neither passes with objects, nor pipelines, nor command buffers, nor render areas.
         PathValue::Pass(
             PathPass::DynamicRendering | PathPass::RenderPass | PathPass::SecondSubpass,
@@ -69,7 +72,8 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         | PathValue::Results(PathResults::Once)
         | PathValue::Clip(PathClip::Constant)
         | PathValue::Layers(PathLayers::One | PathLayers::Multiview)
-        | PathValue::Resolves(PathResolves::Attached) => false,
+        | PathValue::Resolves(PathResolves::Attached)
+        | PathValue::Views(PathViews::Same) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
 }

@@ -39,6 +39,8 @@ struct Planted {
     read: u32,
     /// True before the first clear behind what leaves contents undefined.
     undefined: bool,
+    /// The format of the texture that was made last with storage that views share.
+    stored: u32,
 }
 
 /// Prepares the thread for a context that is opened with a fault, or without.
@@ -80,7 +82,7 @@ macro_rules! driver {
 /// Declares the functions that stand in the place of the driver's. Each does something `before` it calls the driver's
 /// with the arguments as they are then, or something `instead`.
 macro_rules! functions {
-    ($($how:ident $name:ident $(| $alias:ident)? ($($arg:ident: $kind:ty),*) |$planted:ident| { $($body:tt)* })+) => {
+    ($($how:ident $name:ident $(| $alias:ident)* ($($arg:ident: $kind:ty),*) |$planted:ident| { $($body:tt)* })+) => {
         /// The driver's own functions.
         #[derive(Clone, Copy, Default)]
         #[expect(non_snake_case, reason = "the names are the API's")]
@@ -91,7 +93,7 @@ macro_rules! functions {
         /// Returns the address of a function with the fault in it, or the driver's.
         fn replaced(planted: &mut Planted, name: &str, address: Pointer) -> Pointer {
             match name {
-                $(stringify!($name) $(| stringify!($alias))? => {
+                $(stringify!($name) $(| stringify!($alias))* => {
                     type Function = unsafe extern "system" fn($($kind),*);
                     // SAFETY: the specification gives this name this type, and the address is not null.
                     let function = unsafe { std::mem::transmute::<Pointer, Function>(address) };
@@ -187,6 +189,24 @@ functions! {
     }
     before glFramebufferTexture(target: u32, point: u32, texture: u32, level: i32) |planted| {
         planted.layered.insert(planted.framebuffer);
+    }
+    before glTexStorage2D(target: u32, levels: i32, format: u32, width: i32, height: i32) |planted| {
+        planted.stored = format;
+    }
+    before glTexStorage3D(target: u32, levels: i32, format: u32, width: i32, height: i32, depth: i32) |planted| {
+        planted.stored = format;
+    }
+    before glTexStorage2DMultisample(
+        target: u32, samples: i32, format: u32, width: i32, height: i32, fixed: u8
+    ) |planted| {
+        planted.stored = format;
+    }
+    before glTextureView | glTextureViewOES | glTextureViewEXT(
+        texture: u32, target: u32, viewed: u32, format: u32, level: u32, levels: u32, layer: u32, layers: u32
+    ) |planted| {
+        if planted.calls.has(CallFault::ViewFormat) {
+            format = planted.stored;
+        }
     }
     before glShaderSource(shader: u32, count: i32, strings: *const Pointer, lengths: *const i32) |planted| {
         let text: String;

@@ -19,8 +19,8 @@ use crate::surface::{Surface, SurfaceKind, upload};
 use crate::vertices::{Arguments, Fetched, Geometry};
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
-    Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, Requirement,
-    TextureFormat,
+    Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, PathViews,
+    Requirement, TextureFormat,
 };
 use etalon_scene::{Contents, Draw, Path, Scene};
 use glow::HasContext;
@@ -101,11 +101,12 @@ impl<'a> PreparedScene<'a> {
             };
             let drawn = scene.passes.iter().any(is_drawn);
             let support = self.objects.formats.get(&attachment.format);
+            let (format, views) = (attachment.format, scene.path.views);
             let kind = match path::layer(scene, index) {
-                Some(layer) => SurfaceKind::Layered(attachment.format, layer),
+                Some(layer) => SurfaceKind::Layered(format, layer, views),
                 None => {
                     let target = path::target(scene, index, support);
-                    SurfaceKind::Attachment(attachment.format, attachment.samples, target)
+                    SurfaceKind::Attachment(format, attachment.samples, target, views)
                 }
             };
             self.attachment(&mut pool, attachment, kind, drawn)?;
@@ -183,6 +184,9 @@ impl<'a> PreparedScene<'a> {
         });
         if !complete && (drawn || format != TextureFormat::Rgba32Float) {
             let requirement = match kind {
+                _ if kind.views() != PathViews::Same => {
+                    Requirement::Path(PathValue::Views(kind.views()))
+                }
                 SurfaceKind::Layered(..) => Requirement::Path(PathValue::Layers(self.path.layers)),
                 kind => match kind.target() {
                     PathTarget::Plain => Requirement::Format(format),

@@ -12,9 +12,7 @@ use crate::format::gl_format;
 use crate::program::translates;
 use crate::support::{ReadPlan, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind};
-use etalon_frame::{
-    ChannelEncoding, Feature, FormatSupport, PathTarget, ReadPath, Requirement, TextureFormat,
-};
+use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, Requirement, TextureFormat};
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
@@ -110,7 +108,7 @@ fn with_surface<T>(
     body: impl FnOnce(&Surface) -> Option<T>,
 ) -> Option<T> {
     gl_format(format)?;
-    let kind = SurfaceKind::Attachment(format, samples, PathTarget::Plain);
+    let kind = SurfaceKind::plain(format, samples);
     let surface = Surface::new(context, kind, SIZE).ok()?;
     let result = body(&surface);
     surface.delete(context);

@@ -11,7 +11,7 @@ use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
 use etalon_backend::{BackendError, Blits, Fault, Form, Piece, halves};
-use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
+use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, ReadPath, TextureFormat};
 use glow::HasContext;
 
 /// The objects that reading needs besides the surface.
@@ -103,7 +103,7 @@ impl Reading<'_> {
             }
         }
         let context = self.context;
-        let kind = SurfaceKind::Attachment(source.format, 1, PathTarget::Plain);
+        let kind = SurfaceKind::plain(source.format, 1);
         let size = source.surface.size();
         let surface = self.pool.surface(context, kind, size)?;
         state::reset(context);

@@ -2,28 +2,52 @@
 
 use crate::codes;
 use crate::context::Context;
-use crate::format::{GlFormat, gl_format};
+use crate::format::{GlFormat, gl_format, viewed};
 use crate::path::DRAWN_LAYERS;
 use etalon_backend::BackendError;
-use etalon_frame::{PathTarget, PathValue, Requirement, TextureFormat};
+use etalon_frame::{PathTarget, PathValue, PathViews, Requirement, TextureFormat};
 use glow::HasContext;
 use std::cell::Cell;
 
 /// The use of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// A scene's attachment with this many samples per texel, and the part of a texture that it is.
-    Attachment(TextureFormat, u32, PathTarget),
-    /// An attachment of three layers, and the one that is read.
-    Layered(TextureFormat, u8),
+    /// A scene's attachment with this many samples per texel, the part of a texture that it is, and the texture's
+    /// format.
+    Attachment(TextureFormat, u32, PathTarget, PathViews),
+    /// An attachment of three layers, the one that is read, and the texture's format.
+    Layered(TextureFormat, u8, PathViews),
     /// The target of read-back shaders: four 32-bit unsigned integers per texel.
     Fetched,
 }
 
 impl SurfaceKind {
+    /// An attachment that is a whole texture of its format.
+    pub(crate) fn plain(format: TextureFormat, samples: u32) -> Self {
+        Self::Attachment(format, samples, PathTarget::Plain, PathViews::Same)
+    }
+
+    /// Returns the way in which the path chooses the texture's format; `same` if it leaves it.
+    pub(crate) fn views(self) -> PathViews {
+        match self {
+            Self::Attachment(format, _, _, views) | Self::Layered(format, _, views) => {
+                viewed(format, views).map_or(PathViews::Same, |_| views)
+            }
+            Self::Fetched => PathViews::Same,
+        }
+    }
+
+    /// Returns the internal format of the texture that the surface is a view of, if it is another.
+    fn stored(self) -> Option<u32> {
+        match self.target() {
+            PathTarget::Renderbuffer => None,
+            _ => viewed(self.format()?, self.views()),
+        }
+    }
+
     fn gl(self) -> Result<GlFormat, BackendError> {
         match self {
-            Self::Attachment(format, ..) | Self::Layered(format, _) => {
+            Self::Attachment(format, ..) | Self::Layered(format, ..) => {
                 gl_format(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
             }
             Self::Fetched => Ok(GlFormat {
@@ -37,7 +61,7 @@ impl SurfaceKind {
 
     fn samples(self) -> u32 {
         match self {
-            Self::Attachment(_, samples, _) => samples,
+            Self::Attachment(_, samples, ..) => samples,
             Self::Layered(..) | Self::Fetched => 1,
         }
     }
@@ -45,11 +69,11 @@ impl SurfaceKind {
     /// Returns the approximate size of a texel.
     fn bytes(self) -> u64 {
         match self {
-            Self::Attachment(format, samples, _) if format.is_color() => {
+            Self::Attachment(format, samples, ..) if format.is_color() => {
                 codes::texel_bytes(format) as u64 * u64::from(samples)
             }
-            Self::Attachment(_, samples, _) => 8 * u64::from(samples),
-            Self::Layered(format, _) => 3 * Self::Attachment(format, 1, PathTarget::Plain).bytes(),
+            Self::Attachment(_, samples, ..) => 8 * u64::from(samples),
+            Self::Layered(format, ..) => 3 * Self::plain(format, 1).bytes(),
             Self::Fetched => 16,
         }
     }
@@ -57,7 +81,7 @@ impl SurfaceKind {
     /// Returns the part of a texture that the surface is.
     pub(crate) fn target(self) -> PathTarget {
         match self {
-            Self::Attachment(_, _, target) => target,
+            Self::Attachment(_, _, target, _) => target,
             Self::Layered(..) => PathTarget::ArrayLayer,
             Self::Fetched => PathTarget::Plain,
         }
@@ -66,7 +90,7 @@ impl SurfaceKind {
     /// Returns the format of an attachment.
     pub(crate) fn format(self) -> Option<TextureFormat> {
         match self {
-            Self::Attachment(format, ..) | Self::Layered(format, _) => Some(format),
+            Self::Attachment(format, ..) | Self::Layered(format, ..) => Some(format),
             Self::Fetched => None,
         }
     }
@@ -121,6 +145,8 @@ impl Part {
 #[derive(Debug)]
 pub(crate) struct Surface {
     pub(crate) storage: Storage,
+    /// The texture that the storage is a view of.
+    viewed: Option<glow::Texture>,
     pub(crate) framebuffer: glow::Framebuffer,
     status: u32,
     pub(crate) attachment: u32,
@@ -146,16 +172,28 @@ impl Surface {
         let stencil_only = kind.format() == Some(TextureFormat::Stencil8);
         // A shader reads stencil in ES and if multisampled, which takes a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
-        let storage = match kind.target() {
-            PathTarget::Renderbuffer => renderbuffer(context, format, size)?,
-            PathTarget::Plain if stencil_only && !fetched => renderbuffer(context, format, size)?,
-            PathTarget::Plain if samples > 1 => {
-                multisample_texture(context, format, size, samples)?
+        let target = kind.target();
+        let (storage, viewed) = match kind.stored() {
+            Some(stored) => {
+                let (part, viewed) = view(context, kind, format, size, stored)?;
+                (Storage::Texture(part), Some(viewed))
             }
-            target => texture(context, format, size, target)?,
+            None => {
+                let storage = match target {
+                    PathTarget::Renderbuffer => renderbuffer(context, format, size)?,
+                    PathTarget::Plain if stencil_only && !fetched => {
+                        renderbuffer(context, format, size)?
+                    }
+                    PathTarget::Plain if samples > 1 => {
+                        multisample_texture(context, format, size, samples)?
+                    }
+                    target => texture(context, format, size, target)?,
+                };
+                (storage, None)
+            }
         };
         let storage = match (kind, storage) {
-            (SurfaceKind::Layered(_, layer), Storage::Texture(part)) => {
+            (SurfaceKind::Layered(_, layer, _), Storage::Texture(part)) => {
                 let layer = i32::from(layer);
                 Storage::Texture(Part { layer, ..part })
             }
@@ -165,6 +203,7 @@ impl Surface {
         let id = NEXT_ID.with(|next| next.replace(next.get() + 1));
         Ok(Self {
             storage,
+            viewed,
             framebuffer,
             status,
             attachment: format.attachment,
@@ -209,6 +248,9 @@ impl Surface {
                 Storage::Texture(part) => gl.delete_texture(part.texture),
                 Storage::Renderbuffer(buffer) => gl.delete_renderbuffer(buffer),
             }
+            if let Some(texture) = self.viewed {
+                gl.delete_texture(texture);
+            }
         }
     }
 }
@@ -248,21 +290,8 @@ fn texture(
             .map_err(|e| BackendError::refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
-        let set = |name, value: u32| gl.tex_parameter_i32(target, name, value as i32);
-        // Fetches require a complete texture, even if they do not use its filter.
-        // A shader sees the one level.
-        set(glow::TEXTURE_BASE_LEVEL, shape.level as u32);
-        set(glow::TEXTURE_MAX_LEVEL, shape.level as u32);
-        set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
-        set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
-        set(glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE);
-        set(glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE);
-        let part = Part {
-            texture,
-            binding: target,
-            level: shape.level,
-            layer: shape.layer,
-        };
+        set_parameters(gl, shape);
+        let part = shape.part(texture);
         let none = || glow::PixelUnpackData::Slice(None);
         let (internal, words, kind) = (format.internal as i32, format.format, format.kind);
         for level in 0..=shape.level {
@@ -302,6 +331,25 @@ fn texture(
     }
 }
 
+/// Sets the parameters of the texture that is bound.
+///
+/// # Safety
+/// The context is current, and the texture has these parameters.
+unsafe fn set_parameters(gl: &glow::Context, shape: Shape) {
+    // SAFETY: the caller's.
+    let set = |name, value: u32| unsafe {
+        gl.tex_parameter_i32(shape.binding, name, value as i32);
+    };
+    // Fetches require a complete texture, even if they do not use its filter.
+    // A shader sees the one level.
+    set(glow::TEXTURE_BASE_LEVEL, shape.level as u32);
+    set(glow::TEXTURE_MAX_LEVEL, shape.level as u32);
+    set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
+    set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
+    set(glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE);
+    set(glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE);
+}
+
 /// The texture that an attachment is a part of.
 #[derive(Clone, Copy)]
 struct Shape {
@@ -317,6 +365,16 @@ struct Shape {
 }
 
 impl Shape {
+    /// Returns the part of a texture of this shape that is used.
+    fn part(self, texture: glow::Texture) -> Part {
+        Part {
+            texture,
+            binding: self.binding,
+            level: self.level,
+            layer: self.layer,
+        }
+    }
+
     fn of(path: PathTarget, size: [u32; 2]) -> Self {
         let plain = Self {
             binding: glow::TEXTURE_2D,
@@ -400,6 +458,86 @@ fn multisample_texture(
         }
         Ok(Storage::Texture(Part::whole(texture, target)))
     }
+}
+
+/// Returns the used part of a view, and the texture of the format `stored` that it is a view of (OpenGL 4.6, 8.18;
+/// `GL_OES_texture_view`).
+///
+/// # Errors
+/// If the context has no texture of this format and number of samples.
+fn view(
+    context: &Context,
+    kind: SurfaceKind,
+    format: GlFormat,
+    size: [u32; 2],
+    stored: u32,
+) -> Result<(Part, glow::Texture), BackendError> {
+    let gl = &context.gl;
+    let samples = kind.samples();
+    let mut shape = Shape::of(kind.target(), size);
+    if samples > 1 {
+        shape.binding = glow::TEXTURE_2D_MULTISAMPLE;
+    }
+    check_size(context, kind.target(), shape)?;
+    let missing = || BackendError::NotSupported(Requirement::Path(PathValue::Views(kind.views())));
+    let make_view = context.entry_points.texture_view.ok_or_else(missing)?;
+    if samples > most_samples(gl, stored) {
+        return Err(missing());
+    }
+    let [width, height] = shape.size.map(|side| side as i32);
+    let (binding, layers, levels) = (shape.binding, shape.layers, shape.level + 1);
+    // SAFETY: the context is current and has views, and with them storage of every target here. The view has the
+    // texture's levels and layers, and a format of its class.
+    unsafe {
+        let create = || {
+            let texture = gl.create_texture();
+            texture.map_err(|e| BackendError::refused("a texture", e))
+        };
+        let (texture, viewing) = (create()?, create()?);
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(binding, Some(texture));
+        match binding {
+            glow::TEXTURE_2D_MULTISAMPLE => {
+                // The same sample positions for every texel and format.
+                let samples = samples as i32;
+                gl.tex_storage_2d_multisample(binding, samples, stored, width, height, true);
+            }
+            glow::TEXTURE_2D_ARRAY | glow::TEXTURE_3D => {
+                gl.tex_storage_3d(binding, levels, stored, width, height, layers);
+            }
+            _ => gl.tex_storage_2d(binding, levels, stored, width, height),
+        }
+        // Slices are no layers.
+        let layers = match binding {
+            glow::TEXTURE_3D => 1,
+            _ => layers as u32,
+        };
+        let (to, from) = (viewing.0.get(), texture.0.get());
+        make_view(
+            to,
+            binding,
+            from,
+            format.internal,
+            0,
+            levels as u32,
+            0,
+            layers,
+        );
+        gl.bind_texture(binding, Some(viewing));
+        if samples == 1 {
+            set_parameters(gl, shape);
+        }
+        Ok((shape.part(viewing), texture))
+    }
+}
+
+/// Returns the most samples of a texture of this format.
+fn most_samples(gl: &glow::Context, format: u32) -> u32 {
+    let mut counts = [1];
+    let target = glow::TEXTURE_2D_MULTISAMPLE;
+    // SAFETY: the context is current, and has the query since it has views. Counts are in descending order.
+    unsafe { gl.get_internal_format_i32_slice(target, format, glow::SAMPLES, &mut counts) };
+    counts[0].max(1).cast_unsigned()
 }
 
 /// Replaces the contents of a single-sample colour texture. `bytes` covers it.

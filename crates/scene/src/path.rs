@@ -7,7 +7,7 @@
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
     PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
-    PathViewport,
+    PathViewport, PathViews,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,8 @@ pub struct Path {
     pub colors: PathColors,
     /// The resolves of colors.
     pub resolves: PathResolves,
+    /// The format of the textures that color attachments are views of.
+    pub views: PathViews,
 }
 
 impl Path {
@@ -71,6 +73,7 @@ impl Path {
             tests,
             colors,
             resolves,
+            views,
         } = *self;
         let all = [
             PathValue::Start(start),
@@ -89,6 +92,7 @@ impl Path {
             PathValue::Tests(tests),
             PathValue::Colors(colors),
             PathValue::Resolves(resolves),
+            PathValue::Views(views),
         ];
         all.into_iter().filter(|v| !v.is_default()).collect()
     }

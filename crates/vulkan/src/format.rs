@@ -4,7 +4,7 @@ use crate::device::Device;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_backend::codes::{self, TexelLayout};
-use etalon_frame::{Aspect, ChannelEncoding, Requirement, TextureFormat};
+use etalon_frame::{Aspect, ChannelEncoding, PathViews, Requirement, TextureFormat};
 use std::collections::BTreeMap;
 
 /// The Vulkan format that this device uses for a texture format.
@@ -144,6 +144,30 @@ pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
         vk::Format::R16G16B16A16_SFLOAT => &[(0, 16), (16, 16), (32, 16), (48, 16)],
         vk::Format::R32G32B32A32_SFLOAT => &[(0, 32), (32, 32), (64, 32), (96, 32)],
         _ => &[],
+    }
+}
+
+/// Returns the format of the images that attachments of a format are views of; `None` if the path does not apply to
+/// the format (Vulkan, Format Compatibility Classes).
+pub(crate) fn viewed(raw: vk::Format, views: PathViews) -> Option<vk::Format> {
+    if aspect_mask(raw) != vk::ImageAspectFlags::COLOR {
+        return None;
+    }
+    match views {
+        PathViews::Same => None,
+        PathViews::Srgb => match raw {
+            vk::Format::R8G8B8A8_UNORM => Some(vk::Format::R8G8B8A8_SRGB),
+            vk::Format::B8G8R8A8_UNORM => Some(vk::Format::B8G8R8A8_SRGB),
+            _ => unconverted(raw),
+        },
+        PathViews::Uint => match texel_bytes(raw, Aspect::Color) {
+            1 => Some(vk::Format::R8_UINT),
+            2 => Some(vk::Format::R16_UINT),
+            4 => Some(vk::Format::R32_UINT),
+            8 => Some(vk::Format::R32G32_UINT),
+            16 => Some(vk::Format::R32G32B32A32_UINT),
+            _ => None,
+        },
     }
 }
 
@@ -302,6 +326,23 @@ mod tests {
                 assert_eq!(decode(&bytes, *raw, Aspect::Color), two, "{raw:?}");
             }
         }
+    }
+
+    #[test]
+    fn attachments_are_views_of_formats_of_their_size() {
+        let mut pairs = 0;
+        for raw in TextureFormat::ALL.into_iter().flat_map(candidates) {
+            let viewed = |views| super::viewed(*raw, views);
+            assert_eq!(viewed(PathViews::Same), None);
+            if let Some(other) = viewed(PathViews::Srgb) {
+                assert_eq!(super::viewed(other, PathViews::Srgb), Some(*raw));
+                assert_eq!(layout(other), layout(*raw));
+                pairs += 1;
+            }
+            let color = aspect_mask(*raw) == vk::ImageAspectFlags::COLOR;
+            assert_eq!(viewed(PathViews::Uint).is_some(), color, "{raw:?}");
+        }
+        assert_eq!(pairs, 4);
     }
 
     #[test]

@@ -11,7 +11,10 @@ use etalon_frame::PathTarget;
 /// The properties that interchangeable images share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ImageKey {
+    /// The format of views.
     pub(crate) format: vk::Format,
+    /// The format of the image.
+    pub(crate) stored: vk::Format,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
@@ -99,17 +102,12 @@ impl ImageKey {
 impl Place {
     /// Returns the place as barriers name it: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
-        let (base_array_layer, layer_count) = if self.layered {
-            (0, LAYERS)
-        } else {
-            (self.layer, 1)
-        };
         vk::ImageSubresourceRange {
             aspect_mask: mask,
             base_mip_level: self.level,
             level_count: 1,
-            base_array_layer,
-            layer_count,
+            base_array_layer: if self.layered { 0 } else { self.layer },
+            layer_count: self.layer_count(),
         }
     }
 
@@ -147,6 +145,11 @@ impl Place {
             layer_count: 1,
             ..self.range(mask)
         }
+    }
+
+    /// Returns the number of layers that passes draw to.
+    pub(crate) fn layer_count(self) -> u32 {
+        if self.layered { LAYERS } else { 1 }
     }
 
     /// Returns the place as copies name it.
@@ -207,21 +210,24 @@ impl Image {
         let key = self.key;
         let read_by_sample = key.samples > 1 && key.usage.contains(vk::ImageUsageFlags::SAMPLED);
         let unconverted = format::unconverted(key.format).filter(|_| read_by_sample);
-        // The list of both formats keeps a mutable format from changing the image's memory layout.
-        let both_formats = [key.format, unconverted.unwrap_or(key.format)];
-        let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&both_formats);
+        // The list of formats keeps a mutable format from changing the image's memory layout.
+        let mut formats = vec![key.stored];
+        let others = [key.format, unconverted.unwrap_or(key.format)];
+        formats.extend(others.into_iter().filter(|format| *format != key.stored));
+        formats.dedup();
+        let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&formats);
         let shape = key.shape();
         let mut info = vk::ImageCreateInfo::default()
             .flags(shape.flags)
             .image_type(shape.kind)
-            .format(key.format)
+            .format(key.stored)
             .extent(shape.extent)
             .mip_levels(shape.levels)
             .array_layers(shape.layers)
             .samples(state::samples(key.samples))
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(key.usage);
-        if unconverted.is_some() {
+        if formats.len() > 1 {
             info = info
                 .flags(shape.flags | vk::ImageCreateFlags::MUTABLE_FORMAT)
                 .push_next(&mut list);

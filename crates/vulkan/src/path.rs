@@ -96,20 +96,26 @@ pub(crate) fn check_target(
     path: &Path,
     key: &ImageKey,
 ) -> Result<(), BackendError> {
-    if key.target == PathTarget::Plain && key.layered.is_none() {
+    let viewed = key.stored != key.format;
+    if key.target == PathTarget::Plain && key.layered.is_none() && !viewed {
         return Ok(());
     }
     let shape = key.shape();
+    let mutable = if viewed {
+        vk::ImageCreateFlags::MUTABLE_FORMAT
+    } else {
+        vk::ImageCreateFlags::empty()
+    };
     // SAFETY: the physical device is of this living instance.
     let properties = unsafe {
         let api = device.instance.raw();
         api.get_physical_device_image_format_properties(
             device.physical,
-            key.format,
+            key.stored,
             shape.kind,
             vk::ImageTiling::OPTIMAL,
             key.usage,
-            shape.flags,
+            shape.flags | mutable,
         )
     };
     let fits = properties.is_ok_and(|p| {
@@ -121,6 +127,7 @@ pub(crate) fn check_target(
             && p.sample_counts.as_raw() & key.samples != 0
     });
     let value = match key.layered {
+        _ if viewed => PathValue::Views(path.views),
         None => PathValue::Target(key.target),
         Some(_) => PathValue::Layers(path.layers),
     };

@@ -53,6 +53,8 @@ pub(crate) struct AttachmentPlan {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) initial: InitialContents,
+    /// The view that a load operation clears, if a transfer would convert the color to another format.
+    pub(crate) cleared: Option<vk::ImageView>,
     /// The role before the first pass and after the last.
     pub(crate) role: Role,
     pub(crate) read: bool,
@@ -351,6 +353,13 @@ pub(crate) fn image_key(
     if scene.passes.iter().any(resolved) {
         usage |= vk::ImageUsageFlags::TRANSFER_SRC;
     }
+    let stored = format::viewed(native.raw, scene.path.views).unwrap_or(native.raw);
+    if stored != native.raw && matches!(attachment.contents, Contents::Color(_)) {
+        if !native.attachment {
+            return Err(BackendError::NotSupported(Requirement::Drawing(format)));
+        }
+        usage |= attachment_usage(format);
+    }
     match (read, attachment.samples) {
         (false, _) => {}
         (true, 1) => usage |= vk::ImageUsageFlags::TRANSFER_SRC,
@@ -359,6 +368,7 @@ pub(crate) fn image_key(
     }
     Ok(ImageKey {
         format: native.raw,
+        stored,
         size: attachment.size,
         samples: attachment.samples,
         usage,
@@ -380,6 +390,7 @@ pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
     let size = between(end, key.size)?;
     Some(ImageKey {
         size,
+        stored: key.format,
         usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
         target: PathTarget::Plain,
         layered: None,
@@ -409,6 +420,7 @@ pub(crate) fn copy_key(key: ImageKey, attachment: &Attachment) -> ImageKey {
         },
         target: PathTarget::Plain,
         layered: None,
+        stored: key.format,
         ..key
     }
 }

@@ -10,6 +10,7 @@ use ash::ext::extended_dynamic_state3;
 use ash::vk::{self, Handle};
 use etalon_backend::{CallFault, DrawNumbers, FaultyCalls, OpenQuery};
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ffi::c_void;
 use std::process::abort;
 use std::{mem, ptr, slice};
@@ -68,6 +69,8 @@ struct Planted {
     tests_depth: bool,
     /// The sample mask that was set last, and its number of samples.
     mask: Option<(vk::SampleCountFlags, vk::SampleMask)>,
+    /// The formats of images.
+    formats: HashMap<vk::Image, vk::Format>,
 }
 
 /// Puts a fault into the function table of a device.
@@ -101,6 +104,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         depth: false,
         tests_depth: false,
         mask: None,
+        formats: HashMap::new(),
     }));
     if let Some(extended) = &mut device.extended {
         *extended = functions.ext3;
@@ -438,6 +442,18 @@ functions! {
     ) |planted| {
         planted.topology = topology;
     }
+    instead v10 create_image(
+        device: vk::Device, infos: *const vk::ImageCreateInfo<'_>, allocator: *const vk::AllocationCallbacks<'_>,
+        image: *mut vk::Image
+    ) -> vk::Result [infos; 1] |planted| {
+        // SAFETY: the caller's.
+        let result = unsafe { (planted.driver.v10.create_image)(device, infos.as_ptr(), allocator, image) };
+        if result == vk::Result::SUCCESS {
+            // SAFETY: the driver wrote the image.
+            planted.formats.insert(unsafe { *image }, infos[0].format);
+        }
+        result
+    }
     before v10 create_image_view(
         device: vk::Device, infos: *const vk::ImageViewCreateInfo<'_>,
         allocator: *const vk::AllocationCallbacks<'_>, view: *mut vk::ImageView
@@ -449,6 +465,10 @@ functions! {
         }
         if planted.calls.has(CallFault::LevelDropped) {
             range.base_mip_level = 0;
+        }
+        if planted.calls.has(CallFault::ViewFormat) {
+            let format = planted.formats.get(&infos[0].image);
+            infos[0].format = format.copied().unwrap_or(infos[0].format);
         }
     }
     before v10 create_graphics_pipelines(

@@ -134,6 +134,11 @@ impl<'a> PreparedScene<'a> {
             let key = image_key(self.gpu, scene, index, role, end)?;
             path::check_target(device, &scene.path, &key)?;
             let image = pools.memory.image(device, key)?;
+            let converts = key.stored != key.format;
+            let cleared = match attachment.contents {
+                Contents::Color(_) if converts => Some(image.attached()?),
+                _ => None,
+            };
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,
                 place: image.place(),
@@ -144,6 +149,7 @@ impl<'a> PreparedScene<'a> {
                 size: attachment.size,
                 samples: attachment.samples,
                 initial: InitialContents::of(attachment, inputs.texels(index)),
+                cleared,
                 role,
                 read,
             });

@@ -100,9 +100,10 @@ pub(crate) fn initial_contents(
     for attachment in &plan.attachments {
         let ranges = attachment.place.cleared(attachment.aspects);
         match &attachment.initial {
-            InitialContents::Color(color) => {
+            InitialContents::Color(color) => match attachment.cleared {
+                Some(view) => clear_view(device, commands, attachment, view, *color),
                 // SAFETY: recording; the image is in this layout.
-                unsafe {
+                None => unsafe {
                     device.raw.cmd_clear_color_image(
                         commands,
                         attachment.image,
@@ -110,8 +111,8 @@ pub(crate) fn initial_contents(
                         color,
                         &ranges,
                     );
-                }
-            }
+                },
+            },
             InitialContents::DepthStencil { depth, stencil } => {
                 let value = vk::ClearDepthStencilValue {
                     depth: *depth,
@@ -154,6 +155,37 @@ pub(crate) fn initial_contents(
         .map(|a| a.barrier(TRANSFER_DST, a.initial_state()))
         .collect();
     barriers(device, commands, &initial);
+}
+
+/// Records a pass that clears an attachment through a view: a transfer would convert the color to the image's format.
+fn clear_view(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    attachment: &AttachmentPlan,
+    view: vk::ImageView,
+    color: vk::ClearColorValue,
+) {
+    let [width, height] = attachment.size;
+    let targets = [vk::RenderingAttachmentInfo::default()
+        .image_view(view)
+        .image_layout(COLOR.layout)
+        .load_op(vk::AttachmentLoadOp::CLEAR)
+        .store_op(vk::AttachmentStoreOp::STORE)
+        .clear_value(vk::ClearValue { color })];
+    let info = vk::RenderingInfo::default()
+        .render_area(vk::Rect2D {
+            offset: vk::Offset2D::default(),
+            extent: vk::Extent2D { width, height },
+        })
+        .layer_count(attachment.place.layer_count())
+        .color_attachments(&targets);
+    barriers(device, commands, &[attachment.barrier(TRANSFER_DST, COLOR)]);
+    // SAFETY: recording, outside of a pass; the image is in the layout of a color attachment.
+    unsafe {
+        device.raw.cmd_begin_rendering(commands, &info);
+        device.raw.cmd_end_rendering(commands);
+    }
+    barriers(device, commands, &[attachment.barrier(COLOR, TRANSFER_DST)]);
 }
 
 /// Records all passes. Attachments change state between passes and end in their first state.

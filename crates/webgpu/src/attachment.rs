@@ -80,8 +80,9 @@ impl Attached {
             .clone()
             .position(|(draws, resolves, reads)| draws || resolves || reads);
         let place = path::target(scene, index);
+        let views = scene.path.views;
         Ok(Self {
-            target: lowering.attachment(format, size, attachment.samples, place)?,
+            target: lowering.attachment(format, size, attachment.samples, place, views)?,
             format,
             size,
             initial,

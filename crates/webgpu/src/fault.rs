@@ -29,6 +29,7 @@ pub fn plant(fault: CallFault, list: &mut CallList) {
                 }
             }
         }
+        CallFault::ViewFormat => texture_formats(list),
         CallFault::SecondaryFirstDraw => {
             for bundle in &mut list.bundles {
                 if let Some(first) = bundle.commands.iter().position(DrawCommand::is_draw) {
@@ -83,6 +84,29 @@ fn parts(list: &mut CallList, change: impl Fn([u32; 2]) -> [u32; 2]) {
     for view in drawn {
         let TextureView { part, .. } = &mut list.views[view];
         *part = part.map(&change);
+    }
+}
+
+/// Gives views the formats of their textures, and pipelines and bundles those of the views.
+fn texture_formats(list: &mut CallList) {
+    let mut formats = Vec::new();
+    for view in &mut list.views {
+        if let Some(format) = view.format.take() {
+            formats.push((format, list.textures[view.texture].format));
+        }
+    }
+    let targets = list.pipelines.iter_mut();
+    let targets = targets
+        .flat_map(|pipeline| &mut pipeline.state.targets)
+        .flatten();
+    let bundles = list
+        .bundles
+        .iter_mut()
+        .flat_map(|bundle| &mut bundle.color)
+        .flatten();
+    for drawn in targets.map(|target| &mut target.format).chain(bundles) {
+        let stored = formats.iter().find(|(format, _)| format == drawn);
+        *drawn = stored.map_or(*drawn, |(_, stored)| *stored);
     }
 }
 

@@ -12,6 +12,9 @@ pub enum Format {
     /// `rgba32uint`, between an attachment and a buffer.
     #[serde(rename = "rgba32uint")]
     Rgba32Uint,
+    /// `bgra8unorm-srgb`, of textures with views of another format.
+    #[serde(rename = "bgra8unorm-srgb")]
+    Bgra8UnormSrgb,
     /// That of an attachment, which WebGPU has.
     #[serde(untagged)]
     Attachment(TextureFormat),
@@ -36,6 +39,7 @@ impl Format {
             Self::Attachment(format) => format.name(),
             Self::R32Uint => "r32uint",
             Self::Rgba32Uint => "rgba32uint",
+            Self::Bgra8UnormSrgb => "bgra8unorm-srgb",
         }
     }
 
@@ -43,6 +47,17 @@ impl Format {
     pub(crate) fn without_srgb(self) -> Option<Self> {
         let srgb = self == Self::Attachment(TextureFormat::Rgba8UnormSrgb);
         srgb.then_some(Self::Attachment(TextureFormat::Rgba8Unorm))
+    }
+
+    /// The format with sRGB conversion if this one lacks it, and without if it has it; `None` if there is none.
+    pub(crate) fn other_srgb(self) -> Option<Self> {
+        match self {
+            Self::Attachment(TextureFormat::Rgba8Unorm) => {
+                Some(Self::Attachment(TextureFormat::Rgba8UnormSrgb))
+            }
+            Self::Attachment(TextureFormat::Bgra8Unorm) => Some(Self::Bgra8UnormSrgb),
+            _ => self.without_srgb(),
+        }
     }
 
     /// True if it has depth.

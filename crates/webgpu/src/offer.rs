@@ -120,7 +120,7 @@ fn limits(offer: Offer) -> Limits {
         max_size,
         max_color_attachments: offer.limits.color_attachments.min(most_of_bytes),
         formats,
-        paths: paths(offer.indirect, &features),
+        paths: paths(offer.indirect, offer.abilities, &features),
         features,
         // WebGPU requires the standard ones of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),

@@ -4,16 +4,21 @@
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
 use crate::calls::{Extent, TextureDimension};
+use crate::device::Abilities;
 use etalon_frame::{
     ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathResults, PathStart, PathState,
-    PathTarget, PathValue, TextureFormat,
+    PathTarget, PathValue, PathViews, TextureFormat,
 };
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
 
-/// Returns the values that a device with these features has; `indirect` if it executes indirect draws. Formats may
-/// lack some of them: `target` and `end` say so.
-pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
+/// Returns the values that a device with these abilities and features has; `indirect` if it executes indirect draws.
+/// Formats may lack some of them: `target` and `end` say so.
+pub(crate) fn paths(
+    indirect: bool,
+    abilities: Abilities,
+    features: &BTreeSet<Feature>,
+) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::Start(PathStart::LoadOperation | PathStart::Draw) => true,
         PathValue::Target(target) => target != PathTarget::Renderbuffer,
@@ -31,6 +36,7 @@ pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<Pa
         ),
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
         PathValue::Results(PathResults::Twice) | PathValue::Colors(_) => true,
+        PathValue::Views(PathViews::Srgb) => abilities.casts,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
         // pipeline, everything else always is.
         PathValue::State(
@@ -54,7 +60,8 @@ pub(crate) fn paths(indirect: bool, features: &BTreeSet<Feature>) -> BTreeSet<Pa
         | PathValue::Clip(_)
         | PathValue::Viewport(_)
         | PathValue::Layers(_)
-        | PathValue::Resolves(_) => false,
+        | PathValue::Resolves(_)
+        | PathValue::Views(PathViews::Same | PathViews::Uint) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
 }
@@ -250,10 +257,16 @@ mod tests {
     fn values_follow_what_the_adapter_has() {
         let base = PathValue::Draws(PathDraws::BaseVertex);
         let indirect = PathValue::Draws(PathDraws::Indirect);
-        let none = paths(false, &BTreeSet::new());
-        assert!(!none.contains(&base) && !none.contains(&indirect));
-        let all = paths(true, &BTreeSet::from([Feature::BaseVertex]));
-        assert!(all.contains(&base) && all.contains(&indirect));
+        let views = PathValue::Views(PathViews::Srgb);
+        let abilities = |casts| Abilities {
+            copies: true,
+            casts,
+        };
+        let none = paths(false, abilities(false), &BTreeSet::new());
+        assert!([base, indirect, views].iter().all(|v| !none.contains(v)));
+        let features = BTreeSet::from([Feature::BaseVertex]);
+        let all = paths(true, abilities(true), &features);
+        assert!([base, indirect, views].iter().all(|v| all.contains(v)));
         assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
     }
 

@@ -14,7 +14,7 @@ use crate::reading::{ImageReading, ReadMethod, Reading};
 use crate::tables::{Lowering, Target};
 use etalon_backend::halves;
 use etalon_frame::{
-    Aspect, ChannelEncoding, PathEnd, PathTarget, ReadPath, Requirement, TextureFormat,
+    Aspect, ChannelEncoding, PathEnd, PathTarget, PathViews, ReadPath, Requirement, TextureFormat,
 };
 use etalon_scene::{Attachment, Scene};
 
@@ -79,7 +79,8 @@ fn copied(
     commands: &mut Vec<Command>,
 ) -> Result<Target, Requirement> {
     let (format, size) = (attachment.format, attachment.size);
-    let target = lowering.attachment(format, size, attachment.samples, PathTarget::Plain)?;
+    let (target, views) = (PathTarget::Plain, PathViews::Same);
+    let target = lowering.attachment(format, size, attachment.samples, target, views)?;
     commands.extend(spoiled(lowering, format, target).map(Command::Pass));
     let all = TextureAspect::All;
     commands.push(Command::CopyTexture {

@@ -8,7 +8,7 @@ use crate::device::{Device, attachment_usages, read_path, texture_usages};
 use crate::format::Format;
 use crate::path::{Reading as ReadingAbility, Shape};
 use crate::pipeline_state::{Pipeline, PipelineState};
-use etalon_frame::{PathTarget, PathValue, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat};
 use etalon_scene::Sampler;
 use std::borrow::Cow;
 
@@ -16,7 +16,10 @@ use std::borrow::Cow;
 #[derive(Clone, Copy)]
 pub(crate) struct Target {
     pub(crate) texture: usize,
+    /// The format of views.
     pub(crate) format: Format,
+    /// The format of the texture.
+    stored: Format,
     pub(crate) samples: u32,
     shape: Shape,
 }
@@ -63,6 +66,7 @@ impl Lowering<'_> {
         size: [u32; 2],
         samples: u32,
         target: PathTarget,
+        views: PathViews,
     ) -> Result<Target, Requirement> {
         let shape = Shape::of(target, size);
         let most = match shape.dimension {
@@ -73,28 +77,47 @@ impl Lowering<'_> {
             return Err(Requirement::Path(PathValue::Target(target)));
         }
         let usage = attachment_usages(self.device, format, samples);
-        Ok(self.texture(Format::of(format)?, shape, samples, usage))
+        let format = Format::of(format)?;
+        let stored = match views {
+            PathViews::Srgb => format.other_srgb(),
+            PathViews::Same | PathViews::Uint => None,
+        };
+        Ok(self.texture(format, stored.unwrap_or(format), shape, samples, usage))
     }
 
     /// Returns a texture that a fetch renders to, with undefined contents.
     pub(crate) fn scratch(&mut self, format: Format, size: [u32; 2]) -> Target {
         let usage = texture_usages(TextureFormat::Rgba8Unorm) | texture_usage::RENDER_ATTACHMENT;
-        self.texture(format, Shape::of(PathTarget::Plain, size), 1, usage)
+        let shape = Shape::of(PathTarget::Plain, size);
+        self.texture(format, format, shape, 1, usage)
     }
 
-    fn texture(&mut self, format: Format, shape: Shape, samples: u32, usage: u32) -> Target {
+    fn texture(
+        &mut self,
+        format: Format,
+        stored: Format,
+        shape: Shape,
+        samples: u32,
+        usage: u32,
+    ) -> Target {
+        let codes = || format.without_srgb().filter(|_| samples > 1);
         self.list.textures.push(Texture {
             size: shape.size,
             levels: shape.levels,
             samples,
             dimension: shape.dimension,
-            format,
+            format: stored,
             usage,
-            view_format: format.without_srgb().filter(|_| samples > 1),
+            view_format: if stored == format {
+                codes()
+            } else {
+                Some(format)
+            },
         });
         Target {
             texture: self.list.textures.len() - 1,
             format,
+            stored,
             samples,
             shape,
         }
@@ -102,7 +125,7 @@ impl Lowering<'_> {
 
     /// Returns the view of all aspects, for passes.
     pub(crate) fn view(&mut self, target: Target) -> usize {
-        self.seen(target, TextureAspect::All, None)
+        self.seen(target, TextureAspect::All, target.format)
     }
 
     /// Returns the view of colour or depth, for fetches.
@@ -114,22 +137,22 @@ impl Lowering<'_> {
         };
         // The samples of an sRGB texture are fetched without conversion, as codes.
         let codes = target.format.without_srgb().filter(|_| target.samples > 1);
-        self.seen(target, aspect, codes)
+        self.seen(target, aspect, codes.unwrap_or(target.format))
     }
 
     /// Returns the view of stencil, for fetches.
     pub(crate) fn fetched_stencil(&mut self, target: Target) -> usize {
-        self.seen(target, TextureAspect::StencilOnly, None)
+        self.seen(target, TextureAspect::StencilOnly, target.format)
     }
 
-    fn seen(&mut self, target: Target, aspect: TextureAspect, format: Option<Format>) -> usize {
+    fn seen(&mut self, target: Target, aspect: TextureAspect, format: Format) -> usize {
         let shape = target.shape;
         let flat = shape.dimension == TextureDimension::D2;
         let view = TextureView {
             texture: target.texture,
             part: flat.then_some([shape.level, shape.layer]),
             aspect,
-            format,
+            format: (format != target.stored).then_some(format),
         };
         place(&mut self.list.views, view)
     }

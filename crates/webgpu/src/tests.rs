@@ -37,13 +37,14 @@ fn device() -> Device {
         Feature::StorageCounters,
         Feature::ViewportOutside,
     ]);
-    limits.paths = crate::path::paths(true, &limits.features);
+    let abilities = Abilities {
+        copies: true,
+        casts: true,
+    };
+    limits.paths = crate::path::paths(true, abilities, &limits.features);
     Device {
         limits,
-        abilities: Abilities {
-            copies: true,
-            casts: true,
-        },
+        abilities,
         max_texture_2d: 8192,
         max_texture_3d: 2048,
         uniform_alignment: 256,

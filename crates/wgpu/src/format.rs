@@ -35,6 +35,7 @@ pub(crate) fn known(format: Format) -> Result<wgpu::TextureFormat, BackendError>
     match format {
         Format::R32Uint => Ok(wgpu::TextureFormat::R32Uint),
         Format::Rgba32Uint => Ok(wgpu::TextureFormat::Rgba32Uint),
+        Format::Bgra8UnormSrgb => Ok(wgpu::TextureFormat::Bgra8UnormSrgb),
         Format::Attachment(format) => {
             texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
         }

@@ -217,6 +217,8 @@ faults! {
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// All channels of colour are written.
     WriteMaskOpen = "write-mask-open" in "paths/write-masks/*/start=load-operation" of WebGpu;
+    /// Views have their texture's format.
+    ViewFormat = "view-format" in "paths/views/*/views=srgb" of Vulkan OpenGl WebGpu;
     /// No index restarts a primitive.
     RestartIgnored = "restart-ignored" in "paths/{lines,strip}/*/draws=restart/*" of OpenGl;
 }

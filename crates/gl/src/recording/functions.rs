@@ -179,8 +179,22 @@ functions! {
         target: Enum, samples: Int, format: Enum, width: Int, height: Int, fixed: Bool
     );
     glTexParameteri(target: Enum, name: Enum, value: Parameter);
+    glTexStorage2D(target: Enum, levels: Int, format: Enum, width: Int, height: Int);
     glTexStorage2DMultisample(
         target: Enum, samples: Int, format: Enum, width: Int, height: Int, fixed: Bool
+    );
+    glTexStorage3D(target: Enum, levels: Int, format: Enum, width: Int, height: Int, depth: Int);
+    glTextureView(
+        texture: Texture, target: Enum, viewed: Texture, format: Enum, level: Uint, levels: Uint, layer: Uint,
+        layers: Uint
+    );
+    glTextureViewEXT(
+        texture: Texture, target: Enum, viewed: Texture, format: Enum, level: Uint, levels: Uint, layer: Uint,
+        layers: Uint
+    );
+    glTextureViewOES(
+        texture: Texture, target: Enum, viewed: Texture, format: Enum, level: Uint, levels: Uint, layer: Uint,
+        layers: Uint
     );
     glUniform1i(location: Location, value: Int);
     glUniformBlockBinding(program: Program, block: Block, binding: Uint);
