@@ -100,7 +100,7 @@ fn the_quick_profile_takes_some_of_every_file() {
         assert_eq!(met, due, "{}", file.name());
         all += quick.len();
     }
-    assert!(all <= 2700, "{all} cases are not quick");
+    assert!(all <= 2708, "{all} cases are not quick");
 }
 
 #[test]
