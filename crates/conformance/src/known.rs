@@ -12,7 +12,7 @@ pub type Defect = (&'static str, &'static str);
 pub const FOUR_SAMPLES: &str = "four samples";
 /// The name of a defect of shaders that count or write other storage: all scenes that need them are left out.
 pub const COUNTING_SHADERS: &str = "counting shaders";
-/// The name of a defect of sample masks: all scenes whose shaders write one are left out.
+/// The name of a defect of sample masks: all scenes whose shaders read or write one are left out.
 pub(crate) const SAMPLE_MASKS: &str = "sample masks";
 /// The name of a defect of mip levels: all scenes drawn to one but the first are left out.
 pub(crate) const MIP_LEVELS: &str = "mip levels";
@@ -43,7 +43,9 @@ impl Known {
                 COUNTING_SHADERS => subject
                     .without_feature(Feature::StorageCounters)
                     .without_feature(Feature::FragmentStorage),
-                SAMPLE_MASKS => subject.without_feature(Feature::SampleMaskOutput),
+                SAMPLE_MASKS => subject
+                    .without_feature(Feature::SampleMaskInput)
+                    .without_feature(Feature::SampleMaskOutput),
                 MIP_LEVELS => subject.without_path(PathValue::Target(PathTarget::MipLevel)),
                 _ => subject,
             },
@@ -146,7 +148,7 @@ const GL: Lacks = Lacks {
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
         "advanced-blend advanced-blend-coherent cull-distances depth-bias-clamp fragment-storage inherited-queries min-sample-shading \
-        mirrored-viewport sample-mask-output sample-mask-output-with-alpha-to-coverage \
+        mirrored-viewport sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
     ],
@@ -169,7 +171,7 @@ const ES_SOFTPIPE: Lacks = Lacks {
         ES_FEATURES,
         RESOLVES,
         "advanced-blend advanced-blend-coherent depth-bias-clamp independent-blend \
-        min-sample-shading sample-mask-output sample-mask-output-with-alpha-to-coverage \
+        min-sample-shading sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading tessellation",
     ],
     samples: &[EVERY_FORMAT],
@@ -279,7 +281,7 @@ const WGPU_GL_WRONG: &[Defect] = &[
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
     // It offers them also where the driver has one, and makes no texture of which a shader could read them.
     (FOUR_SAMPLES, "textures of four samples that stay empty"),
-    (SAMPLE_MASKS, "gl_SampleMask as one integer, which does not compile"),
+    (SAMPLE_MASKS, "gl_SampleMask and gl_SampleMaskIn as one integer, which does not compile"),
 ];
 /// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
 /// several targets with GL_INVALID_OPERATION.

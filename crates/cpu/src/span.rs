@@ -4,10 +4,12 @@ use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::{CENTER, UNITS, Varying};
 use crate::lists::Lists;
 use crate::memory::{Counted, Memory};
-use crate::steps::{Exported, Path, Steps, Tests};
+use crate::steps::{Exported, InputBit, Path, Steps, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, cost, fragment};
+use etalon_pipeline::shader::{
+    FragmentInput, FragmentOutput, InputMask, List, Taps, cost, fragment,
+};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, takes_logic};
 use etalon_scene::{Draw, EarlyTests, InterpolationSampling, Pass, Scene, Shader, StencilFace};
 
@@ -147,6 +149,8 @@ fn reads_depth(shader: Shader) -> bool {
             | Shader::ExportedSample
             | Shader::FlatColor
             | Shader::FragCoordColor
+            | Shader::InputMask
+            | Shader::InputMaskSample
             | Shader::MaskedColor
             | Shader::MaskedDiscard
             | Shader::MaskedSample
@@ -303,6 +307,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             _ => [[0.0; LANES]; 4],
         };
+        let mask = |bit: u32| self.input_bit(span, sample, bit as usize);
         let list = if self.draw.shader.reads_pool() {
             self.lists.of([span.x, span.y])
         } else {
@@ -313,6 +318,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
             front: span.front,
             depth,
             sample: sample as u32,
+            mask: if self.draw.shader.reads_mask() {
+                InputMask::of(&mask)
+            } else {
+                InputMask::NONE
+            },
             position: window_position(span, point),
             texels: [self.texel(span, 0), self.texel(span, 1)],
             taps: if self.draw.shader.taps_texture() {
@@ -329,6 +339,28 @@ impl<'a, S: Steps> SpanState<'a, S> {
             params: &self.draw.params,
         };
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
+    }
+
+    /// Returns a bit of the sample mask that the run which shades a sample reads, texel by texel.
+    fn input_bit(&self, span: &Span<'_>, sample: usize, bit: usize) -> Real {
+        let (state, samples) = (&self.draw.multisample, span.masks.len());
+        let runs = self.steps.shader_runs(self.draw.shader, state, samples);
+        let exists = bit < samples;
+        let covered = match span.masks.get(bit) {
+            Some(mask) => self.steps.covered(span.x, span.y, self.size, *mask),
+            None => [false; LANES],
+        };
+        covered.map(|covered| {
+            let set = self.steps.input_bit(&InputBit {
+                bit,
+                sample,
+                samples,
+                covered,
+                drawn: exists && self.steps.sample_drawn(state, bit, samples),
+                shaded: bit * runs / samples == sample * runs / samples,
+            });
+            f32::from(u8::from(set))
+        })
     }
 
     /// Runs the loop of an expensive shader for the texels that it shades, so that times depend on

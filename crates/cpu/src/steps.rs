@@ -61,6 +61,23 @@ pub struct Exported {
     pub sample: usize,
 }
 
+/// A bit of the sample mask that a shader reads.
+#[derive(Clone, Copy, Debug)]
+pub struct InputBit {
+    /// Its number.
+    pub bit: usize,
+    /// The first covered sample of the run.
+    pub sample: usize,
+    /// The number of samples.
+    pub samples: usize,
+    /// True if the primitive covers the bit's sample.
+    pub covered: bool,
+    /// True if the sample mask and sample coverage draw it.
+    pub drawn: bool,
+    /// True if the run shades it.
+    pub shaded: bool,
+}
+
 /// The results of the tests of a span. A disabled test passes.
 #[derive(Clone, Copy, Debug)]
 pub struct Tests {
@@ -390,6 +407,12 @@ pub trait Steps {
             _ => true,
         };
         covered && state.mask & (1 << sample) != 0
+    }
+
+    /// Returns true if a bit of the sample mask that a shader reads is set.
+    #[inline(always)]
+    fn input_bit(&self, of: &InputBit) -> bool {
+        of.covered && of.drawn && of.shaded
     }
 
     /// Returns the number of runs of a shader that share a texel's samples: those of each run lie side

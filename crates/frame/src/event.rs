@@ -300,6 +300,13 @@ pub enum Step {
         /// The attachments that it reads, and the texel of each.
         texels: Vec<(String, [ValueRange; 4])>,
     },
+    /// The sample mask that the shader reads.
+    InputMask {
+        /// The bits that are set.
+        set: u32,
+        /// The bits that may be set, those among them.
+        possible: u32,
+    },
     /// The shader's discard.
     Discard {
         /// The value that is compared.

@@ -103,6 +103,8 @@ state_enum! {
         ReversedDepthRange = "reversed-depth-range",
         /// Drawing a share of a texel's samples, or the others, whatever the fragment.
         SampleCoverage = "sample-coverage",
+        /// Sample masks that fragment shaders read.
+        SampleMaskInput = "sample-mask-input",
         /// Sample masks that fragment shaders write.
         SampleMaskOutput = "sample-mask-output",
         /// The same together with alpha to coverage.

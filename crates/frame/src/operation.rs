@@ -36,6 +36,8 @@ state_enum! {
         SampleCoverage = "sample coverage",
         /// The fragment shader.
         Shade = "shade",
+        /// The sample mask that the shader reads.
+        InputMask = "input sample mask",
         /// The shader's sample mask.
         ShaderMask = "shader's sample mask",
         /// The draw's sample mask.
@@ -100,6 +102,7 @@ impl Event {
             Step::Culling { .. } => Operation::Culling,
             Step::SampleCoverage { .. } => Operation::SampleCoverage,
             Step::Shade { .. } => Operation::Shade,
+            Step::InputMask { .. } => Operation::InputMask,
             Step::ShaderMask { .. } => Operation::ShaderMask,
             Step::SampleMask { .. } => Operation::SampleMask,
             Step::AlphaToCoverage { .. } => Operation::AlphaToCoverage,

@@ -281,6 +281,9 @@ impl Translated {
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
         // naga uses GLSL's signed sample index where WGSL's is unsigned; ES does not convert.
         let mut fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        if shader.reads_mask() {
+            fragment = with_input_mask(&fragment, context.caps.es)?;
+        }
         if shader.writes_mask() {
             fragment = with_mask(&fragment, context.caps.es)?;
         }
@@ -357,12 +360,23 @@ impl Translated {
 /// Returns a fragment shader that assigns its sample mask as GLSL has it: naga assigns an unsigned number to
 /// what is an array of signed ones, and leaves the extension of ES out.
 fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
-    const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
     let assigned = fragment
         .split_once("gl_SampleMask = ")
         .and_then(|(before, behind)| Some((before, behind.split_once(';')?)));
     let (before, (value, behind)) = assigned.ok_or("naga assigns no sample mask")?;
     let text = format!("{before}gl_SampleMask[0] = int({value});{behind}");
+    with_sample_variables(text, es)
+}
+
+/// Returns a fragment shader that reads its sample mask as GLSL has it, for the same reasons.
+fn with_input_mask(fragment: &str, es: bool) -> Result<String, String> {
+    let text = fragment.replace("gl_SampleMaskIn", "uint(gl_SampleMaskIn[0])");
+    with_sample_variables(text, es)
+}
+
+/// Returns a shader that names ES's extension of sample variables, if it is one of ES.
+fn with_sample_variables(text: String, es: bool) -> Result<String, String> {
+    const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
     Ok(if es && !text.contains(EXTENSION) {
         format!("{version}\n{EXTENSION}{body}")
@@ -469,5 +483,15 @@ mod tests {
                 .contains("#extension")
         );
         assert!(with_mask("#version 450\nvoid main() {}\n", false).is_err());
+    }
+
+    #[test]
+    fn a_sample_mask_is_read_as_the_first_word_of_an_array() {
+        let text = "#version 310 es\nvoid main() {\nuint covered = gl_SampleMaskIn;\n}\n";
+        let expected = "#version 310 es\n#extension GL_OES_sample_variables : require\nvoid main() {\n\
+                        uint covered = uint(gl_SampleMaskIn[0]);\n}\n";
+        assert_eq!(with_input_mask(text, true).as_deref(), Ok(expected));
+        let made = with_input_mask(text, false).expect("it has a version");
+        assert!(!made.contains("#extension"));
     }
 }

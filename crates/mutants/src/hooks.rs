@@ -2,7 +2,7 @@
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{
-    Codes, Exported, Faithful, LANES, Mask, Path, Real, Steps, Tests, WrittenTexels,
+    Codes, Exported, Faithful, InputBit, LANES, Mask, Path, Real, Steps, Tests, WrittenTexels,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{Kept, SampleMask};
@@ -103,6 +103,8 @@ hooks! {
     /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
     /// index and the number of samples.
     mask_keeps(u32, usize, usize) -> bool;
+    /// True if a bit of the sample mask that a shader reads is set.
+    input_bit(&InputBit) -> bool;
     /// The interpolation of a shader's texture coordinates, and the points at which they are taken.
     interpolation(Shader) -> (Interpolation, InterpolationSampling);
     /// A channel of a resolved texel.
@@ -149,6 +151,7 @@ macro_rules! replaced {
 impl Steps for &Hooks {
     replaced! {
         exported(of: &Exported) -> u8;
+        input_bit(of: &InputBit) -> bool;
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
         stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
         depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;

@@ -33,6 +33,7 @@ mod geometry;
 mod held;
 mod hierarchy;
 mod hooks;
+mod input_mask;
 mod interpolation;
 mod invariance;
 mod list;
@@ -81,7 +82,7 @@ const CLASSES: &[Class] = &[
     sample_shading::add, sample_coverage::add, resolve::add, scissor::add, viewport::add,
     clip_distance::add, cull_distance::add, clipping::add, interpolation::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
-    hierarchy::add, sequence::add, size::add, shader_mask::add, stencil_export::add, held::add,
+    hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add,
     combinations::add,
 ];
 

@@ -48,6 +48,11 @@ impl Clip {
         }
     }
 
+    /// True if all vertices of a primitive lie inside of the edges.
+    pub(crate) fn holds_all_of(&self, primitive: &SnappedPrimitive) -> bool {
+        primitive.inside_rect(self.rect)
+    }
+
     /// Returns whether a sample lies inside.
     pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> Possible {
         let (reach, clips) = match primitive.shape {

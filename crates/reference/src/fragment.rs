@@ -1,5 +1,6 @@
 //! One fragment in one world: culling, shading, tests, blending, stores.
 
+use crate::input_mask::InputBits;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::notes::Notes;
@@ -13,7 +14,7 @@ use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, CounterKind, DepthTest, Effect, Rejection, Step,
     ValueRange,
 };
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, InputMask, List, Taps, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
@@ -68,27 +69,30 @@ impl Walk<'_> {
             let worlds = open_texts.by_reading(world).into_iter();
             worlds.map(move |world| (world, drawn))
         });
+        let masks = self.input_masks(place);
         for (world, drawn) in read {
-            if outline && !self.rules.outlines_face_as_polygons.value() {
-                self.shade(place, world.clone(), !front, drawn, result, notes);
+            for mask in &masks {
+                if outline && !self.rules.outlines_face_as_polygons.value() {
+                    self.shade(place, &world, (!front, *mask), drawn, result, notes);
+                }
+                self.shade(place, &world, (front, *mask), drawn, result, notes);
             }
-            self.shade(place, world, front, drawn, result, notes);
         }
     }
 
-    /// The fragment of a primitive that is not culled, facing front or back; `drawn` is false if sample
-    /// coverage removes the sample.
+    /// The fragment of a primitive that is not culled, facing front or back, and the sample mask that its shader
+    /// reads; `drawn` is false if sample coverage removes the sample.
     fn shade(
         &self,
         place: Place<'_>,
-        world: World,
-        front: bool,
+        world: &World,
+        (front, mask): (bool, InputBits),
         drawn: bool,
         result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
-        let output = self.shader(place, &world, front, notes);
+        let output = self.shader(place, world, (front, mask), notes);
         let own_depth = if self.goes_on(place) {
             place.primitive.depth_at(place.point)
         } else {
@@ -116,7 +120,7 @@ impl Walk<'_> {
                 output: &output,
                 covered,
             };
-            self.test_early(place, &world, &shaded, result, notes);
+            self.test_early(place, world, &shaded, result, notes);
             let writes = output.depth.is_some() || draw.shader.writes_reference();
             if masked || !writes || self.rules.early_ignores_written.value() {
                 return;
@@ -140,7 +144,7 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for face in self.faces(place, front, &output, notes) {
-            for (mut outcome, passes) in self.tests(place, &world, face, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, world, face, incoming, notes) {
                 let contributes = passes && self.contributes(place);
                 self.run(place, &mut outcome, asks || (!masked && contributes));
                 if passes {
@@ -210,10 +214,11 @@ impl Walk<'_> {
         &self,
         place: Place<'_>,
         world: &World,
-        front: bool,
+        (front, mask): (bool, InputBits),
         notes: &mut Notes<'_>,
     ) -> FragmentOutput<Range> {
         let draw = place.draw;
+        let bit = |number: u32| mask.bit(number);
         let mut judging = Judging::new(self.rules);
         let mut depth =
             place
@@ -235,6 +240,11 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
+            mask: if draw.shader.reads_mask() {
+                InputMask::of(&bit)
+            } else {
+                InputMask::NONE
+            },
             position: if draw.shader.reads_coordinates() {
                 self.frag_coord(place)
             } else {
@@ -252,6 +262,16 @@ impl Walk<'_> {
             params: &draw.params,
         };
         let output = fragment(&mut judging, draw.shader, &input);
+        if draw.shader.reads_mask() {
+            notes.add(
+                || place.origin(),
+                || Step::InputMask {
+                    set: mask.set,
+                    possible: mask.possible,
+                },
+                Some(self.rules.input_mask.citation),
+            );
+        }
         notes.add(
             || place.origin(),
             || {

@@ -20,6 +20,7 @@ mod distance;
 mod fit;
 mod fragment;
 mod fragment_notes;
+mod input_mask;
 mod interval;
 mod judging;
 mod known_sets;

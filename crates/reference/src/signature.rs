@@ -22,6 +22,8 @@ pub(crate) struct Inputs {
     /// The shader reads the fragment's depth.
     depth_seen: bool,
     coordinates: bool,
+    /// The shader reads the sample mask.
+    mask_seen: bool,
     /// The number of the sample, or its position among others.
     sample: bool,
     /// The primitives themselves: counters name them.
@@ -107,10 +109,12 @@ impl Walk<'_> {
             depth: tests_depth && (forced || !draw.shader.writes_depth()),
             depth_seen: draw.shader.reads_depth(),
             coordinates: draw.shader.reads_coordinates(),
+            mask_seen: draw.shader.reads_mask(),
             sample: masked
                 || *state != plain
                 || draw.shader.runs_per_sample()
                 || draw.shader.writes_mask()
+                || draw.shader.reads_mask()
                 || draw.shader.interpolation_sampling() != InterpolationSampling::Center,
             primitives: !draw.counters.is_empty(),
             textures: draw
@@ -290,6 +294,13 @@ impl Walk<'_> {
             signature.constant = false;
             for axis in self.frag_coord(place) {
                 signature.words.extend(bits(axis.float));
+            }
+        }
+        if inputs.mask_seen {
+            signature.constant = false;
+            for mask in self.input_masks(place) {
+                let words = [mask.set, mask.possible].map(u64::from);
+                signature.words.extend(words);
             }
         }
         for (t, texture) in inputs.textures.iter().enumerate() {

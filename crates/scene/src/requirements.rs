@@ -223,6 +223,7 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::SampleCoverage,
     );
     need(draw.shader.has_second_source(), Feature::DualSourceBlending);
+    need(draw.shader.reads_mask(), Feature::SampleMaskInput);
     let masks = draw.shader.writes_mask();
     need(masks, Feature::SampleMaskOutput);
     need(

@@ -44,6 +44,8 @@ struct Facts {
     second_source: bool,
     /// True if it writes a sample mask.
     mask: bool,
+    /// True if it reads one.
+    reads_mask: bool,
     /// True if it writes the stencil reference.
     reference: bool,
     /// The depth that it writes.
@@ -128,6 +130,7 @@ impl Facts {
         integers: false,
         second_source: false,
         mask: false,
+        reads_mask: false,
         reference: false,
         depth: Depth::Fixed,
         discards: false,
@@ -214,6 +217,11 @@ impl Shader {
     /// True if the shader writes a sample mask: the red of texture 0.
     pub fn writes_mask(self) -> bool {
         self.facts().mask
+    }
+
+    /// True if the shader reads the sample mask of its fragment.
+    pub fn reads_mask(self) -> bool {
+        self.facts().reads_mask
     }
 
     /// True if the shader writes the stencil reference of its fragments. WGSL has no built-in for it: the
@@ -400,6 +408,10 @@ shaders! {
     /// coordinates, contrast relative to the brightest neighbour and least contrast of an edge;
     /// `params.back_color`'s red: the weight of single texels.
     Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
+    /// Four bits of the sample mask that it is given, from the one whose number is `params.color`'s red.
+    InputMask = "input_mask" { params: true, reads_mask: true, position_only: true },
+    /// As `input_mask`, with the sample's own bit turned. Runs once per sample.
+    InputMaskSample = "input_mask_sample" { params: true, reads_mask: true, per_sample: true, position_only: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
     /// between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, reads_w: true, depth: Depth::Computed },
@@ -510,7 +522,16 @@ mod tests {
             assert_eq!(shader.samples_texture(), has("@binding(4)"), "{name}");
             assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
             assert_eq!(shader.discards(), has("discard;"), "{name}");
-            assert_eq!(shader.writes_mask(), has("@builtin(sample_mask)"), "{name}");
+            assert_eq!(
+                shader.writes_mask(),
+                has("@builtin(sample_mask) mask"),
+                "{name}"
+            );
+            assert_eq!(
+                shader.reads_mask(),
+                has("@builtin(sample_mask) covered"),
+                "{name}"
+            );
             assert_eq!(
                 shader.writes_reference(),
                 has("@location(1) stencil_reference: i32"),

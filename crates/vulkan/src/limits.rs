@@ -128,6 +128,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::QueriesOverPasses
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
+        | Feature::SampleMaskInput
         | Feature::SampleMaskOutput
         | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::AlphaToCoverageWithoutAlpha

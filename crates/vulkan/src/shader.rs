@@ -91,7 +91,7 @@ impl Modules {
             return Ok(module.clone());
         }
         let mut translated = translate(shader.name(), &shader.wgsl_with(tests))?;
-        if shader.writes_mask() {
+        if shader.writes_mask() || shader.reads_mask() {
             translated.words = mask_array::as_array(&translated.words);
         }
         if shader.writes_reference() {

@@ -12,6 +12,7 @@ pub(crate) const CONSTANT: u32 = 43;
 pub(crate) const FUNCTION: u32 = 54;
 pub(crate) const FUNCTION_END: u32 = 56;
 pub(crate) const VARIABLE: u32 = 59;
+pub(crate) const LOAD: u32 = 61;
 pub(crate) const STORE: u32 = 62;
 pub(crate) const ACCESS_CHAIN: u32 = 65;
 pub(crate) const DECORATE: u32 = 71;
@@ -21,6 +22,9 @@ pub(crate) const RETURN: u32 = 253;
 pub(crate) const LOCATION: u32 = 30;
 /// The decoration BuiltIn.
 pub(crate) const BUILT_IN: u32 = 11;
+/// The storage class Input.
+#[cfg(test)]
+pub(crate) const INPUT: u32 = 1;
 /// The storage class Output.
 pub(crate) const OUTPUT: u32 = 3;
 

@@ -19,12 +19,13 @@ const VIEWPORT_REACH: u32 = 8192;
 /// Features of scenes that every WebGPU device has: interpolation and the flat value of the first vertex (WGSL,
 /// Interpolation), first instances of direct draws, sample masks of shaders, and pipelines without a fragment shader
 /// in passes without colour.
-const EVERYWHERE: [Feature; 6] = [
+const EVERYWHERE: [Feature; 7] = [
     Feature::CentroidInterpolation,
     Feature::LinearInterpolation,
     Feature::FirstInstance,
     Feature::FirstProvokingVertex,
     Feature::FragmentShaderAbsent,
+    Feature::SampleMaskInput,
     Feature::SampleMaskOutput,
 ];
 

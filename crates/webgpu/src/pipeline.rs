@@ -223,6 +223,8 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::ExportedSample
         | Shader::FragCoordColor
         | Shader::FrontFacing
+        | Shader::InputMask
+        | Shader::InputMaskSample
         | Shader::MaskedColor
         | Shader::MaskedDepth
         | Shader::MaskedDiscard

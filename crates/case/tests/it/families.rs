@@ -100,7 +100,7 @@ fn the_quick_profile_takes_some_of_every_file() {
         assert_eq!(met, due, "{}", file.name());
         all += quick.len();
     }
-    assert!(all <= 2720, "{all} cases are not quick");
+    assert!(all <= 2721, "{all} cases are not quick");
 }
 
 #[test]

@@ -53,6 +53,7 @@ classes! {
     geometry = "geometry",
     held = "held",
     hierarchy = "hierarchy",
+    input_mask = "input-mask",
     interpolation = "interpolation",
     invariance = "invariance",
     logic = "logic",

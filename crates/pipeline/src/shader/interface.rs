@@ -15,6 +15,8 @@ pub struct FragmentInput<'a, R> {
     pub depth: R,
     /// The sample being shaded.
     pub sample: u32,
+    /// The sample mask, where [`etalon_scene::Shader::reads_mask`].
+    pub mask: InputMask<'a, R>,
     /// The fragment's window coordinates, in texels from the left and from the top.
     pub position: [R; 2],
     /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
@@ -30,6 +32,31 @@ pub struct FragmentInput<'a, R> {
     pub uv: [R; 2],
     /// The parameter block.
     pub params: &'a Params,
+}
+
+/// The sample mask that a shader reads.
+#[derive(Clone, Copy)]
+pub struct InputMask<'a, R>(Option<&'a dyn Fn(u32) -> R>);
+
+impl<'a, R> InputMask<'a, R> {
+    /// No mask.
+    pub const NONE: Self = Self(None);
+
+    /// The mask whose bits a function returns by their numbers.
+    pub fn of(bit: &'a dyn Fn(u32) -> R) -> Self {
+        Self(Some(bit))
+    }
+
+    /// Returns a bit, 0 or 1; `None` without a mask.
+    pub fn bit(&self, number: u32) -> Option<R> {
+        self.0.map(|bit| bit(number))
+    }
+}
+
+impl<R> fmt::Debug for InputMask<'_, R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("InputMask").field(&self.0.is_some()).finish()
+    }
 }
 
 /// A texture that a shader samples at coordinates of its own.

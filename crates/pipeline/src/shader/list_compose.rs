@@ -58,7 +58,7 @@ fn sort<A: Arithmetic>(a: &mut A, nodes: &mut [Node<A::Real>]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::interface::Taps;
+    use super::super::interface::{InputMask, Taps};
     use super::*;
     use crate::plain::Plain;
     use etalon_scene::Params;
@@ -77,6 +77,7 @@ mod tests {
             front: true,
             depth: [0.0],
             sample: 0,
+            mask: InputMask::NONE,
             position: [[0.5]; 2],
             texels: [[[0.0]; 4]; 2],
             taps: Taps::NONE,

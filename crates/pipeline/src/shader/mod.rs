@@ -31,6 +31,8 @@ mod frag_coord_color;
 mod frag_coord_depth;
 mod front_facing;
 mod fxaa;
+mod input_mask;
+mod input_mask_sample;
 mod interface;
 mod linear_depth;
 mod list_append;
@@ -68,7 +70,7 @@ mod weighted_resolve;
 
 pub use expensive_color::cost;
 pub use interface::{
-    FragmentInput, FragmentOutput, Kept, List, Node, SampleMask, StencilReference, Taps,
+    FragmentInput, FragmentOutput, InputMask, Kept, List, Node, SampleMask, StencilReference, Taps,
 };
 
 use crate::arithmetic::Arithmetic;
@@ -110,6 +112,8 @@ pub fn fragment<A: Arithmetic>(
         Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
         Shader::FrontFacing => front_facing::fragment(a, input),
         Shader::Fxaa => fxaa::fragment(a, input),
+        Shader::InputMask => input_mask::fragment(a, input),
+        Shader::InputMaskSample => input_mask_sample::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),
         Shader::ListAppend => list_append::fragment(a, input),
         Shader::ListCompose => list_compose::fragment(a, input),

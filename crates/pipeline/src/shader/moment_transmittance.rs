@@ -111,7 +111,7 @@ fn larger<A: Arithmetic>(a: &mut A, value: A::Real, least: A::Real) -> A::Real {
 
 #[cfg(test)]
 mod tests {
-    use super::super::interface::{List, Taps};
+    use super::super::interface::{InputMask, List, Taps};
     use super::super::moment_absorbance;
     use super::*;
     use crate::plain::Plain;
@@ -127,6 +127,7 @@ mod tests {
             front: true,
             depth: [depth],
             sample: 0,
+            mask: InputMask::NONE,
             position: [[0.5]; 2],
             texels,
             taps: Taps::NONE,

@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
-    narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Permission, Resolve,
+    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
+    SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -382,6 +382,25 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 3.3: 3.9 Fragment Shaders: without a fragment shader the results of its execution are undefined, read as those that a shader would write: colours, not the depth that rasterization made",
                 "OpenGL 4.5: chapter 15: without a fragment shader the results of its execution are undefined, read as those that a shader would write: 14.9.4 has the tests performed, 15.2.3 with the depth of rasterization",
                 "OpenGL 4.6: chapter 15: without a fragment shader the results of its execution are undefined, read as those that a shader would write: 14.9.4 has the tests performed, 15.2.3 with the depth of rasterization",
+            ]),
+        ),
+        input_mask: permit(
+            match text {
+                Text::V33 | Text::V45 => InputMask::OfRunIfAsked,
+                Text::V46 => InputMask::OfRun,
+            },
+            text.cite([
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, which with a share may be a subset",
+                "OpenGL 4.5: 15.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; with a share perhaps a subset of the covered samples",
+                "OpenGL 4.6: 15.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+            ]),
+        ),
+        input_mask_lacks_masked: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.5: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.6: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
             ]),
         ),
         mask_acts_first: permit(

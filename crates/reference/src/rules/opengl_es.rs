@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
-    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
-    permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
+    narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -326,6 +326,22 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         goes_on_unshaded: permit(
             false,
             "OpenGL ES: 7.3 Program Objects (3.0: 2.11.3): a program has a fragment shader, or does not link",
+        ),
+        input_mask: permit(
+            InputMask::OfRun,
+            text.cite([
+                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.2: 14.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+            ]),
+        ),
+        input_mask_lacks_masked: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.2: 14.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+            ]),
         ),
         mask_acts_first: permit(
             true,

@@ -339,6 +339,18 @@ pub enum FragCoord {
     Inputs,
 }
 
+/// The sample mask that a shader reads, of the samples that a primitive covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputMask {
+    /// The samples of the run with sample shading, all otherwise.
+    OfRun,
+    /// The samples of the run where the shader asks for its sample, all without sample shading. With a share, the
+    /// sample and any others.
+    OfRunIfAsked,
+    /// All of them, or the sample alone.
+    AllOrOwn,
+}
+
 /// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
@@ -485,6 +497,11 @@ rules! {
     /// True if without a fragment shader fragments go on as they were rasterized; otherwise they may be
     /// lost or have any depth.
     goes_on_unshaded: bool,
+    /// The sample mask that a shader reads.
+    input_mask: InputMask,
+    /// True if it lacks the samples that the draw's sample mask and sample coverage remove; otherwise it may have
+    /// them.
+    input_mask_lacks_masked: bool,
     /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.

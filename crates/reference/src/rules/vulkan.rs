@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
-    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
-    permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
+    narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -257,6 +257,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         goes_on_unshaded: permit(
             true,
             "Vulkan: Fragment Shading: without a fragment shader none is executed, and the values of colour attachments alone are undefined",
+        ),
+        input_mask: permit(
+            InputMask::OfRun,
+            "Vulkan: Sample Mask: the coverage mask of the fragment, with sample shading of the samples being shaded alone",
+        ),
+        input_mask_lacks_masked: narrowed(
+            true,
+            false,
+            Grade::RequiredByCts,
+            "Vulkan: Sample Mask: coverage as calculated by the operations before shading, among them the sample mask test; SampleMask: the samples covered during rasterization; dEQP-VK.pipeline.*.multisample_shader_builtin.sample_mask.pattern demands that bits are lost",
         ),
         mask_acts_first: if mask_first {
             permit(

@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules,
-    SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed,
-    permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
+    narrowed, permit,
 };
 use etalon_frame::Grade;
 
@@ -195,6 +195,14 @@ pub(super) fn rules() -> Rules {
         goes_on_unshaded: permit(
             true,
             "WebGPU: 23.2.8 No Color Output: depth test and stencil operations use the depth of the vertex position output",
+        ),
+        input_mask: permit(
+            InputMask::AllOrOwn,
+            "WebGPU: WGSL, sample_mask: a bit for every sample that the fragment covers, or that of the run's sample alone",
+        ),
+        input_mask_lacks_masked: permit(
+            false,
+            "WebGPU: WGSL, sample_mask: the coverage mask of rasterization; silent on the pipeline's mask, which Vulkan applies before shading",
         ),
         mask_acts_first: permit(
             false,

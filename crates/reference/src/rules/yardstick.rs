@@ -156,6 +156,11 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         mask_of_one: permit(text.mask_of_one.value, "Yardstick: as the API's text says"),
         goes_on_unshaded: permit(true, "Yardstick: without a shader, as it was rasterized"),
+        input_mask: permit(text.input_mask.value, "Yardstick: as the API's text says"),
+        input_mask_lacks_masked: permit(
+            text.input_mask_lacks_masked.value,
+            "Yardstick: as the API's text says",
+        ),
         mask_acts_first: permit(true, "Yardstick: the sample mask comes before all tests"),
         early_counts: permit(
             EarlyUpdates::Happen,

@@ -5,7 +5,7 @@ use crate::common::{APIS, all_rules, config, draw, limits, scene};
 use etalon_case::{Library, Profile};
 use etalon_frame::{Comparison, Frame, LegalSet, compare};
 use etalon_pipeline::Plain;
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, InputMask, List, Taps, fragment};
 use etalon_reference::{Interval, Judging, Range, Texels, judgements, judgements_of};
 use etalon_scene::{Params, Scene, Shader};
 use proptest::prelude::*;
@@ -85,6 +85,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
         front: inputs.front,
         depth: [inputs.depth.0],
         sample: inputs.sample,
+        mask: InputMask::NONE,
         position: inputs.position.map(|(v, _)| [v]),
         texels: inputs.texels.map(|texel| texel.map(|(v, _)| [v])),
         taps: Taps::NONE,
@@ -147,6 +148,7 @@ proptest! {
                     front: inputs.front,
                     depth: judged(inputs.depth),
                     sample: inputs.sample,
+                    mask: InputMask::NONE,
                     position: inputs.position.map(judged),
                     texels: inputs.texels.map(|texel| texel.map(judged)),
                     taps: Taps::NONE,

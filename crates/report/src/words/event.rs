@@ -206,6 +206,12 @@ pub(super) fn detail_of(event: &Event) -> String {
                 format!("{value} may or may not be {relation} {limit}: two worlds")
             }
         }
+        Step::InputMask { set, possible } if set == possible => {
+            format!("the shader reads the mask {set:#x}")
+        }
+        Step::InputMask { set, possible } => {
+            format!("the shader reads a mask with {set:#x} and perhaps more of {possible:#x}")
+        }
         Step::ShaderMask { bits } => {
             let bits = bits.low;
             if certain {

@@ -1,0 +1,133 @@
+//! The sample masks that a fragment shader may read.
+
+use crate::interval::Interval;
+use crate::judging::Range;
+use crate::possible::Possible;
+use crate::primitive::{Shape, inside_of};
+use crate::rules::InputMask;
+use crate::sample::Sample;
+use crate::walk::{Place, Walk};
+use etalon_scene::{Draw, EarlyTests};
+use smallvec::{SmallVec, smallvec};
+
+/// A sample mask of which some bits may be open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct InputBits {
+    /// The bits that are set.
+    pub(crate) set: u32,
+    /// The bits that may be set, those among them.
+    pub(crate) possible: u32,
+}
+
+impl InputBits {
+    /// Returns a mask without open bits.
+    fn exact(set: u32) -> Self {
+        Self { set, possible: set }
+    }
+
+    /// Adds a bit.
+    fn add(&mut self, bit: u32, set: Possible) {
+        self.set |= if set.must() { bit } else { 0 };
+        self.possible |= if set.can() { bit } else { 0 };
+    }
+
+    /// Returns the value of a bit.
+    pub(crate) fn bit(self, number: u32) -> Range {
+        let has = |bits: u32| f64::from((bits >> number) & 1);
+        Range::same(Interval {
+            low: has(self.set),
+            high: has(self.possible),
+        })
+    }
+}
+
+impl Walk<'_> {
+    /// Returns the masks that the run which shades a covered sample may read; a single one if its shader
+    /// reads none.
+    pub(crate) fn input_masks(&self, place: Place<'_>) -> SmallVec<[InputBits; 2]> {
+        let (draw, samples) = (place.draw, place.at.samples);
+        if !draw.shader.reads_mask() {
+            return smallvec![InputBits::default()];
+        }
+        let own = InputBits::exact(1 << place.at.sample);
+        if samples == 1 {
+            return smallvec![own];
+        }
+        let all = self.covered_samples(place);
+        let some = InputBits {
+            set: own.set,
+            ..all
+        };
+        match (
+            self.rules.input_mask.value(),
+            draw.multisample.min_sample_shading,
+        ) {
+            (InputMask::AllOrOwn, _) if all == own => smallvec![own],
+            (InputMask::AllOrOwn, _) => smallvec![all, own],
+            _ if draw.shader.runs_per_sample() => smallvec![own],
+            (_, None) => smallvec![all],
+            (InputMask::OfRun, Some(1.0)) => smallvec![own],
+            (InputMask::OfRun | InputMask::OfRunIfAsked, Some(_)) => smallvec![some],
+        }
+    }
+
+    /// Returns the samples of a fragment's texel that its primitive covers, its own among them.
+    fn covered_samples(&self, place: Place<'_>) -> InputBits {
+        let pass = &self.scene.passes[place.pass];
+        // Whether tests that come first take bits away is open without post-depth coverage.
+        let forced = place.draw.early_tests == EarlyTests::Forced && pass.depth_stencil.is_some();
+        let mut bits = InputBits::default();
+        for sample in 0..place.at.samples {
+            let set = if sample == place.at.sample {
+                Possible::Always
+            } else {
+                let drawn = self.mask_keeps(place.draw, sample);
+                let tested = Possible::of(true, !forced);
+                self.covers(place, sample).and(drawn).and(tested)
+            };
+            bits.add(1 << sample, set);
+        }
+        bits
+    }
+
+    /// Returns whether the draw's sample mask and sample coverage leave a sample in the mask that shaders read.
+    fn mask_keeps(&self, draw: &Draw, sample: u32) -> Possible {
+        let state = &draw.multisample;
+        if state.mask & (1 << sample) == 0 {
+            Possible::of(!self.rules.input_mask_lacks_masked.value(), false)
+        } else {
+            Possible::of(true, state.sample_coverage.is_none())
+        }
+    }
+
+    /// Returns whether a fragment's primitive covers a sample of its texel. What is clipped may become several
+    /// primitives, and so may points and lines: each has a fragment of its own.
+    fn covers(&self, place: Place<'_>, sample: u32) -> Possible {
+        let at = Sample { sample, ..place.at };
+        let point = self.sample_point(at);
+        let sides = self.sides_of(place.primitive, at, point);
+        let hit = (place.pass, place.draw_index);
+        let Ok(hit) = self.hit(hit, place.primitive, sides, point) else {
+            return Possible::Never;
+        };
+        let must = match &place.primitive.shape {
+            Shape::Triangle(triangle) => {
+                let (least, most) = triangle.area;
+                let inside = |positive: bool| hit.sides == [inside_of(positive); 3];
+                self.is_whole(place) && (least > 0 && inside(true) || most < 0 && inside(false))
+            }
+            _ => false,
+        };
+        Possible::of(true, must)
+    }
+
+    /// True if nothing clips a fragment's primitive.
+    fn is_whole(&self, place: Place<'_>) -> bool {
+        let primitive = place.primitive;
+        let depth = primitive.clip_depth.hull;
+        let clip = self.setups[place.pass].clip(place.draw_index);
+        clip.holds_all_of(primitive)
+            && (place.draw.depth_clamp || depth.low >= 0.0 && depth.high <= 1.0)
+            && primitive.distances.is_empty()
+    }
+}
