@@ -122,9 +122,12 @@ fn bundled(
 ) -> Result<Vec<PassCommand>, Requirement> {
     let pass = &scene.passes[number];
     let known = |i: &usize| Format::of(scene.attachments[*i].format);
-    let colors = pass.color.iter().map(|index| match scene.is_gap(*index) {
-        true => Ok(None),
-        false => known(index).map(Some),
+    let colors = pass.color.iter().map(|index| {
+        if scene.is_gap(*index) {
+            Ok(None)
+        } else {
+            known(index).map(Some)
+        }
     });
     let color = colors.collect::<Result<Vec<_>, _>>()?;
     let depth_stencil = pass.depth_stencil.as_ref().map(known).transpose()?;
