@@ -32,7 +32,8 @@ const SYNC_EVERY: Duration = Duration::from_secs(1);
 /// The files of a run beside its reports and records. The records go last: while they are there, the rest is known to
 /// belong to a run.
 pub(crate) const BESIDE: ReportFiles = ReportFiles {
-    folders: &[(FRAMES, "json"), (PICTURES, "png")],
+    // Earlier versions wrote frames uncompressed.
+    folders: &[(FRAMES, "gz"), (FRAMES, "json"), (PICTURES, "png")],
     files: &[MISSING_FILE, DEAD_FILE, CASES_FILE],
 };
 

@@ -65,9 +65,9 @@ impl Walk<'_> {
             (InputMask::AllOrOwn, _) if all == own => smallvec![own],
             (InputMask::AllOrOwn, _) => smallvec![all, own],
             _ if draw.shader.runs_per_sample() => smallvec![own],
-            (_, None) => smallvec![all],
-            (InputMask::OfRun, Some(1.0)) => smallvec![own],
-            (InputMask::OfRun | InputMask::OfRunIfAsked, Some(_)) => smallvec![some],
+            (InputMask::OfRun, None) => smallvec![all],
+            (InputMask::OfRun | InputMask::OfAnyRun, Some(1.0)) => smallvec![own],
+            _ => smallvec![some],
         }
     }
 

@@ -387,12 +387,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         input_mask: permit(
             match text {
                 Text::V33 | Text::V45 => InputMask::OfRunIfAsked,
-                Text::V46 => InputMask::OfRun,
+                Text::V46 => InputMask::OfAnyRun,
             },
             text.cite([
-                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, which with a share may be a subset",
-                "OpenGL 4.5: 15.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; with a share perhaps a subset of the covered samples",
-                "OpenGL 4.6: 15.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",
+                "OpenGL 4.5: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it",
+                "OpenGL 4.6: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(

@@ -328,11 +328,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES: 7.3 Program Objects (3.0: 2.11.3): a program has a fragment shader, or does not link",
         ),
         input_mask: permit(
-            InputMask::OfRun,
+            InputMask::OfAnyRun,
             text.cite([
-                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.2: 14.2.2 Shader Inputs: the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.2: 14.2.2 Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(

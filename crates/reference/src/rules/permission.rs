@@ -344,8 +344,10 @@ pub enum FragCoord {
 pub enum InputMask {
     /// The samples of the run with sample shading, all otherwise.
     OfRun,
-    /// The samples of the run where the shader asks for its sample, all without sample shading. With a share, the
-    /// sample and any others.
+    /// The samples of the run, of which there may be more than state asks for: without sample shading, the sample and
+    /// any others.
+    OfAnyRun,
+    /// As `OfAnyRun`, and with a share the sample and any others too.
     OfRunIfAsked,
     /// All of them, or the sample alone.
     AllOrOwn,

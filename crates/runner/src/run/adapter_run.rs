@@ -14,9 +14,7 @@ use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{Judged, is_due_to_fail, note_requirement};
-use etalon_record::{
-    Expectation, Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict,
-};
+use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
