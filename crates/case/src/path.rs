@@ -329,7 +329,11 @@ mod tests {
             if let PathValue::Colors(_) = value {
                 scene["attachments"]["unread"] = json!({ "format": "rgba16float" });
                 scene["passes"][0]["color"] = json!(["color", "unread"]);
-                scene["read"] = json!(["color"]);
+                scene["attachments"]["source"] =
+                    json!({ "format": "rgba8unorm", "texels": { "kind": "codes" } });
+                let draw = &mut scene["passes"][0]["draws"][0];
+                draw["shader"] = json!("texel_color_all");
+                draw["textures"] = json!(["source"]);
             }
             let parsed = parse_scene(&scene);
             assert!(parsed.is_ok(), "{value}: {parsed:?}");

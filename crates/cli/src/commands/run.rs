@@ -25,7 +25,7 @@ use etalon_record::{
     selection_digest,
 };
 use etalon_report::News;
-use etalon_runner::{Event, KeptFrames, Options, Plan, Rechecks, RunError, RunSummary};
+use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -96,9 +96,6 @@ pub(crate) struct Arguments {
     /// Kinds differ in verdict, aspect, operation and direction. `off`: none, so that nothing is found to be flaky
     #[arg(long, value_name = "N|off", default_value = "4", value_parser = parse_recheck)]
     pub(crate) recheck: Recheck,
-    /// Failures whose whole frames are written. `new`: all that are unexpected, and the first of each known bug
-    #[arg(long, value_name = "KEPT", value_enum, default_value = "new")]
-    pub(crate) keep_frames: KeepFrames,
     /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
@@ -127,14 +124,6 @@ fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
         *of_adapter.entry(record.verdict.name()).or_default() += 1;
     }
     counts
-}
-
-/// The values of `--keep-frames`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum KeepFrames {
-    All,
-    New,
-    None,
 }
 
 /// The number of confirmations of each kind of bad verdict; 0 is off.
@@ -315,11 +304,6 @@ fn options(arguments: &Arguments) -> Options {
         memory: Some(arguments.memory),
         repeat: arguments.repeat,
         recheck: arguments.recheck.0,
-        frames: match arguments.keep_frames {
-            KeepFrames::All => KeptFrames::All,
-            KeepFrames::New => KeptFrames::New,
-            KeepFrames::None => KeptFrames::None,
-        },
     }
 }
 

@@ -253,36 +253,3 @@ fn the_folder_of_cases_is_apart_from_what_is_written() {
         .assert()
         .success();
 }
-
-#[test]
-fn of_known_failures_a_run_keeps_one_frame() {
-    let out = tempfile::tempdir().unwrap();
-    let kept = |keep: &str| {
-        etalon(&[
-            "run",
-            "stencil/masks-zero/*",
-            "--adapter",
-            "wgpu:vulkan:lavapipe",
-            "--force",
-        ])
-        .args(["--keep-frames", keep, "--out"])
-        .arg(out.path())
-        .assert()
-        .success();
-        let records = fs::read_to_string(out.path().join("run.jsonl")).unwrap();
-        let failed = records
-            .lines()
-            .filter(|line| line.contains(r#""verdict":"fail""#));
-        let frames = out.path().join("frames");
-        let frames = if frames.exists() {
-            files(&frames).len()
-        } else {
-            0
-        };
-        (frames, failed.count())
-    };
-    let (all, failed) = kept("all");
-    assert!(failed > 1 && all >= failed);
-    assert_eq!(kept("new"), (all - failed + 1, failed));
-    assert_eq!(kept("none"), (0, failed));
-}

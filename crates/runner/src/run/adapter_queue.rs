@@ -57,8 +57,8 @@ pub(super) struct First {
 /// The state that the workers of an adapter share.
 #[derive(Debug, Default)]
 pub(super) struct State {
-    /// Frame files of which a few of a kind are enough, by kind: a case file, or a known bug.
-    pub(super) frames_of_a_kind: HashMap<String, u32>,
+    /// Frame files of imprecise cases, by case file.
+    pub(super) imprecise_frames: HashMap<String, u32>,
     /// Rechecks that gave the same verdict again, by kind.
     confirmed: HashMap<Symptom, u32>,
     /// The counts of bad verdicts that were checked again, and that were not.

@@ -1,7 +1,6 @@
 //! One adapter's part of a run, without its workers: judging drawings and writing records.
 
 use super::adapter_queue::AdapterQueue;
-use super::plan::KeptFrames;
 use super::shared::Shared;
 use crate::drawing::Drawing;
 use crate::event::Event;
@@ -18,10 +17,8 @@ use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Se
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// Frame files and stories of imprecise cases per adapter and case file.
+/// Frame files and stories of imprecise cases per adapter and case file; failures keep all of theirs.
 const IMPRECISE_FRAMES: u32 = 3;
-/// Frame files of each known bug per adapter, and of each case file of selftests.
-const KNOWN_FRAMES: u32 = 1;
 /// The factor by which a case that is measured may take longer than others.
 const MEASURING: u32 = 4;
 /// The most bytes of one validation message that a record keeps.
@@ -191,9 +188,8 @@ impl<'s> AdapterRun<'s, '_> {
             };
         }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
-        let known = record.expected.is_some() && kept.is_none();
-        if (record.due_fail || known) && record.verdict.is_violation() {
-            // A frame file shows the rest: its own, or that of the first failure of a known bug.
+        if record.due_fail && record.verdict.is_violation() {
+            // The frame file shows the rest of a failure that is due.
             record.wrong.truncate(4);
         }
         if record.verdict == Verdict::Imprecise {
@@ -244,20 +240,16 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
-        let frames = self.shared.options.frames;
-        let file = record.case_file();
-        let (kind, most) = match &record.expected {
-            _ if frames == KeptFrames::None => return false,
-            _ if record.verdict == Verdict::Imprecise => (file, IMPRECISE_FRAMES),
-            _ if frames == KeptFrames::All => return true,
-            Some(known) => (known.reason.as_str(), KNOWN_FRAMES),
-            None if record.due_fail => (file, KNOWN_FRAMES),
-            None => return true,
-        };
+        if record.verdict.is_violation() || record.verdict == Verdict::Flaky {
+            return true;
+        }
         let mut state = self.queue.state();
-        let kept = state.frames_of_a_kind.entry(kind.to_owned()).or_default();
+        let kept = state
+            .imprecise_frames
+            .entry(record.case_file().to_owned())
+            .or_default();
         *kept += 1;
-        *kept <= most
+        *kept <= IMPRECISE_FRAMES
     }
 
     /// Writes a record. An error ends the run.

@@ -65,20 +65,6 @@ pub struct Options {
     /// The number of bad and unexpected verdicts of each kind and adapter that are checked again in a fresh
     /// process and confirmed; with 0 none is checked.
     pub recheck: u32,
-    /// The failures whose frames are written.
-    pub frames: KeptFrames,
-}
-
-/// The failures whose frames a run writes. Of imprecise cases it writes a few of each case file in any case but one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum KeptFrames {
-    /// All.
-    All,
-    /// Those that are unexpected, and the first of each known bug and of each case file of selftests.
-    #[default]
-    New,
-    /// None.
-    None,
 }
 
 impl Default for Options {
@@ -89,7 +75,6 @@ impl Default for Options {
             memory: None,
             repeat: 1,
             recheck: DEFAULT_RECHECK,
-            frames: KeptFrames::New,
         }
     }
 }

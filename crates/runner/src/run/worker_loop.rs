@@ -151,7 +151,6 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             if alone && !self.supervisor.is_running() {
                 self.request_again(&mut requested);
             }
-            observed.record = run.settled(observed.record);
             if let Err(error) = run.keep(number, &mut observed) {
                 shared.fail(error);
                 break;
@@ -160,7 +159,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
                 drop(busy);
                 self.time(number, &mut observed.record);
             }
-            done(number, observed.record);
+            done(number, run.settled(observed.record));
         }
     }
 
