@@ -195,7 +195,8 @@ fn a_verdict_that_changes_is_flaky_and_never_a_pass() {
 #[test]
 fn a_case_that_fails_only_after_another_names_it() {
     let mut culprits: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for seed in ["2", "7"] {
+    // With these seeds no more cases go wrong than are searched.
+    for seed in ["1", "9"] {
         let out = folder();
         etalon(&[
             "run",
