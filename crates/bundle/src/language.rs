@@ -26,16 +26,12 @@ impl Language {
         Some([build, run].map(str::to_owned))
     }
 
-    /// Returns what building needs and how the program answers, in sentences.
+    /// Returns what building needs, or how a page is opened and answers, in sentences.
     pub(crate) fn needs(self) -> &'static str {
         match self {
-            Self::C => {
-                "`repro.c` needs a C compiler and no header of the API. Exit status 1: the bug is there; 0: it is not; 77: \
-                 the driver lacks something; 2: a call fails."
-            }
+            Self::C => "`repro.c` needs a C compiler and no header of the API.",
             Self::Rust => {
-                "It needs Rust; `Cargo.toml` names wgpu in the version whose calls were recorded. Exit status 1: the bug is \
-                 there; 0: it is not; 77: the driver lacks something; 2: a call fails."
+                "It needs Rust; `Cargo.toml` names wgpu in the version whose calls were recorded."
             }
             Self::Page => {
                 "Open `repro.html` in the browser, from the disk or from a server of this machine. Its title becomes what is \

@@ -123,10 +123,16 @@ impl Report {
             ),
         });
         text.push_str("\n## Run it\n\n");
-        if let Some(commands) = self.language.commands(&self.run) {
-            let _ = write!(text, "```sh\n{}\n```\n\n", commands.join("\n"));
-        }
-        let _ = writeln!(text, "{}", self.language.needs());
+        let needs = self.language.needs();
+        let _ = match self.language.commands(&self.run) {
+            Some(commands) => writeln!(
+                text,
+                "```sh\n{}\n```\n\n{needs} Exit status 1: the bug is there; 0: it is not; 77: the driver lacks something; 2: a call \
+                 fails.",
+                commands.join("\n")
+            ),
+            None => writeln!(text, "{needs}"),
+        };
         text.push_str(&match &self.built {
             Some(line) => format!(
                 "\nBuilt and run on the driver above, it ends with 1: `{}`\n",
