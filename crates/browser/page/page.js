@@ -3,9 +3,15 @@
 
 const PROTOCOL = 1;
 
+/** The feature of a device that keeps all that WebGPU promises. Browsers older than it have no other device. */
+const CORE = "core-features-and-limits";
+
+/** True if a device in compatibility mode is asked for: by the address, or where there is no other. */
+const COMPATIBILITY = new URLSearchParams(location.search).has("compatibility");
+
 /** Features that a device is asked for, where it has them. */
 const FEATURES = [
-  "core-features-and-limits",
+  CORE,
   "clip-distances",
   "depth-clip-control",
   "depth32float-stencil8",
@@ -55,7 +61,8 @@ async function open() {
         : "WebGPU needs a secure context: https, or an address of this machine (http://127.0.0.1)",
     );
   }
-  const adapter = await navigator.gpu.requestAdapter();
+  const core = COMPATIBILITY ? null : await navigator.gpu.requestAdapter();
+  const adapter = core ?? (await navigator.gpu.requestAdapter({ featureLevel: "compatibility" }));
   if (adapter === null) {
     throw new Error("the browser has WebGPU and gives no adapter");
   }
@@ -70,7 +77,8 @@ async function open() {
       limits[name] = adapter.limits[name];
     }
   }
-  const requiredFeatures = FEATURES.filter((name) => adapter.features.has(name));
+  const offered = FEATURES.filter((name) => adapter.features.has(name));
+  const requiredFeatures = offered.filter((name) => !COMPATIBILITY || name !== CORE);
   const device = await adapter.requestDevice({ requiredFeatures, requiredLimits: limits });
   device.onuncapturederror = ({ error }) => {
     messages.push(error.message);
@@ -78,6 +86,7 @@ async function open() {
   const hello = {
     protocol: PROTOCOL,
     browser: await browser(),
+    compatibility: core === null && !device.features.has(CORE),
     adapter: {
       vendor: info.vendor,
       architecture: info.architecture,

@@ -3,7 +3,7 @@
 use crate::message::Hello;
 use etalon_backend::AdapterInfo;
 use etalon_frame::Feature;
-use etalon_webgpu::{Abilities, Device, DeviceLimits, Offer, standard_formats};
+use etalon_webgpu::{Abilities, Device, DeviceLimits, Level, Offer, standard_formats};
 use std::collections::BTreeSet;
 
 /// Words of the names of software rasterizers.
@@ -36,7 +36,11 @@ pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
             .chain(named)
             .collect::<Vec<_>>()
             .join(", "),
-        api_version: "WebGPU".to_owned(),
+        api_version: if hello.compatibility {
+            "WebGPU, compatibility mode".to_owned()
+        } else {
+            "WebGPU".to_owned()
+        },
         software,
     }
 }
@@ -51,16 +55,23 @@ pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
     };
     let storage = limit("maxStorageBuffersInFragmentStage")
         .or_else(|_| limit("maxStorageBuffersPerShaderStage"))?;
+    let core = !hello.compatibility;
+    let level = if core {
+        Level::Core
+    } else {
+        Level::Compatibility
+    };
     Ok(Device::new(Offer {
-        formats: standard_formats(has),
+        formats: standard_formats(level, has),
         abilities: Abilities {
             copies: true,
-            casts: true,
+            casts: core,
+            layers: core,
         },
-        features: features(has, storage > 0),
+        features: features(core, has, storage > 0),
         indirect: true,
         indirect_first_instance: has("indirect-first-instance"),
-        complete: true,
+        level,
         limits: DeviceLimits {
             texture_2d: limit("maxTextureDimension2D")?,
             texture_3d: limit("maxTextureDimension3D")?,
@@ -73,16 +84,16 @@ pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
 }
 
 /// Returns the features of scenes that a device has, beyond those of every device.
-fn features(has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<Feature> {
+fn features(core: bool, has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<Feature> {
     let found = [
         (Feature::BaseVertex, true),
         (Feature::ClipDistances, has("clip-distances")),
-        (Feature::DepthBiasClamp, true),
+        (Feature::DepthBiasClamp, core),
         (Feature::DepthClamp, has("depth-clip-control")),
         (Feature::DualSourceBlending, has("dual-source-blending")),
         (Feature::FragmentStorage, storage),
-        (Feature::IndependentBlend, true),
-        (Feature::SampleShading, true),
+        (Feature::IndependentBlend, core),
+        (Feature::SampleShading, core),
         (Feature::StorageCounters, storage),
     ];
     let found = found.into_iter().filter(|(_, has)| *has);

@@ -32,6 +32,9 @@ pub(crate) struct Hello {
     /// The version of the page's protocol.
     pub(crate) protocol: u32,
     pub(crate) browser: Named,
+    /// True if the device has the feature level `compatibility`.
+    #[serde(default)]
+    pub(crate) compatibility: bool,
     pub(crate) adapter: Adapter,
     /// The features of the device, by WebGPU's names.
     pub(crate) features: Vec<String>,

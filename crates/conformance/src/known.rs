@@ -104,6 +104,12 @@ pub const KNOWN: &[Known] = &[
         &[SOFTPIPE_WRONG, WGPU_GL_WRONG, WGPU_SOFTPIPE_WRONG],
     ),
     driver("webgpu:chromium", Api::WebGpu, BROWSER, &[]),
+    driver(
+        "webgpu:chromium, compatibility mode",
+        Api::WebGpu,
+        COMPATIBILITY,
+        &[],
+    ),
     driver("webgpu:firefox", Api::WebGpu, FIREFOX, &[]),
 ];
 
@@ -205,6 +211,18 @@ const BROWSER: Lacks = Lacks {
     blending: &[],
     samples: &["rgba8snorm rgba8uint rgba32float depth16unorm"],
     ..WGPU_VULKAN
+};
+/// Compatibility mode has no views of other formats, by which samples of sRGB are read.
+const COMPATIBILITY: Lacks = Lacks {
+    features: &[
+        WGPU_FEATURES,
+        RESOLVES,
+        "conservative-depth depth-bias-clamp dual-source-blending first-provoking-vertex forced-early-tests \
+        forced-early-tests-with-depth fragment-invocations independent-blend linear-interpolation \
+        sample-mask-input sample-mask-output sample-shading",
+    ],
+    samples: &["rgba8unorm-srgb rgba8snorm rgba8uint rgba16float rgba32float depth16unorm"],
+    ..BROWSER
 };
 const FIREFOX: Lacks = Lacks {
     features: &[

@@ -79,7 +79,7 @@ impl Attached {
         let first = drawn
             .clone()
             .position(|(draws, resolves, reads)| draws || resolves || reads);
-        let place = path::target(scene, index);
+        let place = path::target(scene, index, lowering.device.abilities);
         let views = scene.path.views;
         Ok(Self {
             target: lowering.attachment(format, size, attachment.samples, place, views)?,

@@ -40,6 +40,8 @@ pub struct Abilities {
     pub copies: bool,
     /// Textures can have views of other formats, such as sRGB without conversion.
     pub casts: bool,
+    /// Shaders can read one layer of a texture that has several.
+    pub layers: bool,
 }
 
 /// Returns the usages that a single-sample texture of this format needs besides rendering.

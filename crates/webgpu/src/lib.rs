@@ -40,7 +40,7 @@ pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, Ste
 pub use fault::plant;
 pub use format::{Format, is_known};
 pub use lower::lower;
-pub use offer::{DeviceLimits, Offer, Uses, standard_formats};
+pub use offer::{DeviceLimits, Level, Offer, Uses, standard_formats};
 pub use pipeline_state::{
     DepthBiasState, DepthStencil, Pipeline, PipelineState, PipelineTarget, Primitive,
     VertexAttribute, VertexBuffer,

@@ -16,18 +16,33 @@ const MOST_TEXEL_BYTES: u32 = 16;
 /// The largest viewport coordinate in a scene, including the far edge.
 const VIEWPORT_REACH: u32 = 8192;
 
-/// Features of scenes that every WebGPU device has: interpolation and the flat value of the first vertex (WGSL,
-/// Interpolation), first instances of direct draws, sample masks of shaders, and pipelines without a fragment shader
-/// in passes without colour.
-const EVERYWHERE: [Feature; 7] = [
+/// Features of scenes that every WebGPU device has: interpolation (WGSL, Interpolation), first instances of direct
+/// draws, and pipelines without a fragment shader in passes without colour.
+const EVERYWHERE: [Feature; 3] = [
     Feature::CentroidInterpolation,
-    Feature::LinearInterpolation,
     Feature::FirstInstance,
-    Feature::FirstProvokingVertex,
     Feature::FragmentShaderAbsent,
+];
+
+/// Features of scenes that compatibility mode lacks and every other device has: linear interpolation and the flat value of
+/// the first vertex (GPURenderPipelineDescriptor, validating Compatibility Mode shader binding), sample masks of shaders.
+const BEYOND_COMPATIBILITY: [Feature; 4] = [
+    Feature::LinearInterpolation,
+    Feature::FirstProvokingVertex,
     Feature::SampleMaskInput,
     Feature::SampleMaskOutput,
 ];
+
+/// What WebGPU promises of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Everything: it has `core-features-and-limits`.
+    Core,
+    /// The feature level `compatibility`.
+    Compatibility,
+    /// Nothing: its API says that it has less than WebGPU.
+    Less,
+}
 
 /// What a device offers.
 #[derive(Clone, Debug)]
@@ -42,8 +57,8 @@ pub struct Offer {
     pub indirect: bool,
     /// True if their arguments may name a first instance (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
-    /// False if its API says that it has less than WebGPU promises.
-    pub complete: bool,
+    /// What WebGPU promises of it.
+    pub level: Level,
     /// GPUSupportedLimits.
     pub limits: DeviceLimits,
 }
@@ -107,6 +122,9 @@ fn limits(offer: Offer) -> Limits {
     let exempt = exempt(&offer);
     let mut features = offer.features;
     features.extend(EVERYWHERE);
+    if offer.level != Level::Compatibility {
+        features.extend(BEYOND_COMPATIBILITY);
+    }
     // WebGPU limits a viewport to twice the largest texture (setViewport).
     if 2 * max_size > VIEWPORT_REACH {
         features.insert(Feature::ViewportOutside);
@@ -150,32 +168,45 @@ fn support(format: TextureFormat, uses: Uses, abilities: Abilities) -> Option<Fo
     })
 }
 
-/// Returns what a device may lack without breaking WebGPU's word: what this crate does not use, and everything where
-/// the device has less than WebGPU.
+/// Returns what a device may lack without breaking WebGPU's word: what this crate does not use, and what its level does
+/// not promise.
 fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
     // Only four targets of the shortest texels fit into WebGPU's bytes.
     let mut exempt = BTreeSet::from([Requirement::ColorAttachments(4)]);
-    for format in TextureFormat::ALL {
-        if !offer.complete || format.is_integer() || !samples_are_exact(format, offer.abilities) {
-            exempt.insert(Requirement::Samples(format, SAMPLES));
+    let inexact = |f: &TextureFormat| f.is_integer() || !samples_are_exact(*f, offer.abilities);
+    let inexact = TextureFormat::ALL.into_iter().filter(inexact);
+    exempt.extend(inexact.map(|format| Requirement::Samples(format, SAMPLES)));
+    match offer.level {
+        Level::Core => {}
+        Level::Compatibility => exempt.extend([
+            Requirement::Size(8192),
+            Requirement::Samples(TextureFormat::Rgba16Float, SAMPLES),
+            Requirement::Feature(Feature::DepthBiasClamp),
+            Requirement::Feature(Feature::IndependentBlend),
+            Requirement::Feature(Feature::SampleShading),
+        ]),
+        Level::Less => {
+            exempt.insert(Requirement::Size(8192));
+            exempt.extend(Feature::ALL.map(Requirement::Feature));
+            exempt.extend(TextureFormat::ALL.into_iter().flat_map(|format| {
+                [
+                    Requirement::Format(format),
+                    Requirement::Drawing(format),
+                    Requirement::Blending(format),
+                    Requirement::Samples(format, SAMPLES),
+                ]
+            }));
         }
-        if !offer.complete {
-            exempt.extend([
-                Requirement::Format(format),
-                Requirement::Drawing(format),
-                Requirement::Blending(format),
-            ]);
-        }
-    }
-    if !offer.complete {
-        exempt.extend(Feature::ALL.map(Requirement::Feature));
     }
     exempt
 }
 
-/// Returns the formats of a device with these features, by their names in WebGPU (26.1, Texture Format Capabilities).
-/// The device has `core-features-and-limits`.
-pub fn standard_formats(has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, Uses> {
+/// Returns the formats of a device of a level, not the last one, with these features, by their names in WebGPU (26.1,
+/// Texture Format Capabilities).
+pub fn standard_formats(
+    level: Level,
+    has: impl Fn(&str) -> bool,
+) -> BTreeMap<TextureFormat, Uses> {
     let all = Uses {
         drawn: true,
         blended: true,
@@ -193,8 +224,11 @@ pub fn standard_formats(has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, U
             | TextureFormat::Rgba8Unorm
             | TextureFormat::Rgba8UnormSrgb
             | TextureFormat::Bgra8Unorm
-            | TextureFormat::Rgb10a2Unorm
-            | TextureFormat::Rgba16Float => all,
+            | TextureFormat::Rgb10a2Unorm => all,
+            TextureFormat::Rgba16Float => Uses {
+                multisampled: level == Level::Core,
+                ..all
+            },
             TextureFormat::Rgba8Snorm => when("texture-formats-tier1"),
             TextureFormat::Rg11b10Ufloat => when("rg11b10ufloat-renderable"),
             TextureFormat::Rgba32Float => Uses {
@@ -225,8 +259,8 @@ mod tests {
 
     #[test]
     fn features_widen_the_uses_of_formats() {
-        let plain = standard_formats(|_| false);
-        let wide = standard_formats(|_| true);
+        let plain = standard_formats(Level::Core, |_| false);
+        let wide = standard_formats(Level::Core, |_| true);
         assert_eq!(plain[&TextureFormat::Rgba8Snorm], Uses::default());
         assert_eq!(plain[&TextureFormat::Rg11b10Ufloat], Uses::default());
         assert!(!plain[&TextureFormat::Rgba32Float].blended);
@@ -238,18 +272,20 @@ mod tests {
         assert!(!wide.contains_key(&TextureFormat::B5g6r5Unorm));
     }
 
-    #[test]
-    fn limits_follow_the_offer() {
-        let offer = |texture_2d, color_bytes_per_sample| Offer {
-            formats: standard_formats(|_| false),
+    /// Returns the limits of a device with these.
+    fn limits(level: Level, texture_2d: u32, color_bytes_per_sample: u32) -> Limits {
+        let core = level == Level::Core;
+        let offer = Offer {
+            formats: standard_formats(level, |_| false),
             abilities: Abilities {
                 copies: true,
-                casts: true,
+                casts: core,
+                layers: core,
             },
             features: BTreeSet::new(),
             indirect: true,
             indirect_first_instance: false,
-            complete: true,
+            level,
             limits: DeviceLimits {
                 texture_2d,
                 texture_3d: 2048,
@@ -259,7 +295,12 @@ mod tests {
                 storage_alignment: 256,
             },
         };
-        let small = Device::new(offer(4096, 32)).limits;
+        Device::new(offer).limits
+    }
+
+    #[test]
+    fn limits_follow_the_offer() {
+        let small = limits(Level::Core, 4096, 32);
         assert_eq!(small.max_color_attachments, 2);
         assert!(!small.features.contains(&Feature::ViewportOutside));
         assert!(small.features.contains(&Feature::FragmentShaderAbsent));
@@ -267,8 +308,29 @@ mod tests {
         assert_eq!(small.formats[&TextureFormat::Rgba8Uint].samples, [1]);
         assert_eq!(small.formats[&TextureFormat::Depth16Unorm].samples, [1]);
         assert_eq!(small.formats[&TextureFormat::Depth32Float].samples, [1, 4]);
-        let large = Device::new(offer(8192, 128)).limits;
+        let large = limits(Level::Core, 8192, 128);
         assert_eq!(large.max_color_attachments, 8);
         assert!(large.features.contains(&Feature::ViewportOutside));
+    }
+
+    #[test]
+    fn compatibility_mode_may_lack_what_its_text_names() {
+        let core = limits(Level::Core, 4096, 32);
+        let compatible = limits(Level::Compatibility, 4096, 32);
+        let lacked: Vec<_> = core.features.difference(&compatible.features).collect();
+        let mut named: Vec<_> = BEYOND_COMPATIBILITY.iter().collect();
+        named.sort();
+        assert_eq!(lacked, named);
+        let samples = |limits: &Limits, format| limits.formats[&format].samples.clone();
+        for format in [TextureFormat::Rgba16Float, TextureFormat::Rgba8UnormSrgb] {
+            assert_eq!(samples(&core, format), [1, 4]);
+            assert_eq!(samples(&compatible, format), [1]);
+            let four = Requirement::Samples(format, SAMPLES);
+            assert!(compatible.exempt.contains(&four) && !core.exempt.contains(&four));
+        }
+        let shading = Requirement::Feature(Feature::SampleShading);
+        assert!(compatible.exempt.contains(&shading) && !core.exempt.contains(&shading));
+        let drawing = Requirement::Drawing(TextureFormat::Rgba16Float);
+        assert!(!compatible.exempt.contains(&drawing));
     }
 }

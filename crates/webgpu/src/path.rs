@@ -4,10 +4,10 @@
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
 use crate::calls::{Extent, TextureDimension};
-use crate::device::Abilities;
+use crate::device::{Abilities, read_path};
 use etalon_frame::{
     ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathResults, PathStart, PathState,
-    PathTarget, PathValue, PathViews, TextureFormat,
+    PathTarget, PathValue, PathViews, ReadPath, TextureFormat,
 };
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
@@ -68,22 +68,25 @@ pub(crate) fn paths(
 
 /// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
 /// samples have one level and layer (GPUTextureDescriptor), depth has two dimensions, and shaders of scenes
-/// see no slice of three.
-pub(crate) fn target(scene: &Scene, index: usize) -> PathTarget {
+/// see no slice of three, nor a single layer where the device has no views of one.
+pub(crate) fn target(scene: &Scene, index: usize, abilities: Abilities) -> PathTarget {
     let attachment = &scene.attachments[index];
     let read_by_shader = || {
         let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
-        let read = scene.path.end == PathEnd::ShaderRead && scene.read.contains(&index);
-        read || draws.any(|d| d.textures.contains(&index))
+        let fetched = scene.path.end == PathEnd::ShaderRead
+            || read_path(attachment.format, abilities) == ReadPath::Shader;
+        fetched && scene.read.contains(&index) || draws.any(|d| d.textures.contains(&index))
     };
+    let layered = || abilities.layers || !read_by_shader();
     let resolved = || {
         let mut passes = scene.passes.iter();
         passes.any(|p| p.resolve.contains(&Some(index)))
     };
     let can = attachment.samples == 1
         && match scene.path.target {
-            PathTarget::Plain | PathTarget::MipLevel | PathTarget::ArrayLayer => true,
-            PathTarget::CubeFace => attachment.size[0] == attachment.size[1],
+            PathTarget::Plain | PathTarget::MipLevel => true,
+            PathTarget::ArrayLayer => layered(),
+            PathTarget::CubeFace => attachment.size[0] == attachment.size[1] && layered(),
             PathTarget::Slice3d => attachment.format.is_color() && !read_by_shader() && !resolved(),
             PathTarget::Renderbuffer => false,
         };
@@ -229,6 +232,12 @@ mod tests {
     use super::*;
     use etalon_scene::{Attachment, Contents, Pass, Path, QueryScope};
 
+    const ABILITIES: Abilities = Abilities {
+        copies: true,
+        casts: true,
+        layers: true,
+    };
+
     const READING: Reading = Reading {
         copies: true,
         fetches: false,
@@ -259,8 +268,8 @@ mod tests {
         let indirect = PathValue::Draws(PathDraws::Indirect);
         let views = PathValue::Views(PathViews::Srgb);
         let abilities = |casts| Abilities {
-            copies: true,
             casts,
+            ..ABILITIES
         };
         let none = paths(false, abilities(false), &BTreeSet::new());
         assert!([base, indirect, views].iter().all(|v| !none.contains(v)));
@@ -277,7 +286,7 @@ mod tests {
                 target: wanted,
                 ..Path::default()
             };
-            target(&scene(format, samples, path), 0)
+            target(&scene(format, samples, path), 0, ABILITIES)
         };
         let (color, depth) = (TextureFormat::Rgba8Unorm, TextureFormat::Depth32Float);
         assert_eq!(
@@ -300,6 +309,28 @@ mod tests {
         assert_eq!((mip.size[0] >> mip.level, mip.size[1] >> mip.level), (8, 5));
         assert_eq!(Shape::of(PathTarget::Slice3d, [8, 8]).slice(), Some(3));
         assert_eq!(Shape::of(PathTarget::ArrayLayer, [8, 8]).slice(), None);
+    }
+
+    #[test]
+    fn a_layer_that_a_shader_reads_is_a_texture_where_views_have_all_layers() {
+        let abilities = Abilities {
+            layers: false,
+            ..ABILITIES
+        };
+        let found_target = |format, end| {
+            let path = Path {
+                target: PathTarget::ArrayLayer,
+                end,
+                ..Path::default()
+            };
+            target(&scene(format, 1, path), 0, abilities)
+        };
+        let (color, depth) = (TextureFormat::Rgba8Unorm, TextureFormat::Depth24Plus);
+        let [layer, plain] = [PathTarget::ArrayLayer, PathTarget::Plain];
+        assert_eq!(found_target(color, PathEnd::Store), layer);
+        assert_eq!(found_target(color, PathEnd::ShaderRead), plain);
+        // Its depth is never copied.
+        assert_eq!(found_target(depth, PathEnd::Store), plain);
     }
 
     #[test]

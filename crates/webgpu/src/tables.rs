@@ -8,9 +8,12 @@ use crate::device::{Device, attachment_usages, read_path, texture_usages};
 use crate::format::Format;
 use crate::path::{Reading as ReadingAbility, Shape};
 use crate::pipeline_state::{Pipeline, PipelineState};
-use etalon_frame::{PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{Feature, PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat};
 use etalon_scene::Sampler;
 use std::borrow::Cow;
+
+/// The attribute of values that are not interpolated.
+const FLAT: &str = "@interpolate(flat)";
 
 /// A texture, or the part of one that an attachment is.
 #[derive(Clone, Copy)]
@@ -181,7 +184,13 @@ impl Lowering<'_> {
         buffer
     }
 
-    pub(crate) fn shader(&mut self, label: &'static str, code: Cow<'static, str>) -> usize {
+    /// Returns a shader module. A device that promises no vertex for flat values must be told so: scenes that need one
+    /// are not lowered for it.
+    pub(crate) fn shader(&mut self, label: &'static str, mut code: Cow<'static, str>) -> usize {
+        let first = Feature::FirstProvokingVertex;
+        if !self.device.limits.features.contains(&first) && code.contains(FLAT) {
+            code = code.replace(FLAT, "@interpolate(flat, either)").into();
+        }
         let label = label.into();
         place(&mut self.list.shaders, Shader { label, code })
     }

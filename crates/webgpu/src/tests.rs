@@ -41,6 +41,7 @@ fn device() -> Device {
     let abilities = Abilities {
         copies: true,
         casts: true,
+        layers: true,
     };
     limits.paths = crate::path::paths(true, abilities, &limits.features);
     Device {

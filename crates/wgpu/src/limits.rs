@@ -2,7 +2,7 @@
 
 use crate::format;
 use etalon_frame::{Feature, TextureFormat};
-use etalon_webgpu::{Abilities, DeviceLimits, Offer, SAMPLES, Uses, texture_usages};
+use etalon_webgpu::{Abilities, DeviceLimits, Level, Offer, SAMPLES, Uses, texture_usages};
 use std::collections::BTreeSet;
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
 
@@ -26,6 +26,7 @@ fn abilities(flags: DownlevelFlags) -> Abilities {
     Abilities {
         copies: flags.contains(DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES),
         casts: flags.contains(DownlevelFlags::VIEW_FORMATS),
+        layers: true,
     }
 }
 
@@ -134,7 +135,11 @@ pub(crate) fn offer(adapter: &wgpu::Adapter, features: Features, limits: &wgpu::
         features: offered(flags, features, &adapter.limits()),
         indirect: flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
         indirect_first_instance: features.contains(Features::INDIRECT_FIRST_INSTANCE),
-        complete: adapter.get_downlevel_capabilities().is_webgpu_compliant(),
+        level: if adapter.get_downlevel_capabilities().is_webgpu_compliant() {
+            Level::Core
+        } else {
+            Level::Less
+        },
         limits: DeviceLimits {
             texture_2d: limits.max_texture_dimension_2d,
             texture_3d: limits.max_texture_dimension_3d,

@@ -34,13 +34,23 @@ pub(crate) fn browser(name: &str) -> Browser {
     }
 }
 
-/// Opens a browser.
+/// Opens the browser of an adapter.
 pub(crate) fn opened(name: &str, validate: bool, fault: Option<Fault>) -> BrowserBackend {
+    started(name, browser(name), validate, fault)
+}
+
+/// Opens a browser.
+fn started(
+    name: &str,
+    browser: Browser,
+    validate: bool,
+    fault: Option<Fault>,
+) -> BrowserBackend {
     let program = std::env::current_exe().expect("this program has a path");
     let mut keeper = Command::new(program);
     keeper.args(["--exact", "drivers::keeper", "--ignored", "--nocapture"]);
     let options = Options {
-        source: Source::Started(browser(name), keeper),
+        source: Source::Started(browser, keeper),
         validate,
         fault,
         record: false,
@@ -57,6 +67,25 @@ pub(crate) fn chromium() -> Driver<'static> {
         known: known("webgpu:chromium"),
         environment: Vec::new(),
         open: |validate| Box::new(opened("webgpu:chromium", validate, None)),
+        tolerated: &[],
+    }
+}
+
+/// Chromium, whose page asks for a device in compatibility mode.
+pub(crate) fn compatibility() -> Driver<'static> {
+    let name = "webgpu:chromium, compatibility mode";
+    Driver {
+        known: known(name),
+        environment: Vec::new(),
+        open: |validate| {
+            let mut browser = browser("webgpu:chromium");
+            for word in &mut browser.command {
+                *word = word.replace("{url}", "{url}?compatibility");
+            }
+            let backend = started("webgpu:chromium", browser, validate, None);
+            assert!(backend.adapter().api_version.contains("compatibility"));
+            Box::new(backend)
+        },
         tolerated: &[],
     }
 }

@@ -4,5 +4,5 @@ mod drivers;
 mod pages;
 
 etalon_conformance::driver_tests! {
-    chromium firefox; [drivers::offers]
+    chromium compatibility firefox; [drivers::offers]
 }

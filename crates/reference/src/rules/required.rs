@@ -22,9 +22,9 @@ pub struct Required {
 /// Returns the first of the requirements that the limits deny although the adapter's API and version
 /// require it, and the row that does; `None` if the adapter may lack all that it lacks.
 pub fn denied(limits: &Limits, requirements: &[Requirement]) -> Option<(Requirement, Required)> {
-    let lacks = |needed: &&Requirement| {
-        limits.missing(&[**needed]).is_some() && !limits.exempt.contains(needed)
-    };
+    let is_exempt = |needed| limits.exempt.iter().any(|exempt| covers(*exempt, needed));
+    let lacks =
+        |needed: &&Requirement| limits.missing(&[**needed]).is_some() && !is_exempt(**needed);
     requirements
         .iter()
         .filter(lacks)
