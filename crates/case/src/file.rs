@@ -233,6 +233,11 @@ impl CaseFile {
 }
 
 impl CaseRef<'_> {
+    /// True if the case exists to be measured.
+    pub fn is_measured(&self) -> bool {
+        self.file.is_measured()
+    }
+
     /// The stable id: the file's path and each axis with its value, in alphabetical order, but the
     /// method of a method case first.
     pub fn id(&self) -> String {

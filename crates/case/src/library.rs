@@ -85,6 +85,9 @@ fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     }
 }
 
+/// Files of folders that a command recorded into, whose other files are no cases.
+const RECORDED: [&str; 2] = ["run.jsonl", "bench.jsonl"];
+
 /// Collects the names of the files below a folder. `above` are the folders around it, without links.
 fn collect(
     folder: &Path,
@@ -104,6 +107,10 @@ fn collect(
         let entry = entry.map_err(|e| unreadable(&label, &e))?;
         let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
         let path = entry.path();
+        if RECORDED.iter().any(|file| entry.file_name() == *file) {
+            let why = "it belongs to a run or a bench, not to cases; move its folder elsewhere";
+            return Err(unreadable(&name, &io::Error::other(why)));
+        }
         if path.is_dir() {
             collect(&path, &format!("{name}/"), above, names)?;
         } else if name.ends_with(".json") {

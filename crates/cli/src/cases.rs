@@ -61,16 +61,17 @@ fn warn(library: &Library, cases: &[Case]) {
     }
 }
 
-/// Returns the ids of the selected cases. Those of a folder are built all the same, so that errors show.
-pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<String>, Failure> {
+/// Returns the ids of the selected cases, and whether they exist to be measured. Those of a folder are built all the same, so that errors show.
+pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)>, Failure> {
     if arguments.cases.is_some() {
-        let cases = chosen(arguments)?;
-        return Ok(cases.into_iter().map(|case| case.id).collect());
+        let cases = chosen(arguments)?.into_iter();
+        return Ok(cases.map(|case| (case.id, case.measured)).collect());
     }
     let library = library(None)?;
     let selection = etalon_runner::select(&library, arguments.profile.into(), &arguments.globs);
     let selection = selection.map_err(Failure::usage)?;
-    let ids = selection.cases.iter().map(|case| case.id()).collect();
+    let cases = selection.cases.iter();
+    let ids = cases.map(|c| (c.id(), c.is_measured())).collect();
     some(ids, arguments)
 }
 
@@ -90,6 +91,21 @@ pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result
         .iter()
         .filter(|c| areas.contains(&area(&c.id())));
     Ok((same.count() - selected.len()) as u64)
+}
+
+/// Takes away the cases that exist to be measured, unless globs name them or there are no others: one such picture takes as
+/// long as hundreds of cases. Returns their number.
+pub(crate) fn leave_measured<T>(
+    cases: &mut Vec<T>,
+    arguments: &CaseArguments,
+    is_measured: impl Fn(&T) -> bool,
+) -> usize {
+    if !arguments.globs.is_empty() || cases.iter().all(&is_measured) {
+        return 0;
+    }
+    let all = cases.len();
+    cases.retain(|case| !is_measured(case));
+    all - cases.len()
 }
 
 /// Returns what was selected, unless it is nothing.

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::reduction::{Reducer, confirm, file_name};
 use etalon_case::Case;
-use etalon_diagnose::{Groups, Key, KnownBugs, Symptom};
+use etalon_diagnose::{Groups, Key, KnownBugs, Symptom, Unreduced};
 use etalon_explore::{Candidate, Oracle, RandomScene, keys, states};
 use etalon_frame::threads::share;
 use etalon_record::Record;
@@ -156,7 +156,7 @@ impl<'a> FailingScenes<'a> {
     ) -> Result<Seen, Failure> {
         let RandomScene { index, candidate } = scene;
         let keys = keys(&candidate.document["scene"]);
-        let whole = |scene: Candidate, record: Record, why: &str| Seen {
+        let whole = |scene: Candidate, record: Record, why| Seen {
             key: Key::whole(&scene.document, &symptom, why),
             scene,
             record,
@@ -165,12 +165,12 @@ impl<'a> FailingScenes<'a> {
             index,
         };
         if self.reducer.is_stopped() {
-            return Ok(whole(candidate, record, "not reduced"));
+            return Ok(whole(candidate, record, Unreduced::Stopped));
         }
         let mut oracle = self.reducer.oracle(record)?;
         let again = oracle.first(&mut std::iter::once(candidate.clone()));
         let seen = if again.is_none() {
-            whole(candidate, oracle.record.clone(), "only behind other scenes")
+            whole(candidate, oracle.record.clone(), Unreduced::Unsteady)
         } else {
             let reduction = oracle.reduce(candidate, &self.reducer.limits, DRAWS);
             let symptom = oracle.symptom.clone();

@@ -15,7 +15,8 @@ pub(crate) struct Out<'a> {
     pub(crate) latest: Option<&'a str>,
     /// The folder of `--cases`, whose files must not be mixed with what is written.
     pub(crate) cases: Option<&'a Path>,
-    pub(crate) resume: bool,
+    /// True if what is missing is to be added; `None` where the command starts from its parts each time.
+    pub(crate) resume: Option<bool>,
     pub(crate) force: bool,
 }
 
@@ -95,7 +96,7 @@ impl<'a> Out<'a> {
                 }
                 Err(Failure::usage(RecordError::Holds { path, kind }))
             }
-            Content::Recorded(_) if self.resume => Ok(true),
+            Content::Recorded(_) if self.resume == Some(true) => Ok(true),
             Content::Recorded(_)
                 if self.force || self.latest.is_some_and(|l| self.folder == Path::new(l)) =>
             {
@@ -116,6 +117,7 @@ impl<'a> Out<'a> {
                             path,
                             records: run.records.len() as u64,
                             expected: run.header.expected_records(),
+                            resumes: self.resume.is_some(),
                         }
                     }
                     FolderKind::Bench => RecordError::OccupiedByBench {

@@ -31,6 +31,44 @@ impl<S> PreparedScene<S> {
     }
 }
 
+/// Returns the frame of a scene that was `drawn`, without its counters. `codes` returns those of an attachment's aspect of
+/// so many channels.
+///
+/// # Errors
+/// If nothing was drawn.
+pub(crate) fn frame(
+    scene: &Scene,
+    drawn: bool,
+    codes: impl Fn(usize, Aspect, usize) -> Vec<u32>,
+) -> Result<Frame, BackendError> {
+    if !drawn {
+        return Err(BackendError::internal(
+            "read back before anything was drawn",
+        ));
+    }
+    let mut frame = Frame::default();
+    for index in &scene.read {
+        let attachment = &scene.attachments[*index];
+        for aspect in attachment.format.aspects() {
+            let channels = match aspect {
+                Aspect::Color => attachment.format.color_channels().to_vec(),
+                Aspect::Depth => depth_encoding(attachment.format).into_iter().collect(),
+                Aspect::Stencil => vec![ChannelEncoding::Uint(8)],
+            };
+            frame.images.push(Image {
+                attachment: attachment.name.clone(),
+                aspect: *aspect,
+                size: attachment.size,
+                samples: attachment.samples,
+                read: ReadPath::Copy,
+                codes: codes(*index, *aspect, channels.len()),
+                channels,
+            });
+        }
+    }
+    Ok(frame)
+}
+
 impl<S: Steps> Prepared for PreparedScene<S> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let start = Instant::now();
@@ -61,31 +99,9 @@ impl<S: Steps> Prepared for PreparedScene<S> {
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
-        if self.surfaces.is_empty() {
-            return Err(BackendError::internal(
-                "read back before anything was drawn",
-            ));
-        }
-        let mut frame = Frame::default();
-        for index in &self.scene.read {
-            let attachment = &self.scene.attachments[*index];
-            for aspect in attachment.format.aspects() {
-                let channels = match aspect {
-                    Aspect::Color => attachment.format.color_channels().to_vec(),
-                    Aspect::Depth => depth_encoding(attachment.format).into_iter().collect(),
-                    Aspect::Stencil => vec![ChannelEncoding::Uint(8)],
-                };
-                frame.images.push(Image {
-                    attachment: attachment.name.clone(),
-                    aspect: *aspect,
-                    size: attachment.size,
-                    samples: attachment.samples,
-                    channels,
-                    read: ReadPath::Copy,
-                    codes: self.surfaces[*index].codes(*aspect),
-                });
-            }
-        }
+        let drawn = !self.surfaces.is_empty();
+        let codes = |index: usize, aspect, _| self.surfaces[index].codes(aspect);
+        let mut frame = frame(&self.scene, drawn, codes)?;
         frame.counters = self
             .counters
             .iter()

@@ -16,9 +16,18 @@ use serde_json::Value;
 pub struct Key {
     way: Violation,
     /// The reason why the scene was not reduced.
-    unreduced: Option<String>,
+    unreduced: Option<Unreduced>,
     /// The states that are left; `None` if the scene was not reduced.
     states: Option<Signature>,
+}
+
+/// A reason why a scene was not reduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unreduced {
+    /// The command was stopped before.
+    Stopped,
+    /// It does not fail by itself.
+    Unsteady,
 }
 
 impl Key {
@@ -33,10 +42,10 @@ impl Key {
     }
 
     /// Returns the key of a scene that was not reduced, with the reason.
-    pub fn whole(document: &Value, symptom: &Symptom, why: &str) -> Self {
+    pub fn whole(document: &Value, symptom: &Symptom, why: Unreduced) -> Self {
         Self {
             way: Traits::of(document, symptom).way,
-            unreduced: Some(why.to_owned()),
+            unreduced: Some(why),
             states: None,
         }
     }
@@ -86,7 +95,8 @@ impl<S> Group<S> {
     pub fn way(&self) -> String {
         let Key { way, unreduced, .. } = &self.key;
         match unreduced {
-            Some(why) => format!("{way}, {why}"),
+            Some(Unreduced::Stopped) => format!("{way}, not reduced"),
+            Some(Unreduced::Unsteady) => format!("{way}, only behind other scenes"),
             None => way.to_string(),
         }
     }

@@ -21,7 +21,7 @@ mod traits;
 
 pub use bless::{Blessing, bless};
 pub use condition::Condition;
-pub use groups::{Group, Groups, Key};
+pub use groups::{Group, Groups, Key, Unreduced};
 pub use known_bugs::{Driver, KnownBugs};
 pub use matching::{Beyond, Match};
 pub use signature::Signature;

@@ -5,13 +5,14 @@ use crate::clear::{ClearCall, discard};
 use crate::context::Context;
 use crate::pool::Target;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
-use crate::query::Enclosing;
+use crate::query::Query;
 use crate::read::spoil;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
 use crate::vertices::{self, Arguments, Fetched};
 use etalon_backend::Blits;
 use etalon_frame::{Aspect, PathEnd};
+use etalon_scene::Enclosing;
 use glow::HasContext;
 
 const PARAMETER_BUFFER: u32 = 0x80EE;
@@ -62,7 +63,7 @@ pub(crate) struct Pass {
     /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<Resolve>,
     /// The queries that begin before the pass, and those that end after it.
-    pub(crate) queries: Enclosing,
+    pub(crate) queries: Enclosing<Query>,
 }
 
 /// The resolve of an attachment.
@@ -85,7 +86,7 @@ pub(crate) struct DrawCall {
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
     /// The queries that begin before the draw, and those that end after it.
-    pub(crate) queries: Enclosing,
+    pub(crate) queries: Enclosing<Query>,
     /// The offset of the counter, if the shader counts.
     pub(crate) runs: Option<i32>,
     /// True if the shader uses the pool.
@@ -138,7 +139,7 @@ pub(crate) fn draw_all(
         }
         // SAFETY: the framebuffer is the context's own.
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
-        pass.queries.begin(context);
+        pass.queries.begun.iter().for_each(|q| q.begin(context));
         for clear in &pass.loads {
             clear.apply(context);
             set = None;
@@ -173,7 +174,7 @@ pub(crate) fn draw_all(
             unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
             discard(context, &pass.discards);
         }
-        pass.queries.end(context);
+        pass.queries.ended.iter().for_each(|q| q.end(context));
     }
 }
 
@@ -213,7 +214,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
                 size as i32,
             );
         }
-        draw.queries.begin(context);
+        draw.queries.begun.iter().for_each(|q| q.begin(context));
         let arguments = draw.arguments.zip(inputs.arguments);
         if let Some((_, (buffer, _))) = arguments {
             gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
@@ -245,7 +246,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
             // Mesa takes numbers of draws from a bound buffer for all indirect draws.
             gl.bind_buffer(PARAMETER_BUFFER, None);
         }
-        draw.queries.end(context);
+        draw.queries.ended.iter().for_each(|q| q.end(context));
         if storage.is_some() {
             // The next draw may use the same counter, or read the pool.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);

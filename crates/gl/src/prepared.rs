@@ -11,7 +11,7 @@ use crate::objects::Objects;
 use crate::path::{self, Variant};
 use crate::pool::Pool;
 use crate::program::FragmentForm;
-use crate::query::{Enclosing, Query};
+use crate::query::Query;
 use crate::read::{Reading, Source};
 use crate::recording;
 use crate::state::{self, DrawState};
@@ -22,7 +22,7 @@ use etalon_frame::{
     Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, PathViews,
     Requirement, TextureFormat,
 };
-use etalon_scene::{Contents, Draw, Path, Scene};
+use etalon_scene::{Contents, Draw, Enclosing, Path, Scene};
 use glow::HasContext;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -300,14 +300,9 @@ impl<'a> PreparedScene<'a> {
         let mut draws = Vec::new();
         let number = self.passes.len();
         for (index, draw) in pass.draws.iter().enumerate() {
-            let enclosing = Enclosing::new(
-                &unused.queries,
-                |query| query.begins_at((number, index)),
-                |query| query.ends_at((number, index)),
-            );
             // On error the target is not returned to the pool; it is deleted with the context.
             draws.push(DrawCall {
-                queries: enclosing,
+                queries: Enclosing::draw(&unused.queries, (number, index)),
                 ..self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?
             });
         }
@@ -328,11 +323,7 @@ impl<'a> PreparedScene<'a> {
             keeps_state: self.path.state == PathState::Kept,
             discards: clear::discards(pass, packed),
             resolves,
-            queries: Enclosing::new(
-                &unused.queries,
-                |query| query.begins_before(number),
-                |query| query.ends_behind(number),
-            ),
+            queries: Enclosing::pass(&unused.queries, number),
         });
         Ok(())
     }

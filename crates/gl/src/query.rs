@@ -11,42 +11,15 @@ pub(crate) struct Query {
     pub(crate) object: glow::Query,
 }
 
-/// Queries that begin before a draw or pass, and those that end after it.
-#[derive(Debug, Default)]
-pub(crate) struct Enclosing {
-    begun: Vec<Query>,
-    ended: Vec<Query>,
-}
-
-impl Enclosing {
-    /// Returns those of all queries that begin and end there.
-    pub(crate) fn new(
-        queries: &[(etalon_scene::Query, Query)],
-        begins: impl Fn(&etalon_scene::Query) -> bool,
-        ends: impl Fn(&etalon_scene::Query) -> bool,
-    ) -> Self {
-        let begun = queries.iter().filter(|(query, _)| begins(query));
-        let ended = queries.iter().filter(|(query, _)| ends(query));
-        Self {
-            begun: begun.map(|(_, object)| *object).collect(),
-            ended: ended.map(|(_, object)| *object).collect(),
-        }
+impl Query {
+    pub(crate) fn begin(self, context: &Context) {
+        // SAFETY: the context is current and the object is its own.
+        unsafe { context.gl.begin_query(self.target, self.object) };
     }
 
-    /// Begins queries.
-    pub(crate) fn begin(&self, context: &Context) {
-        for query in &self.begun {
-            // SAFETY: the context is current and the object is its own.
-            unsafe { context.gl.begin_query(query.target, query.object) };
-        }
-    }
-
-    /// Ends queries.
-    pub(crate) fn end(&self, context: &Context) {
-        for query in &self.ended {
-            // SAFETY: the context is current.
-            unsafe { context.gl.end_query(query.target) };
-        }
+    pub(crate) fn end(self, context: &Context) {
+        // SAFETY: the context is current.
+        unsafe { context.gl.end_query(self.target) };
     }
 }
 

@@ -78,9 +78,9 @@ pub enum RecordError {
     },
     /// The folder holds a run, and neither resuming nor replacing it was asked for.
     #[error(
-        "{} holds a run already, with {records} of {expected} records; --resume draws what is missing, \
-         --force replaces it",
-        path.display()
+        "{} holds a run already, with {records} of {expected} records; {}--force replaces it",
+        path.display(),
+        if *resumes { "--resume draws what is missing, " } else { "" }
     )]
     Occupied {
         /// The folder.
@@ -89,6 +89,8 @@ pub enum RecordError {
         records: u64,
         /// Records of the whole run.
         expected: u64,
+        /// True if the command can resume it.
+        resumes: bool,
     },
     /// The run in the folder is not the one to resume.
     #[error(

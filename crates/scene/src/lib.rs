@@ -52,7 +52,7 @@ pub use pass::{
 };
 pub use path::Path;
 pub use pool::Pool;
-pub use query::Query;
+pub use query::{Enclosing, Query};
 pub use query_scope::QueryScope;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex,

@@ -46,6 +46,54 @@ impl Query {
     }
 }
 
+/// The queries of a backend that begin before a draw or pass, and those that end after it.
+#[derive(Clone, Debug)]
+pub struct Enclosing<Q> {
+    /// Those that begin.
+    pub begun: Vec<Q>,
+    /// Those that end, the last one to begin first.
+    pub ended: Vec<Q>,
+}
+
+impl<Q> Default for Enclosing<Q> {
+    fn default() -> Self {
+        Self {
+            begun: Vec::new(),
+            ended: Vec::new(),
+        }
+    }
+}
+
+impl<Q: Copy> Enclosing<Q> {
+    /// Returns those of all queries that begin and end at a draw, within its pass.
+    pub fn draw(queries: &[(Query, Q)], draw: (usize, usize)) -> Self {
+        Self::of(queries, |q| q.begins_at(draw), |q| q.ends_at(draw))
+    }
+
+    /// Returns those of all queries that begin before a pass and end after it.
+    pub fn pass(queries: &[(Query, Q)], pass: usize) -> Self {
+        Self::of(queries, |q| q.begins_before(pass), |q| q.ends_behind(pass))
+    }
+
+    fn of(
+        queries: &[(Query, Q)],
+        begins: impl Fn(&Query) -> bool,
+        ends: impl Fn(&Query) -> bool,
+    ) -> Self {
+        let begun = queries.iter().filter(|(query, _)| begins(query));
+        let ended = queries.iter().rev().filter(|(query, _)| ends(query));
+        Self {
+            begun: begun.map(|(_, made)| *made).collect(),
+            ended: ended.map(|(_, made)| *made).collect(),
+        }
+    }
+
+    /// True if no query begins or ends there.
+    pub fn is_empty(&self) -> bool {
+        self.begun.is_empty() && self.ended.is_empty()
+    }
+}
+
 impl Scene {
     /// Returns the queries of the scene, in the order in which they begin. Counters of shader runs have none.
     pub fn queries(&self) -> Vec<Query> {

@@ -36,59 +36,24 @@ pub(crate) struct Query {
     pub(crate) flags: vk::QueryControlFlags,
 }
 
-/// Queries that begin before a draw or pass, and those that end after it.
-#[derive(Debug, Default)]
-pub(crate) struct Enclosing {
-    begun: Vec<Query>,
-    ended: Vec<Query>,
-}
-
-impl Enclosing {
-    /// Returns those of all queries that begin and end there.
-    pub(crate) fn new(
-        queries: &[(etalon_scene::Query, Query)],
-        begins: impl Fn(&etalon_scene::Query) -> bool,
-        ends: impl Fn(&etalon_scene::Query) -> bool,
-    ) -> Self {
-        let begun = queries.iter().filter(|(query, _)| begins(query));
-        let ended = queries.iter().rev().filter(|(query, _)| ends(query));
-        Self {
-            begun: begun.map(|(_, made)| *made).collect(),
-            ended: ended.map(|(_, made)| *made).collect(),
-        }
-    }
-
-    /// True if no query begins or ends there.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.begun.is_empty() && self.ended.is_empty()
-    }
-
-    /// Records the beginning of queries.
+impl Query {
+    /// Records the beginning.
     ///
     /// # Safety
-    /// `commands` is being recorded, and each query is begun once, inside or outside of the pass in which it ends.
-    pub(crate) unsafe fn begin(&self, device: &Device, commands: vk::CommandBuffer) {
-        for query in &self.begun {
-            // SAFETY: the caller's; the pool was reset and outlives the commands.
-            unsafe {
-                device
-                    .raw
-                    .cmd_begin_query(commands, query.pool, query.index, query.flags);
-            }
-        }
+    /// `commands` is being recorded, and the query is begun once, inside or outside of the pass in which it ends.
+    pub(crate) unsafe fn begin(self, device: &Device, commands: vk::CommandBuffer) {
+        let Self { pool, index, flags } = self;
+        // SAFETY: the caller's; the pool was reset and outlives the commands.
+        unsafe { device.raw.cmd_begin_query(commands, pool, index, flags) };
     }
 
-    /// Records the end of queries.
+    /// Records the end.
     ///
     /// # Safety
-    /// As for [`Enclosing::begin`]; the queries have begun.
-    pub(crate) unsafe fn end(&self, device: &Device, commands: vk::CommandBuffer) {
-        for query in &self.ended {
-            // SAFETY: the caller's.
-            unsafe {
-                device.raw.cmd_end_query(commands, query.pool, query.index);
-            }
-        }
+    /// As for [`Query::begin`]; the query has begun.
+    pub(crate) unsafe fn end(self, device: &Device, commands: vk::CommandBuffer) {
+        // SAFETY: the caller's.
+        unsafe { device.raw.cmd_end_query(commands, self.pool, self.index) };
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
-use crate::counting::{Counting, Enclosing};
+use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
 use crate::extended::Extended;
@@ -24,7 +24,7 @@ use etalon_backend::{BackendError, Blits};
 use etalon_frame::{
     PathClears, PathEnd, PathTarget, PathTests, PathValue, Requirement, TextureFormat,
 };
-use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
+use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Enclosing, Pass, Scene};
 use std::rc::Rc;
 
 /// The plan of a scene.
@@ -106,7 +106,7 @@ pub(crate) struct PassPlan {
     /// The resolves behind the pass.
     pub(crate) resolves: Vec<MovedResolve>,
     /// The queries that begin before the pass, and those that end after it.
-    pub(crate) queries: Enclosing,
+    pub(crate) queries: Enclosing<Query>,
 }
 
 /// The plan of a draw.
@@ -136,7 +136,7 @@ pub(crate) struct DrawPlan {
     pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
     /// The queries that begin before the draw, and those that end after it.
-    pub(crate) queries: Enclosing,
+    pub(crate) queries: Enclosing<Query>,
 }
 
 /// Returns true if a shader reads the attachment.
@@ -285,7 +285,7 @@ impl DrawPlan {
         dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
         set: vk::DescriptorSet,
-        queries: Enclosing,
+        queries: Enclosing<Query>,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,

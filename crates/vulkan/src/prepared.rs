@@ -1,7 +1,7 @@
 //! A scene prepared for drawing.
 
 use crate::buffer::{Buffer, BufferUse};
-use crate::counting::{Counting, Enclosing, Query};
+use crate::counting::{Counting, Query};
 use crate::descriptors::Descriptors;
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
@@ -32,7 +32,7 @@ use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathLayers, PathPass, PathState, PathValue, Requirement,
 };
-use etalon_scene::{Contents, Draw, Pass, Pool, Scene};
+use etalon_scene::{Contents, Draw, Enclosing, Pass, Pool, Scene};
 use std::cell::RefCell;
 use std::time::Instant;
 
@@ -280,11 +280,7 @@ impl<'a> PreparedScene<'a> {
                 // From here on `drop` finds what is made.
                 let planned = self.plan.passes.push_mut(planned);
                 planned.resolves.clone_from(resolves);
-                planned.queries = Enclosing::new(
-                    &queries,
-                    |query| query.begins_before(number),
-                    |query| query.ends_behind(number),
-                );
+                planned.queries = Enclosing::pass(&queries, number);
                 if scene.path.pass != PathPass::DynamicRendering {
                     let second = scene.path.pass == PathPass::SecondSubpass;
                     let attached = (&planned.color[..], planned.depth_stencil.as_ref());
@@ -399,11 +395,7 @@ impl Drawing<'_> {
         } else {
             None
         };
-        let enclosing = Enclosing::new(
-            self.queries,
-            |query| query.begins_at((self.pass, index)),
-            |query| query.ends_at((self.pass, index)),
-        );
+        let enclosing = Enclosing::draw(self.queries, (self.pass, index));
         let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
         drawn.overwritten = self.state == PathState::Overwritten;
         drawn.before_pipeline = before_pipeline;

@@ -388,7 +388,9 @@ fn pass(
     // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles, and each query that
     // begins here is begun once.
     unsafe {
-        pass.queries.begin(device, commands);
+        for query in &pass.queries.begun {
+            query.begin(device, commands);
+        }
         match &pass.object {
             Some(object) => begin_render_pass(device, recorder, pass, object),
             None => begin_rendering(device, recorder, pass),
@@ -404,7 +406,9 @@ fn pass(
             Some(_) => device.raw.cmd_end_render_pass(commands),
             None => device.raw.cmd_end_rendering(commands),
         }
-        pass.queries.end(device, commands);
+        for query in &pass.queries.ended {
+            query.end(device, commands);
+        }
     }
     Ok(())
 }
@@ -586,7 +590,9 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             &[draw.params],
         );
         api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
-        draw.queries.begin(device, commands);
+        for query in &draw.queries.begun {
+            query.begin(device, commands);
+        }
         if let Some(colors) = draw.colors {
             api.cmd_bind_vertex_buffers(commands, INSTANCE_BINDING, &[input], &[colors]);
         }
@@ -644,7 +650,9 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             }
             (None, None) => api.cmd_draw(commands, count, instances, first, first_instance),
         }
-        draw.queries.end(device, commands);
+        for query in &draw.queries.ended {
+            query.end(device, commands);
+        }
     }
 }
 

@@ -203,10 +203,7 @@ fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
 
 /// Returns the formats of a device of a level, not the last one, with these features, by their names in WebGPU (26.1,
 /// Texture Format Capabilities).
-pub fn standard_formats(
-    level: Level,
-    has: impl Fn(&str) -> bool,
-) -> BTreeMap<TextureFormat, Uses> {
+pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, Uses> {
     let all = Uses {
         drawn: true,
         blended: true,

@@ -267,10 +267,7 @@ mod tests {
         let base = PathValue::Draws(PathDraws::BaseVertex);
         let indirect = PathValue::Draws(PathDraws::Indirect);
         let views = PathValue::Views(PathViews::Srgb);
-        let abilities = |casts| Abilities {
-            casts,
-            ..ABILITIES
-        };
+        let abilities = |casts| Abilities { casts, ..ABILITIES };
         let none = paths(false, abilities(false), &BTreeSet::new());
         assert!([base, indirect, views].iter().all(|v| !none.contains(v)));
         let features = BTreeSet::from([Feature::BaseVertex]);

@@ -8,7 +8,9 @@ use crate::device::{Device, attachment_usages, read_path, texture_usages};
 use crate::format::Format;
 use crate::path::{Reading as ReadingAbility, Shape};
 use crate::pipeline_state::{Pipeline, PipelineState};
-use etalon_frame::{Feature, PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{
+    Feature, PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat,
+};
 use etalon_scene::Sampler;
 use std::borrow::Cow;
 

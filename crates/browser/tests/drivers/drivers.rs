@@ -40,12 +40,7 @@ pub(crate) fn opened(name: &str, validate: bool, fault: Option<Fault>) -> Browse
 }
 
 /// Opens a browser.
-fn started(
-    name: &str,
-    browser: Browser,
-    validate: bool,
-    fault: Option<Fault>,
-) -> BrowserBackend {
+fn started(name: &str, browser: Browser, validate: bool, fault: Option<Fault>) -> BrowserBackend {
     let program = std::env::current_exe().expect("this program has a path");
     let mut keeper = Command::new(program);
     keeper.args(["--exact", "drivers::keeper", "--ignored", "--nocapture"]);

@@ -85,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kind: FolderKind::Bench,
         latest: Some(LATEST),
         cases: arguments.selection.cases.as_deref(),
-        resume: arguments.resume,
+        resume: Some(arguments.resume),
         force: arguments.force,
     }
     .claim()?;

@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kind: FolderKind::Versions,
         latest: None,
         cases: arguments.cases.as_deref(),
-        resume: false,
+        resume: None,
         force: arguments.force,
     }
     .claim()?;
@@ -127,25 +127,37 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     outcome?;
     let written =
         etalon_report::write_versions(&arguments.out, &versions).map_err(Failure::incomplete)?;
-    match arguments.format {
+    let interrupted = stop.load(Ordering::Relaxed);
+    print(arguments.format, &versions, &written, interrupted)?;
+    if interrupted {
+        say!("interrupted: some cases were not drawn with all the releases that decide about them");
+        return Ok(INCOMPLETE);
+    }
+    Ok(0)
+}
+
+/// Prints what was found, and where its report is.
+fn print(
+    format: Format,
+    versions: &Versions,
+    report: &Path,
+    interrupted: bool,
+) -> Result<(), Failure> {
+    match format {
         Format::Json => print_json(&json!({
             "line": versions.header.line,
             "releases": versions.header.releases,
             "cases": versions.cases.len(),
             "bad": versions.cases.iter().filter(|c| !c.bad().is_empty()).count(),
-            "interrupted": stop.load(Ordering::Relaxed),
-            "report": written,
+            "interrupted": interrupted,
+            "report": report,
         }))?,
         Format::Text => {
-            summarize(&etalon_report::versions_table(&versions, table_options()));
-            summarize(&format!("\nReport: {}\n", written.display()));
+            summarize(&etalon_report::versions_table(versions, table_options()));
+            summarize(&format!("\nReport: {}\n", report.display()));
         }
     }
-    if stop.load(Ordering::Relaxed) {
-        say!("interrupted: some cases were not drawn with all the releases that decide about them");
-        return Ok(INCOMPLETE);
-    }
-    Ok(0)
+    Ok(())
 }
 
 /// Takes away the releases that cannot be used, and says why.

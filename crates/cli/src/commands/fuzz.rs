@@ -130,7 +130,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kind: FolderKind::Fuzz,
         latest: None,
         cases: None,
-        resume: false,
+        resume: None,
         force: arguments.force,
     }
     .claim()?;

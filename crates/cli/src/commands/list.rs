@@ -1,9 +1,9 @@
 //! `etalon list`.
 
-use crate::cases::{chosen, chosen_ids};
+use crate::cases::{chosen, chosen_ids, leave_measured, left_out};
 use crate::failure::Failure;
 use crate::flags::{CaseArguments, Format};
-use crate::output::{print, print_json};
+use crate::output::{print, print_json, say};
 use clap::Args;
 use etalon_case::Case;
 use serde_json::{Map, Value, json};
@@ -17,19 +17,38 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-/// Prints the ids of the selected cases.
+/// Prints the ids of the cases that `run` would draw, and the numbers of those that it would leave out.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    if arguments.format == Format::Json {
-        let cases = chosen(&arguments.selection)?;
+    let Arguments { selection, format } = arguments;
+    if *format == Format::Json {
+        let mut cases = chosen(selection)?;
+        let measured = leave_measured(&mut cases, selection, |case| case.measured);
         print_json(&cases.iter().map(facts).collect::<Vec<_>>())?;
-        return Ok(0);
+        let ids: Vec<String> = cases.into_iter().map(|case| case.id).collect();
+        return tell_left_out(selection, measured, &ids);
     }
-    let mut text = String::new();
-    for id in chosen_ids(&arguments.selection)? {
-        text.push_str(&id);
-        text.push('\n');
+    let mut cases = chosen_ids(selection)?;
+    let measured = leave_measured(&mut cases, selection, |(_, measured)| *measured);
+    let ids: Vec<String> = cases.into_iter().map(|(id, _)| id).collect();
+    print(&format!("{}\n", ids.join("\n")))?;
+    tell_left_out(selection, measured, &ids)
+}
+
+/// Says how many cases are left out.
+fn tell_left_out(
+    selection: &CaseArguments,
+    measured: usize,
+    ids: &[String],
+) -> Result<u8, Failure> {
+    if measured > 0 {
+        say!(
+            "left out: {measured} cases that are measured; a glob that names them lists and draws them"
+        );
     }
-    print(&text)?;
+    let by_profile = left_out(selection, ids)?;
+    if by_profile > 0 {
+        say!("left out: {by_profile} cases that --profile full has");
+    }
     Ok(0)
 }
 

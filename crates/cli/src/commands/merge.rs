@@ -52,17 +52,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kind: FolderKind::Run,
         latest: None,
         cases: None,
-        resume: false,
+        resume: None,
         force: arguments.force,
     }
-    .claim()
-    // A merge starts from its parts each time.
-    .map_err(|failure| Failure {
-        message: failure
-            .message
-            .replace("--resume draws what is missing, ", ""),
-        ..failure
-    })?;
+    .claim()?;
     let _lock = claim.take()?;
     let merged = merge
         .write(out, report_files::RUN)

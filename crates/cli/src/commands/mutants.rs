@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kind: FolderKind::Hunt,
         latest: None,
         cases: arguments.cases.as_deref(),
-        resume: false,
+        resume: None,
         // A hunt is made again in minutes.
         force: true,
     }

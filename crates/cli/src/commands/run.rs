@@ -5,7 +5,7 @@ use crate::adapters::{
     take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
-use crate::cases::{all_ids, chosen, left_out, library, round_trips};
+use crate::cases::{all_ids, chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::catalogue;
 use crate::expectations::{ExpectArguments, counting, is_built_in};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
@@ -157,27 +157,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         arguments.news.labels.labels()?;
     }
     let selected = Selected::new(arguments)?;
-    let to_bless = if arguments.bless {
-        Some(to_bless(&arguments.expected.expect)?)
-    } else {
-        None
-    };
+    let to_bless = arguments
+        .bless
+        .then(|| to_bless(&arguments.expected.expect));
+    let to_bless = to_bless.transpose()?;
     let expectations = expectations(arguments, to_bless.as_deref())?;
-    // Of a list that is updated, the rest of what is expected is no part.
-    let blessed = match &to_bless {
-        Some(path) if path.exists() => {
-            let read = Expectations::read(path).map_err(Failure::usage)?;
-            counting(read, &labels(arguments))
-        }
-        _ => Expectations::default(),
-    };
+    let blessed = blessed(arguments, to_bless.as_deref())?;
     // The records of a concurrent or an earlier run must not be lost.
     let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Run,
         latest: Some(LATEST),
         cases: arguments.selection.cases.as_deref(),
-        resume: arguments.resume,
+        resume: Some(arguments.resume),
         force: arguments.force,
     }
     .claim()?;
@@ -233,11 +225,7 @@ impl Selected {
     fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let Arguments { selection, .. } = arguments;
         let mut cases = chosen(selection)?;
-        if selection.globs.is_empty() {
-            // One measured picture takes as long as hundreds of cases. A folder with nothing else in it means them.
-            let measured_alone = cases.iter().all(|case| case.measured);
-            cases.retain(|case| measured_alone || !case.measured);
-        }
+        leave_measured(&mut cases, selection, |case| case.measured);
         let ids: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
         let round_trips = round_trips(selection.cases.as_ref(), &cases)?;
         let shard = shard::keep(arguments.shard, &mut cases)?;
@@ -267,6 +255,17 @@ fn expectations(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expect
         };
     }
     expected.read(&labels(arguments))
+}
+
+/// Returns what a list that is updated expects of a run: the rest of what is expected is no part of it.
+fn blessed(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectations, Failure> {
+    match to_bless {
+        Some(path) if path.exists() => {
+            let read = Expectations::read(path).map_err(Failure::usage)?;
+            Ok(counting(read, &labels(arguments)))
+        }
+        _ => Ok(Expectations::default()),
+    }
 }
 
 /// The labels of a run, as `key=value`.

@@ -55,11 +55,7 @@ fn list_names_every_case_once_and_readably() {
 fn the_quick_profile_is_a_small_part_of_every_area() {
     let quick = lines(&["list"]);
     assert_eq!(lines(&["list", "--profile", "quick"]), quick);
-    // The areas that measure are not held to the number of what is judged: their cases stand for
-    // questions, not for combinations of states.
-    let measured = |id: &&String| id.starts_with("methods/") || id.starts_with("perf/");
-    let conformance = quick.iter().filter(|id| !measured(id)).count();
-    assert!(conformance <= 2721, "{conformance}");
+    assert!(quick.len() <= 2721, "{}", quick.len());
     let full = lines(&["list", "--profile", "full"]);
     assert!(
         quick.len() * 5 < full.len(),
@@ -74,6 +70,21 @@ fn the_quick_profile_is_a_small_part_of_every_area() {
         first.map(str::to_owned).collect()
     };
     assert_eq!(areas(&quick), areas(&full));
+}
+
+#[test]
+fn a_list_says_what_a_run_would_leave_out() {
+    let measured = |ids: &[String]| ids.iter().filter(|id| id.starts_with("perf/")).count();
+    assert_eq!(measured(&lines(&["list"])), 0);
+    let named = lines(&["list", "depth", "perf"]);
+    assert!(measured(&named) > 0 && measured(&named) < named.len());
+    let told = etalon(&["list"]).assert().code(0);
+    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
+    let full = lines(&["list", "--profile", "full"]).len();
+    let left = full - lines(&["list"]).len();
+    assert!(told.contains(" cases that are measured"), "{told}");
+    let by_profile = format!("left out: {left} cases that --profile full has");
+    assert!(told.contains(&by_profile), "{told}");
 }
 
 #[test]
@@ -302,6 +313,12 @@ fn unreadable_case_files_are_named() {
     std::os::unix::fs::symlink("nowhere", &file).unwrap();
     refused(&["list", "--cases", path], &["odd.json", "cannot be read"]);
     fs::remove_file(&file).unwrap();
+    fs::create_dir(folder.path().join("old")).unwrap();
+    let records = folder.path().join("old/run.jsonl");
+    fs::write(&records, "").unwrap();
+    let due = ["old/run.jsonl", "belongs to a run", "move its folder"];
+    refused(&["list", "--cases", path], &due);
+    fs::remove_file(&records).unwrap();
     fs::write(folder.path().join("a b.json"), FINE).unwrap();
     refused(&["list", "--cases", path], &["a b.json"]);
     let nowhere = folder.path().join("nowhere");

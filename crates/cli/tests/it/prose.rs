@@ -4,10 +4,12 @@
 use std::fs;
 use std::path::Path;
 use syn::visit::{self, Visit};
-use syn::{Attribute, Expr, ExprMethodCall, ItemFn, ItemMod, Lit, Member};
+use syn::{
+    Arm, Attribute, BinOp, Expr, ExprBinary, ExprMethodCall, ItemFn, ItemMod, Lit, Member, Pat,
+};
 
 /// Methods that look for a text in another one.
-const SEARCHES: [&str; 13] = [
+const SEARCHES: [&str; 17] = [
     "contains",
     "starts_with",
     "ends_with",
@@ -21,6 +23,10 @@ const SEARCHES: [&str; 13] = [
     "trim_start_matches",
     "trim_end_matches",
     "eq_ignore_ascii_case",
+    "replace",
+    "replacen",
+    "split",
+    "splitn",
 ];
 
 /// Fields and variables that hold what the suite wrote for people.
@@ -35,7 +41,7 @@ const WRITTEN: [&str; 7] = [
 ];
 
 /// Searches of texts that others wrote, with their files.
-const FOREIGN: [(&str, &str, &str); 8] = [
+const FOREIGN: [(&str, &str, &str); 10] = [
     ("gl/src/context.rs", "OpenGL ES ", "GL_VERSION"),
     ("gl/src/context.rs", "(Core Profile) ", "GL_VERSION"),
     ("case/src/error.rs", " at line ", "serde_json's position"),
@@ -52,6 +58,8 @@ const FOREIGN: [(&str, &str, &str); 8] = [
         "gl_SampleMask = ",
         "GLSL that naga writes",
     ),
+    ("gl/src/program.rs", "{name} = ", "GLSL that naga writes"),
+    ("runner/src/bench/clock.rs", "cpu MHz", "/proc/cpuinfo"),
 ];
 
 /// Looks for searches of prose in one file, outside of its tests.
@@ -105,6 +113,47 @@ impl<'ast> Visit<'ast> for Finder<'_> {
         }
         visit::visit_expr_method_call(self, call);
     }
+
+    fn visit_expr_binary(&mut self, binary: &'ast ExprBinary) {
+        if matches!(binary.op, BinOp::Eq(_) | BinOp::Ne(_)) {
+            self.compare([&binary.left, &binary.right]);
+        }
+        visit::visit_expr_binary(self, binary);
+    }
+
+    fn visit_arm(&mut self, arm: &'ast Arm) {
+        for text in texts(&arm.pat).into_iter().filter(|text| is_prose(text)) {
+            self.found.push(format!("{}: match {text:?}", self.path));
+        }
+        visit::visit_arm(self, arm);
+    }
+}
+
+/// Returns the texts of a pattern that are alternatives.
+fn texts(pattern: &Pat) -> Vec<String> {
+    match pattern {
+        Pat::Or(alternatives) => alternatives.cases.iter().flat_map(texts).collect(),
+        Pat::Lit(literal) => match &literal.lit {
+            Lit::Str(text) => vec![text.value()],
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
+    }
+}
+
+impl Finder<'_> {
+    /// Notes a comparison with a text that is more than a name, or of something that was written for people.
+    fn compare(&mut self, sides: [&Expr; 2]) {
+        for (text, other) in [(sides[0], sides[1]), (sides[1], sides[0])] {
+            let Some(text) = text_of(text).filter(|text| !text.is_empty()) else {
+                continue;
+            };
+            let written = name_of(other).is_some_and(|n| WRITTEN.contains(&n.as_str()));
+            if (is_prose(&text) || written) && !self.is_foreign(&text) {
+                self.found.push(format!("{}: == {text:?}", self.path));
+            }
+        }
+    }
 }
 
 /// True if a text is more than a name: letters, and a space beside them.
@@ -124,7 +173,10 @@ fn text_of(argument: &Expr) -> Option<String> {
             _ => None,
         },
         Expr::Reference(reference) => text_of(&reference.expr),
-        Expr::Macro(format) => Some(format.mac.tokens.to_string()),
+        Expr::Macro(format) => {
+            let tokens = format.mac.tokens.to_string();
+            Some(tokens.split('"').nth(1)?.to_owned())
+        }
         _ => None,
     }
 }
@@ -212,6 +264,10 @@ fn searches_of_sentences_are_found() {
         r#"fn f(s: &str) -> bool { s.ends_with(" is true") }"#,
         r#"fn f(s: &str) -> bool { s.contains(&format!("{} still holds", 1)) }"#,
         r#"fn f(r: &Line, a: &str) -> bool { r.detail.as_str().starts_with(a) }"#,
+        r#"fn f(s: &str) -> bool { s == "not reduced" }"#,
+        r#"fn f(r: &Line) -> bool { "slower" != r.headline }"#,
+        r#"fn f(s: &str) -> u8 { match s { "a b" | "c" => 1, _ => 0 } }"#,
+        r#"fn f(s: &str) -> String { s.replace(" and more", "") }"#,
     ];
     for text in refused {
         assert_eq!(searches("a.rs", text).len(), 1, "{text}");

@@ -9,10 +9,11 @@ use super::threads::{available, on_threads};
 use super::tile::{self, Layer, Tile};
 use super::triangle::Placed;
 use crate::pass::DISCARDED;
+use crate::prepared::frame;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_frame::{Aspect, ChannelEncoding, Frame, ReadPath};
+use etalon_frame::{Aspect, ChannelEncoding, Frame};
 use etalon_scene::{LoadOperation, Pass, Scene};
 use fearless_simd::{Level, dispatch};
 use std::sync::{Mutex, PoisonError};
@@ -299,31 +300,10 @@ impl Prepared for TiledScene {
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
-        if !self.submitted {
-            return Err(BackendError::internal(
-                "read back before anything was drawn",
-            ));
-        }
-        let mut frame = Frame::default();
-        for index in &self.scene.read {
-            let attachment = &self.scene.attachments[*index];
-            for aspect in attachment.format.aspects() {
-                let channels = match aspect {
-                    Aspect::Color => attachment.format.color_channels().to_vec(),
-                    Aspect::Depth => depth_encoding(attachment.format).into_iter().collect(),
-                    Aspect::Stencil => vec![ChannelEncoding::Uint(8)],
-                };
-                frame.images.push(etalon_frame::Image {
-                    attachment: attachment.name.clone(),
-                    aspect: *aspect,
-                    size: attachment.size,
-                    samples: attachment.samples,
-                    read: ReadPath::Copy,
-                    codes: self.images[*index].codes(*aspect, channels.len(), self.machine.threads),
-                    channels,
-                });
-            }
-        }
+        let codes = |index: usize, aspect, channels| {
+            self.images[index].codes(aspect, channels, self.machine.threads)
+        };
+        let mut frame = frame(&self.scene, self.submitted, codes)?;
         // No draw with kernels counts anything.
         frame.counters = vec![0; self.scene.counters.len()];
         Ok(frame)
