@@ -2,10 +2,10 @@
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
-use crate::reduction::{Reducer, confirm, file_name};
+use crate::reduction::{Looked, Reducer, confirm, file_name};
 use etalon_case::Case;
-use etalon_diagnose::{Groups, Key, KnownBugs, Symptom, Unreduced};
-use etalon_explore::{Candidate, Oracle, RandomScene, keys, states};
+use etalon_diagnose::{Groups, KnownBugs, Symptom};
+use etalon_explore::{RandomScene, keys, states};
 use etalon_frame::threads::share;
 use etalon_record::Record;
 use etalon_report::ReducedCase;
@@ -14,10 +14,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
-
-/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
-/// was drawn before.
-const DRAWS: usize = 400;
 
 /// One way to fail.
 pub(crate) type Group = etalon_diagnose::Group<Kept>;
@@ -58,17 +54,6 @@ impl Folders {
     pub(crate) const FOUND: &str = "found";
     /// The name of the second.
     pub(crate) const KNOWN: &str = "known";
-}
-
-/// A scene that was looked at, before it is known to be new.
-struct Seen {
-    scene: Candidate,
-    record: Record,
-    symptom: Symptom,
-    key: Key,
-    /// The number of keys before the reduction.
-    keys: usize,
-    index: u64,
 }
 
 impl<'a> FailingScenes<'a> {
@@ -134,61 +119,23 @@ impl<'a> FailingScenes<'a> {
     }
 
     fn add_one(&mut self, scene: RandomScene, record: Record) -> Result<(), Failure> {
-        let symptom = Symptom::of(&record);
-        let document = &scene.candidate.document;
-        let stopped = self.reducer.is_stopped();
-        if self.groups.count(document, &symptom, stopped) {
-            return Ok(());
-        }
-        let seen = self.looked_at(scene, record, symptom)?;
-        if self.groups.count_reduced(&seen.key) {
-            return Ok(());
-        }
-        self.keep(seen)
-    }
-
-    /// Reduces a scene if it fails by itself.
-    fn looked_at(
-        &mut self,
-        scene: RandomScene,
-        record: Record,
-        symptom: Symptom,
-    ) -> Result<Seen, Failure> {
         let RandomScene { index, candidate } = scene;
-        let keys = keys(&candidate.document["scene"]);
-        let whole = |scene: Candidate, record: Record, why| Seen {
-            key: Key::whole(&scene.document, &symptom, why),
-            scene,
-            record,
-            symptom: symptom.clone(),
-            keys,
-            index,
-        };
-        if self.reducer.is_stopped() {
-            return Ok(whole(candidate, record, Unreduced::Stopped));
+        let symptom = Symptom::of(&record);
+        let stopped = self.reducer.is_stopped();
+        let counted = self.groups.count(&candidate.document, &symptom, stopped);
+        if counted.is_some() {
+            return Ok(());
         }
-        let mut oracle = self.reducer.oracle(record)?;
-        let again = oracle.first(&mut std::iter::once(candidate.clone()));
-        let seen = if again.is_none() {
-            whole(candidate, oracle.record.clone(), Unreduced::Unsteady)
-        } else {
-            let reduction = oracle.reduce(candidate, &self.reducer.limits, DRAWS);
-            let symptom = oracle.symptom.clone();
-            Seen {
-                key: Key::reduced(&reduction.smallest.document, &symptom),
-                scene: reduction.smallest,
-                record: oracle.record.clone(),
-                symptom,
-                keys,
-                index,
-            }
-        };
-        self.reducer.give_back(oracle)?;
-        Ok(seen)
+        let keys = keys(&candidate.document["scene"]);
+        let looked = self.reducer.look(candidate, record, symptom)?;
+        if self.groups.count_reduced(&looked.key).is_some() {
+            return Ok(());
+        }
+        self.keep(looked, index, keys)
     }
 
-    /// Makes a group of a scene, and writes its case file.
-    fn keep(&mut self, seen: Seen) -> Result<(), Failure> {
+    /// Makes a group of a scene of so many keys, and writes its case file.
+    fn keep(&mut self, seen: Looked, index: u64, all_keys: usize) -> Result<(), Failure> {
         let adapter = self.reducer.launch.adapter.clone();
         let document = &seen.scene.document;
         let reduced = ReducedCase {
@@ -207,11 +154,11 @@ impl<'a> FailingScenes<'a> {
         write(&file, &described)?;
         let kept = Kept {
             adapter,
-            index: seen.index,
+            index,
             sentence: reduced.sentence(),
             clause: reduced.clause(),
             states: reduced.states(),
-            keys: [seen.keys, keys(&document["scene"])],
+            keys: [all_keys, keys(&document["scene"])],
             file,
             unconfirmed: None,
         };

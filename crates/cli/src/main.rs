@@ -27,6 +27,7 @@ mod flags;
 mod group_text;
 mod history_file;
 mod interruption;
+mod known_look;
 mod match_text;
 mod near;
 mod news;

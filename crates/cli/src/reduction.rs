@@ -5,7 +5,7 @@
 
 use crate::failure::Failure;
 use etalon_case::{Case, CaseRef, build};
-use etalon_diagnose::{Driver, Symptom, Traits};
+use etalon_diagnose::{Driver, Key, Symptom, Traits, Unreduced};
 use etalon_explore::{Budget, Candidate, MOST_DRAWS, Oracle, Reduction, keys, reduce};
 use etalon_frame::Limits;
 use etalon_record::{Record, Verdict};
@@ -37,6 +37,10 @@ pub(crate) const TIMEOUT: &str = "20";
 const HUNG_TIME: Duration = Duration::from_secs(2);
 /// The most keys of a scene that is reduced for a comparison.
 const MOST_KEYS: usize = 600;
+
+/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
+/// was drawn before.
+const DRAWS: usize = 400;
 
 /// Draws a reduced case in a fresh process.
 pub(crate) fn confirm(
@@ -166,6 +170,15 @@ impl Oracle for DriverOracle<'_> {
     }
 }
 
+/// A failing scene that was looked at.
+pub(crate) struct Looked {
+    /// What is left of it.
+    pub(crate) scene: Candidate,
+    pub(crate) record: Record,
+    pub(crate) symptom: Symptom,
+    pub(crate) key: Key,
+}
+
 /// Reduces cases on one driver, whose worker is started when it is needed.
 pub(crate) struct Reducer<'a> {
     pub(crate) launch: Launch,
@@ -214,6 +227,39 @@ impl<'a> Reducer<'a> {
         }
         self.trials = Some(oracle.trials);
         Ok(())
+    }
+
+    /// Reduces a failing scene, if it fails by itself.
+    pub(crate) fn look(
+        &mut self,
+        scene: Candidate,
+        record: Record,
+        symptom: Symptom,
+    ) -> Result<Looked, Failure> {
+        let whole = |scene: Candidate, record: Record, symptom: Symptom, why| Looked {
+            key: Key::whole(&scene.document, &symptom, why),
+            scene,
+            record,
+            symptom,
+        };
+        if self.is_stopped() {
+            return Ok(whole(scene, record, symptom, Unreduced::Stopped));
+        }
+        let mut oracle = self.oracle(record)?;
+        let again = oracle.first(&mut std::iter::once(scene.clone()));
+        let looked = if again.is_none() {
+            whole(scene, oracle.record.clone(), symptom, Unreduced::Unsteady)
+        } else {
+            let reduction = oracle.reduce(scene, &self.limits, DRAWS);
+            Looked {
+                key: Key::reduced(&reduction.smallest.document, &oracle.symptom),
+                scene: reduction.smallest,
+                record: oracle.record.clone(),
+                symptom: oracle.symptom.clone(),
+            }
+        };
+        self.give_back(oracle)?;
+        Ok(looked)
     }
 
     fn trials(&mut self) -> Result<Trials, Failure> {

@@ -140,40 +140,38 @@ impl<S> Groups<S> {
         self.all.iter_mut()
     }
 
-    /// Counts a scene in a group by its states. Returns false if it is to be reduced first; that of a search that is being
-    /// stopped never is.
-    pub fn count(&mut self, document: &Value, symptom: &Symptom, stopped: bool) -> bool {
+    /// Counts a scene in a group by its states. Returns the group's number; `None` if it is to be reduced first; that of a
+    /// search that is being stopped never is.
+    pub fn count(&mut self, document: &Value, symptom: &Symptom, stopped: bool) -> Option<usize> {
         let states = Signature::of(document);
         // Each reduction of a scene that ends its worker costs processes: its states are not asked for.
         let ends = !symptom.verdict.is_violation();
-        let alike = self.all.iter_mut().find(|group| {
+        let number = self.all.iter().position(|group| {
             let left = group.common.as_ref().filter(|_| group.steady);
             symptom.covers_elsewhere(&group.symptom)
                 && (ends || left.is_some_and(|left| left.is_within(&states)))
-        });
-        let Some(group) = alike else {
-            return false;
-        };
+        })?;
+        let group = &mut self.all[number];
         let count = group.count + 1;
         let to_reduce = count.is_power_of_two() && count.trailing_zeros().is_multiple_of(2);
         let counted = stopped || !to_reduce;
         group.count += u64::from(counted);
-        counted
+        counted.then_some(number)
     }
 
-    /// Counts a scene that was looked at in the group of its key. Returns false if there is none.
-    pub fn count_reduced(&mut self, key: &Key) -> bool {
-        let Some(group) = self.all.iter_mut().find(|g| g.key == *key) else {
-            return false;
-        };
+    /// Counts a scene that was looked at in the group of its key. Returns the group's number; `None` if there is none.
+    pub fn count_reduced(&mut self, key: &Key) -> Option<usize> {
+        let number = self.all.iter().position(|g| g.key == *key)?;
+        let group = &mut self.all[number];
         group.count += 1;
         group.reduced += 1;
-        true
+        Some(number)
     }
 
-    /// Adds a group.
-    pub fn push(&mut self, group: Group<S>) {
+    /// Adds a group, and returns its number.
+    pub fn push(&mut self, group: Group<S>) -> usize {
         self.all.push(group);
+        self.all.len() - 1
     }
 
     /// Returns the groups, the commonest first.

@@ -41,8 +41,9 @@ impl FrameWriter {
         Ok(())
     }
 
-    /// Writes a frame file, compressed, and returns its path below the run folder, for [`Record::frame`](crate::Record::frame). Call
-    /// it before the record is appended, so that no record names a file that is not there.
+    /// Writes a frame file, compressed, and returns its path below the run folder, for
+    /// [`Record::frame`](crate::Record::frame). Call it before the record is appended, so that no record names a file
+    /// that is not there.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -51,8 +52,7 @@ impl FrameWriter {
         let path = self.folder.join(&relative);
         self.make_folder_of(&path)?;
         let bytes = json_line("a frame", frame)?;
-        let packed = GzEncoder::new(Vec::new(), Compression::fast());
-        write_all(packed, &bytes)
+        packed(&bytes)
             .and_then(|packed| fs::write(&path, packed))
             .map_err(RecordError::io("write", &path))?;
         Ok(relative)
@@ -79,7 +79,9 @@ impl FrameWriter {
     }
 }
 
-fn write_all(mut packed: GzEncoder<Vec<u8>>, bytes: &[u8]) -> io::Result<Vec<u8>> {
+/// Returns bytes as gzip.
+fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
     packed.write_all(bytes)?;
     packed.finish()
 }

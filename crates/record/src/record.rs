@@ -30,6 +30,10 @@ pub struct Record {
     /// Set when the verdict agrees with an entry of the expectations.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<Expected>,
+    /// The case of a finding that is the same when both are reduced on the adapter, if it is expected for that reason alone:
+    /// the finding names other cases.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub look: Option<String>,
     /// The bad verdict that the expectations name here, when the raw one is better.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub improves: Option<Verdict>,
@@ -127,6 +131,7 @@ impl Record {
             adapter: adapter.into(),
             verdict,
             expected: None,
+            look: None,
             improves: None,
             due_fail: false,
             message: String::new(),

@@ -13,8 +13,8 @@ use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::write_cases;
 use crate::shorten::fit;
-use std::fs::File;
-use std::io::Write;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -36,6 +36,31 @@ pub(crate) const BESIDE: ReportFiles = ReportFiles {
     folders: &[(FRAMES, "gz"), (FRAMES, "json"), (PICTURES, "png")],
     files: &[MISSING_FILE, DEAD_FILE, CASES_FILE],
 };
+
+impl Run {
+    /// Puts the run in the place of the one that a folder holds: whoever reads it sees the one or the other.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or a record cannot be shortened enough.
+    pub fn replace_in(&self, folder: &Path) -> Result<(), RecordError> {
+        let path = folder.join(RUN_FILE);
+        let beside = folder.join(format!(".{RUN_FILE}.{}", std::process::id()));
+        let file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
+        let mut file = BufWriter::new(file);
+        let mut write = |line: Vec<u8>| {
+            let written = file.write_all(&line);
+            written.map_err(RecordError::io("write", &beside))
+        };
+        write(json_line("the header", &self.header)?)?;
+        for record in &self.records {
+            write(fit(record)?)?;
+        }
+        file.flush()
+            .and_then(|()| file.get_ref().sync_data())
+            .and_then(|()| fs::rename(&beside, &path))
+            .map_err(RecordError::io("write", &path))
+    }
+}
 
 impl RunWriter {
     /// Begins a run in a folder, which is made when it does not exist. A run that the folder already

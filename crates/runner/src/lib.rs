@@ -38,7 +38,7 @@ pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
-pub use run::{Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
+pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;
 pub use trial::Trials;

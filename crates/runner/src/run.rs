@@ -16,5 +16,5 @@ mod shared;
 mod worker_loop;
 
 pub use execute::run;
-pub use plan::{Options, Plan, Rechecks, RunError, RunSummary};
+pub use plan::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary};
 pub use round_trips::round_trips;

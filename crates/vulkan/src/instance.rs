@@ -212,8 +212,9 @@ fn messenger(
 /// True for a warning about something legal and intended: a depth-only pass does not use the
 /// shader's colour, and neither does a location without an attachment.
 fn is_intended(id: &CStr, text: &CStr) -> bool {
-    let (id, text) = (id.to_bytes(), text.to_string_lossy());
+    let id = id.to_bytes();
     if id == b"UNASSIGNED-CoreValidation-Shader-InterfaceTypeMismatch" {
+        let text = text.to_string_lossy();
         return text.contains("Attachment") && text.contains("VK_FORMAT_UNDEFINED");
     }
     // The second is the name since layer version 1.4.

@@ -11,6 +11,7 @@ use crate::expectations::{ExpectArguments, counting, is_built_in};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
+use crate::known_look::{self, Looks};
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
@@ -25,7 +26,7 @@ use etalon_record::{
     selection_digest,
 };
 use etalon_report::News;
-use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
+use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -105,12 +106,30 @@ pub(crate) struct Arguments {
     /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
+    /// Compare what is unexpected with the findings about its driver, by reducing both there: what leaves the same states
+    /// and the same violation as a finding's case is known by its look, and counts as expected. For cases of one's own
+    #[arg(long, conflicts_with = "history")]
+    pub(crate) known_by_look: bool,
+    /// Failures whose whole frames are kept
+    #[arg(long, value_enum, default_value = "all")]
+    pub(crate) keep_frames: KeepFrames,
     /// Enable validation layers and GL debug output; a case that causes messages is an error
     #[arg(long)]
     pub(crate) validate: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
+}
+
+/// Failures whose frames are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KeepFrames {
+    /// All of them
+    All,
+    /// Those that nothing expects
+    New,
+    /// None
+    None,
 }
 
 /// The number of records of each verdict on each adapter.
@@ -175,11 +194,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     .claim()?;
     let stop = listen()?;
     let (adapters, dead) = start(arguments)?;
+    let launches: Vec<Launch> = adapters.ready.iter().map(|(l, _)| l.clone()).collect();
     let resume = claim.resume;
     let _lock = claim.take()?;
     let header = header(arguments, &selected, &adapters, &dead);
     let adapter_names = header.adapters.iter().map(|a| a.name.clone()).collect();
-    let summary = draw(Plan {
+    let mut summary = draw(Plan {
         reports: report_files::RUN,
         cases: &selected.cases,
         round_trips: &selected.round_trips,
@@ -193,6 +213,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         resume,
         stop,
     })?;
+    if arguments.known_by_look && summary.unexpected > 0 && !summary.interrupted {
+        let looks = Looks {
+            library: &library(arguments.selection.cases.as_ref())?,
+            expectations: &expectations,
+            launches: &launches,
+            timeout: options(arguments).timeout,
+            stop,
+        };
+        summary.unexpected = looks.mark(&arguments.out)?;
+    }
     let results = Results::write(arguments, &selected, &expectations, summary, adapter_names)?;
     results.print()?;
     let run = &results.run;
@@ -303,6 +333,11 @@ fn options(arguments: &Arguments) -> Options {
         memory: Some(arguments.memory),
         repeat: arguments.repeat,
         recheck: arguments.recheck.0,
+        frames: match arguments.keep_frames {
+            KeepFrames::All => KeptFrames::All,
+            KeepFrames::New => KeptFrames::New,
+            KeepFrames::None => KeptFrames::None,
+        },
     }
 }
 
@@ -367,6 +402,7 @@ impl<'a> Results<'a> {
                 "missing": self.run.missing(),
                 "unexpected": self.summary.unexpected,
                 "improvements": self.summary.improvements,
+                "known_by_look": self.run.records.iter().filter(|r| r.look.is_some()).count(),
                 "rechecked": self.summary.rechecks.done,
                 "not_rechecked": self.summary.rechecks.left,
                 "interrupted": self.summary.interrupted,
@@ -383,6 +419,7 @@ impl<'a> Results<'a> {
         }
         let shown = shown(&self.run, self.news.as_ref());
         summarize(&etalon_report::table(&shown, table_options()));
+        summarize(&known_look::lines(&self.run));
         summarize(&rechecked(self.arguments.recheck, self.summary.rechecks));
         summarize(&format!("\nReport: {}\n", self.report.display()));
         Ok(())

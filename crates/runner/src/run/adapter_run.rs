@@ -1,6 +1,7 @@
 //! One adapter's part of a run, without its workers: judging drawings and writing records.
 
 use super::adapter_queue::AdapterQueue;
+use super::plan::KeptFrames;
 use super::shared::Shared;
 use crate::drawing::Drawing;
 use crate::event::Event;
@@ -240,6 +241,11 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
+        match self.shared.options.frames {
+            KeptFrames::All => {}
+            KeptFrames::New if self.settled(record.clone()).unexpected() => {}
+            KeptFrames::New | KeptFrames::None => return false,
+        }
         if record.verdict.is_violation() || record.verdict == Verdict::Flaky {
             return true;
         }

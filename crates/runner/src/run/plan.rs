@@ -51,6 +51,18 @@ pub struct Rechecks {
     pub left: u64,
 }
 
+/// The failures whose whole frames a run folder keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum KeptFrames {
+    /// Every failure.
+    #[default]
+    All,
+    /// Those that nothing expects.
+    New,
+    /// No failure.
+    None,
+}
+
 /// The limits and repetitions of drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -65,6 +77,8 @@ pub struct Options {
     /// The number of bad and unexpected verdicts of each kind and adapter that are checked again in a fresh
     /// process and confirmed; with 0 none is checked.
     pub recheck: u32,
+    /// The failures whose frames are kept.
+    pub frames: KeptFrames,
 }
 
 impl Default for Options {
@@ -75,6 +89,7 @@ impl Default for Options {
             memory: None,
             repeat: 1,
             recheck: DEFAULT_RECHECK,
+            frames: KeptFrames::All,
         }
     }
 }

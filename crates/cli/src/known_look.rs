@@ -1,0 +1,149 @@
+//! Failures of a run that findings explain although they name other cases.
+//!
+//! Findings name the suite's cases; a case of one's own that meets a known bug is in none of them. So failing cases are
+//! reduced on their driver, and cases of the findings too: what leaves the same states and the same violation is known by its
+//! look.
+
+use crate::cases::find;
+use crate::failure::Failure;
+use crate::output::say;
+use crate::reduction::{Reducer, confirm};
+use etalon_case::{Case, Library, Profile, build};
+use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
+use etalon_explore::Candidate;
+use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
+use etalon_runner::Launch;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// The number and the id of the cases that are built for a reduction.
+const NAME: &str = "found/look";
+
+/// What a comparison with findings needs.
+pub(crate) struct Looks<'a> {
+    /// The cases of the run.
+    pub(crate) library: &'a Library,
+    pub(crate) expectations: &'a Expectations,
+    pub(crate) launches: &'a [Launch],
+    /// The time that a case may take.
+    pub(crate) timeout: Duration,
+    /// Set when the run is being stopped.
+    pub(crate) stop: &'a AtomicBool,
+}
+
+impl Looks<'_> {
+    /// Marks the unexpected records of the run in a folder that findings explain. Returns the number of those that are left.
+    pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {
+        let mut run = Run::read(folder).map_err(Failure::incomplete)?;
+        let built_in = Library::built_in().map_err(Failure::usage)?;
+        for adapter in &run.header.adapters {
+            let of_adapter = |r: &&mut Record| {
+                r.adapter == adapter.name && r.unexpected() && r.verdict.is_violation()
+            };
+            let failing: Vec<&mut Record> = run.records.iter_mut().filter(of_adapter).collect();
+            let mut launches = self.launches.iter();
+            if let Some(launch) = launches.find(|launch| launch.adapter == adapter.name)
+                && !failing.is_empty()
+            {
+                let count = failing.len();
+                say!(
+                    "{}: failures to compare with findings: {count}",
+                    adapter.name
+                );
+                self.mark_all(failing, adapter, launch, &built_in)?;
+            }
+        }
+        run.replace_in(folder).map_err(Failure::incomplete)?;
+        Ok(run.records.iter().filter(|r| r.unexpected()).count() as u64)
+    }
+
+    /// Marks those of an adapter's failures that findings explain.
+    fn mark_all(
+        &self,
+        failing: Vec<&mut Record>,
+        adapter: &AdapterRecord,
+        launch: &Launch,
+        built_in: &Library,
+    ) -> Result<(), Failure> {
+        let reducer = || {
+            let limits = adapter.limits.clone();
+            Reducer::new(launch.clone(), limits, self.timeout, self.stop)
+        };
+        let mut groups = Groups::default();
+        let mut looking = reducer();
+        let numbers = failing
+            .iter()
+            .map(|record| self.group(&mut groups, &mut looking, record));
+        let numbers = numbers.collect::<Result<Vec<usize>, Failure>>()?;
+        let cases = built_in.cases(Profile::Full);
+        let cases = cases.map(|case| (case.id(), case));
+        let mut bugs = KnownBugs::new(self.expectations, adapter, cases, reducer());
+        let mut matches: Vec<Option<Match>> = Vec::new();
+        for group in groups.iter_mut() {
+            if let Some(case) = group.scene.take() {
+                let steady = confirm(launch, &case, &group.symptom, self.timeout);
+                group.steady = steady.is_ok();
+            }
+            matches.push(if group.can_be_compared() {
+                bugs.matching(group.verdict, &group.traits, group.steady)?
+            } else {
+                None
+            });
+        }
+        for (record, number) in failing.into_iter().zip(numbers) {
+            if let Some(known) = matches[number].as_ref().filter(|known| known.is_exact()) {
+                let reason = known.title.clone();
+                record.expected = Some(Expected { reason });
+                record.look = Some(known.case.clone());
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the number of the group that a failure belongs to, which is a new one if it is like no other.
+    fn group(
+        &self,
+        groups: &mut Groups<Option<Case>>,
+        reducer: &mut Reducer<'_>,
+        record: &Record,
+    ) -> Result<usize, Failure> {
+        let document = find(self.library, &record.case)?.document();
+        let document = document.map_err(Failure::usage)?;
+        let symptom = Symptom::of(record);
+        if let Some(number) = groups.count(&document, &symptom, reducer.is_stopped()) {
+            return Ok(number);
+        }
+        let case = build(NAME, &document).map_err(Failure::usage)?;
+        let scene = Candidate { document, case };
+        let looked = reducer.look(scene, record.clone(), symptom)?;
+        if let Some(number) = groups.count_reduced(&looked.key) {
+            return Ok(number);
+        }
+        let Candidate { document, case } = looked.scene;
+        let mut group = Group::new(None, &document, looked.symptom, looked.key);
+        group.scene = group.steady.then_some(case);
+        Ok(groups.push(group))
+    }
+}
+
+/// Returns lines on the records that are known by their look, by finding; nothing where there are none.
+pub(crate) fn lines(run: &Run) -> String {
+    let mut findings: BTreeMap<&str, (u64, &str)> = BTreeMap::new();
+    for record in &run.records {
+        if let (Some(expected), Some(case)) = (&record.expected, &record.look) {
+            findings.entry(&expected.reason).or_insert((0, case)).0 += 1;
+        }
+    }
+    let count: u64 = findings.values().map(|(count, _)| count).sum();
+    let mut text = match count {
+        0 => String::new(),
+        1 => "1 record is known by its look\n".to_owned(),
+        count => format!("{count} records are known by their look\n"),
+    };
+    for (reason, (count, case)) in findings {
+        text.push_str(&format!("{count:6}  {reason}: like {case}\n"));
+    }
+    text
+}
