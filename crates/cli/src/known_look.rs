@@ -6,6 +6,7 @@
 
 use crate::cases::find;
 use crate::failure::Failure;
+use crate::match_text::match_sentence;
 use crate::output::say;
 use crate::reduction::{Reducer, confirm};
 use etalon_case::{Case, Library, Profile, build};
@@ -18,7 +19,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// The number and the id of the cases that are built for a reduction.
+/// The id of the cases that are built for a reduction.
 const NAME: &str = "found/look";
 
 /// What a comparison with findings needs.
@@ -81,16 +82,21 @@ impl Looks<'_> {
         let cases = cases.map(|case| (case.id(), case));
         let mut bugs = KnownBugs::new(self.expectations, adapter, cases, reducer());
         let mut matches: Vec<Option<Match>> = Vec::new();
+        let name = &adapter.name;
         for group in groups.iter_mut() {
             if let Some(case) = group.scene.take() {
                 let steady = confirm(launch, &case, &group.symptom, self.timeout);
                 group.steady = steady.is_ok();
             }
-            matches.push(if group.can_be_compared() {
+            let found = if group.can_be_compared() {
                 bugs.matching(group.verdict, &group.traits, group.steady)?
             } else {
                 None
-            });
+            };
+            if let Some(like) = found.as_ref().filter(|found| !found.is_exact()) {
+                say!("{name}: {} of them: {}", group.count, match_sentence(like));
+            }
+            matches.push(found);
         }
         for (record, number) in failing.into_iter().zip(numbers) {
             if let Some(known) = matches[number].as_ref().filter(|known| known.is_exact()) {
