@@ -6,14 +6,16 @@ mod claims;
 mod data;
 mod driver;
 mod front;
-#[cfg(test)]
-mod made;
 mod name;
 mod page;
 mod pictures;
 mod scatter;
 mod stability;
 mod summary;
+#[cfg(test)]
+mod tests {
+    pub(crate) mod made;
+}
 
 pub(crate) use data::Methods;
 pub(crate) use driver::section as driver_section;

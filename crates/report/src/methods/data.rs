@@ -411,7 +411,7 @@ fn settings<'a>(record: &'a Record, m: &'a Measured) -> impl Iterator<Item = (&'
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::made::{Made, run};
+    use crate::methods::tests::made::{Made, run};
 
     #[test]
     fn records_are_sorted_into_families_and_series() {

@@ -183,7 +183,7 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::made::{Made, run};
+    use crate::methods::tests::made::{Made, run};
 
     #[test]
     fn only_equals_are_ranked_and_one_alone_is_not() {
