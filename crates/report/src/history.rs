@@ -17,4 +17,4 @@ mod sparkline;
 mod times;
 mod write;
 
-pub use write::{HISTORY_PAGE_FILE, WrittenHistory, write_history};
+pub use write::{HISTORY_PAGE_FILE, write_history};

@@ -436,7 +436,7 @@ impl<'a> View<'a> {
             Alpha::None => {}
             Alpha::One(code) => {
                 let value = crate::words::value_text(image.channels[3], code);
-                text.push_str(&format!(" Alpha is {value} everywhere."));
+                text += &format!(" Alpha is {value} everywhere.");
             }
             Alpha::Varies => text.push_str(" Alpha has grey pictures of its own."),
         }
@@ -449,7 +449,7 @@ impl<'a> View<'a> {
         let [width, height] = image.size;
         if (self.window.width, self.window.height) != (width, height) {
             let Window { x, y, .. } = self.window;
-            text.push_str(&format!(" Only the part from texel ({x}, {y}) is shown."));
+            text += &format!(" Only the part from texel ({x}, {y}) is shown.");
         }
         text
     }

@@ -5,7 +5,7 @@
 
 use super::courses::{Course, Courses};
 use super::looks::Looks;
-use super::news::{self, News};
+use super::news::{self, News, Told};
 use super::places::Places;
 use super::times::{Series, Timed};
 use crate::lists::Interner;
@@ -13,7 +13,7 @@ use crate::numbers::trimmed;
 use crate::words::machine;
 use etalon_history::{History, Kind, TriageEntry, format_time};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The bytes at which a file ends and the next begins.
@@ -26,21 +26,15 @@ pub(super) fn file(name: &str, value: &str) -> String {
 }
 
 /// Texts in lists of so many bytes that each makes a file; a text is never divided.
-pub(super) struct Packed {
+#[derive(Default)]
+pub(super) struct Files {
     /// The number of the first text of each file.
     pub(super) first: Vec<usize>,
     /// The texts of each file, joined by commas.
     pub(super) files: Vec<String>,
 }
 
-impl Packed {
-    pub(super) fn new() -> Self {
-        Self {
-            first: Vec::new(),
-            files: Vec::new(),
-        }
-    }
-
+impl Files {
     pub(super) fn push(&mut self, number: usize, text: &str) {
         match self.files.last_mut() {
             Some(file) if file.len() + text.len() < FILE => {
@@ -53,17 +47,11 @@ impl Packed {
             }
         }
     }
-
-    /// The number of the file that was pushed to last.
-    pub(super) fn last(&self) -> usize {
-        self.files.len().saturating_sub(1)
-    }
 }
 
 /// All runs, timelines, drivers, machines and looks.
 pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Value {
-    let mut drivers: Interner<[String; 3]> = Interner::default();
-    let mut machines: Interner<String> = Interner::default();
+    let (mut drivers, mut machines) = (Interner::default(), Interner::default());
     let timelines: Vec<Value> = places
         .timelines
         .iter()
@@ -112,8 +100,8 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
     json!({
         "runs": runs,
         "timelines": timelines,
-        "drivers": drivers.values,
-        "machines": machines.values,
+        "drivers": drivers,
+        "machines": machines,
         "looks": looks.data(),
     })
 }
@@ -134,9 +122,10 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
 }
 
 /// Files of courses. Cases of one file that went the same way share a text, which most do.
+#[derive(Default)]
 pub(super) struct CaseFiles {
-    /// The place of the first case of each file among all cases.
-    pub(super) first: Vec<usize>,
+    /// The place of the first case of each file among all cases, but of the first file.
+    first: Vec<usize>,
     files: Vec<String>,
     now: CaseFile,
 }
@@ -144,8 +133,7 @@ pub(super) struct CaseFiles {
 /// A file in the making.
 #[derive(Default)]
 struct CaseFile {
-    numbers: HashMap<String, usize>,
-    courses: Vec<String>,
+    courses: Interner<String>,
     of: Vec<usize>,
     /// The place of a case within the file, the file of its times or -1, and what people said.
     more: Vec<Value>,
@@ -153,20 +141,12 @@ struct CaseFile {
 }
 
 impl CaseFiles {
-    pub(super) fn new() -> Self {
-        Self {
-            first: vec![0],
-            files: Vec::new(),
-            now: CaseFile::default(),
-        }
-    }
-
     /// Adds the case at this place: its course on all timelines, the file of its times, what people said.
     pub(super) fn push(
         &mut self,
         place: usize,
         case: usize,
-        courses: &[Courses],
+        told: &[Told<'_>],
         times: Option<usize>,
         said: &[&TriageEntry],
     ) {
@@ -175,42 +155,37 @@ impl CaseFiles {
             self.first.push(place);
         }
         let now = &mut self.now;
-        let on_line = |(line, of): (usize, &Courses)| {
-            let course = of.of[case].as_ref()?;
-            Some(course_data(line, course, of))
+        let on_line = |(line, told): (usize, &Told<'_>)| {
+            let courses = &told.courses;
+            Some(course_data(line, courses.of[case].as_ref()?, courses))
         };
-        let lines = courses.iter().enumerate().filter_map(on_line);
+        let lines = told.iter().enumerate().filter_map(on_line);
         let text = lines.collect::<Value>().to_string();
         now.bytes += 4;
-        let number = match now.numbers.get(&text) {
-            Some(number) => *number,
-            None => {
-                now.bytes += text.len();
-                now.numbers.insert(text.clone(), now.courses.len());
-                now.courses.push(text);
-                now.courses.len() - 1
-            }
-        };
+        if !now.courses.has(&text) {
+            now.bytes += text.len();
+        }
         if times.is_some() || !said.is_empty() {
             let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
             let more = json!([now.of.len(), times.map_or(-1, |t| t as i64), said]);
             now.bytes += more.to_string().len();
             now.more.push(more);
         }
-        now.of.push(number);
+        now.of.push(now.courses.place(text));
     }
 
-    /// The texts of all files.
+    /// The first case of each file, and the texts of all files.
     pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
         self.files.push(self.now.text());
+        self.first.insert(0, 0);
         (self.first, self.files)
     }
 }
 
 impl CaseFile {
     fn text(self) -> String {
-        let (courses, places, more) = (self.courses.join(","), json!(self.of), json!(self.more));
-        format!("[[{courses}],{places},{more}]")
+        let courses = self.courses.values.join(",");
+        format!("[[{courses}],{},{}]", json!(self.of), json!(self.more))
     }
 }
 
@@ -349,12 +324,12 @@ fn number(value: f64) -> Value {
 /// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
 pub(super) fn events(
     places: &Places<'_>,
-    courses: &[Courses],
+    told: &[Told<'_>],
     ranks: &[usize],
 ) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
-    for (line, line_courses) in courses.iter().enumerate() {
-        for (case, course) in line_courses.of.iter().enumerate() {
+    for (line, told) in told.iter().enumerate() {
+        for (case, course) in told.courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
                 let place = places.timelines[line].runs[event.at as usize].place;
                 let kinds = found.entry(place).or_default();
@@ -425,7 +400,7 @@ mod tests {
 
     #[test]
     fn files_hold_whole_texts() {
-        let mut packed = Packed::new();
+        let mut packed = Files::default();
         let long = "x".repeat(60_000);
         for number in 0..3 {
             packed.push(number, &long);

@@ -4,10 +4,11 @@ use super::courses::Courses;
 use super::families::Families;
 use super::looks::Looks;
 use super::places::{Line, Places};
+use super::scores::Scores;
 use super::times::{Series, Timed};
 use crate::lists::grouped;
 use crate::numbers::{between, change, count};
-use etalon_history::{Subject, TriageEntry, TriageState, TriageStates};
+use etalon_history::{History, HistoryError, Subject, TriageEntry, TriageState, TriageStates};
 use etalon_stats::{Cause, ChangePoint, Event};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -29,36 +30,20 @@ pub(super) enum Kind {
     Known,
 }
 
+/// The kinds, each with the class that colours its lines, and the most lines where there are many of others.
+const KINDS: [(Kind, &str, usize); 6] = [
+    (Kind::Broken, "f", 10),
+    (Kind::Flaky, "o", 3),
+    (Kind::Set, "n", 3),
+    (Kind::Fixed, "p", 3),
+    (Kind::Times, "b", 4),
+    (Kind::Known, "u", 1),
+];
+
 impl Kind {
-    pub(super) const ALL: [Self; 6] = [
-        Self::Broken,
-        Self::Flaky,
-        Self::Set,
-        Self::Fixed,
-        Self::Times,
-        Self::Known,
-    ];
-
-    /// The most lines of the kind where there are many of others.
-    fn due(self) -> usize {
-        match self {
-            Self::Broken => 10,
-            Self::Flaky | Self::Set | Self::Fixed => 3,
-            Self::Times => 4,
-            Self::Known => 1,
-        }
-    }
-
     /// The class that colours a line.
     pub(super) fn colour(self) -> &'static str {
-        match self {
-            Self::Broken => "f",
-            Self::Flaky => "o",
-            Self::Set => "n",
-            Self::Fixed => "p",
-            Self::Times => "b",
-            Self::Known => "u",
-        }
+        KINDS[self as usize].1
     }
 }
 
@@ -79,12 +64,37 @@ pub(super) struct Item {
     rank: (i64, String),
 }
 
-/// A timeline as the news reads it.
+/// A timeline and what is known of it.
 pub(super) struct Told<'a> {
     pub(super) line: &'a Line<'a>,
-    pub(super) courses: &'a Courses,
+    pub(super) courses: Courses,
+    pub(super) scores: Scores,
     /// The last run, as a place in the timeline.
     pub(super) last: usize,
+}
+
+impl<'a> Told<'a> {
+    /// Reads all records of a timeline.
+    pub(super) fn read(
+        history: &History,
+        places: &Places<'_>,
+        line: &'a Line<'a>,
+        families: &Families,
+        looks: &mut Looks,
+    ) -> Result<Self, HistoryError> {
+        let mut scores = Scores::new(families.names.len(), line.runs.len());
+        let cases = families.of.len();
+        let courses = Courses::read(history, line, cases, looks, |run, case, look, looks| {
+            scores.take(families.of[case], run, looks.class(look));
+        })?;
+        scores.compare(&courses, line, families, looks);
+        Ok(Self {
+            line,
+            courses,
+            scores,
+            last: line.last(&places.runs),
+        })
+    }
 }
 
 /// The news, and what is counted of them per timeline.
@@ -95,15 +105,19 @@ pub(super) struct News {
     pub(super) counts: Vec<[u64; 5]>,
 }
 
-/// The place of an event in [`News::counts`] and in files.
+/// The events in the order of [`News::counts`] and of files, each with the kind and the word of its lines.
+const EVENTS: [(Event, Kind, &str); 5] = [
+    (Event::Broken, Kind::Broken, "✗ broken"),
+    (Event::Flaky, Kind::Flaky, "⇄ flaky"),
+    (Event::Fixed, Kind::Fixed, "✓ fixed"),
+    (Event::Appeared, Kind::Set, "+ appeared"),
+    (Event::Gone, Kind::Set, "− gone"),
+];
+
+/// The place of an event in [`EVENTS`].
 pub(super) fn number(event: Event) -> usize {
-    match event {
-        Event::Broken => 0,
-        Event::Flaky => 1,
-        Event::Fixed => 2,
-        Event::Appeared => 3,
-        Event::Gone => 4,
-    }
+    let place = EVENTS.iter().position(|(known, ..)| *known == event);
+    place.unwrap_or_default()
 }
 
 struct Hit {
@@ -169,21 +183,19 @@ impl News {
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
-        let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
-        for kind in Kind::ALL {
-            let lines = items(kind).count().min(kind.due()).min(room);
-            counts.insert(kind, lines);
+        let mut counts = KINDS.map(|(kind, _, due)| {
+            let lines = items(kind).count().min(due).min(room);
             room -= lines;
-        }
-        for kind in Kind::ALL {
-            let lines = counts.entry(kind).or_default();
+            lines
+        });
+        for (lines, (kind, ..)) in counts.iter_mut().zip(KINDS) {
             let more = (items(kind).count() - *lines).min(room);
             *lines += more;
             room -= more;
         }
-        counts
-            .into_iter()
-            .flat_map(|(kind, lines)| items(kind).take(lines))
+        let lines = KINDS.into_iter().zip(counts);
+        lines
+            .flat_map(|((kind, ..), lines)| items(kind).take(lines))
             .collect()
     }
 }
@@ -222,13 +234,9 @@ fn of_case(
         .into_iter()
         .map(|(text, names)| format!("{text} on {}", named(&names)))
         .collect();
-    let (kind_of, word) = match kind {
-        0 => (Kind::Broken, "✗ broken"),
-        1 => (Kind::Flaky, "⇄ flaky"),
-        _ => (Kind::Fixed, "✓ fixed"),
-    };
+    let (_, kind, word) = EVENTS[kind];
     Item {
-        kind: if is_known { Kind::Known } else { kind_of },
+        kind: if is_known { Kind::Known } else { kind },
         word: word.to_owned(),
         subject: case.to_owned(),
         is_family: false,
@@ -252,12 +260,13 @@ fn of_set(
         .keys()
         .map(|line| &*lines_told[*line].line.name)
         .collect();
-    let (word, verb) = match kind {
-        3 => ("+ appeared", "new"),
-        _ => ("− gone", "without a verdict"),
+    let (event, kind, word) = EVENTS[kind];
+    let verb = match event {
+        Event::Appeared => "new",
+        _ => "without a verdict",
     };
     Item {
-        kind: Kind::Set,
+        kind,
         word: word.to_owned(),
         subject: family.to_owned(),
         is_family: true,

@@ -1,7 +1,7 @@
 //! The start page.
 
 use super::families::Families;
-use super::matrix::{self, Counted};
+use super::matrix;
 use super::news::{Item, News, Told};
 use super::places::Places;
 use super::sparkline::{moves, sparkline};
@@ -31,7 +31,6 @@ pub(super) struct Start<'a> {
     pub(super) history: &'a History,
     pub(super) places: &'a Places<'a>,
     pub(super) families: &'a Families,
-    pub(super) counted: &'a [Counted<'a>],
     pub(super) told: &'a [Told<'a>],
     pub(super) news: &'a News,
     pub(super) cases: usize,
@@ -63,18 +62,14 @@ pub(super) fn page(start: &Start<'_>) -> String {
             (last_runs(start))
             section id="over-time" {
                 h2 { "Areas over time" }
-                @for (number, counted) in start.counted.iter().enumerate() {
-                    (matrix::table(places, start.families, number, counted))
+                @for (number, told) in start.told.iter().enumerate() {
+                    (matrix::table(places, start.families, number, told))
                 }
             }
             (families(start))
         }
-        article id="view" aria-labelledby="view-title" hidden {
-            p { a id="back" href="#" { "← Start" } }
-            h1 id="view-title" tabindex="-1" {}
-            div id="view-body" {}
-            p id="view-state" role="status" {}
-        }
+        article id="view" aria-labelledby="view-title" hidden {}
+        p id="view-state" role="status" {}
         // A string of JSON in which nothing can end the element.
         script type="application/json" id="index" { (PreEscaped(start.index.replace('<', "\\u003c"))) }
         (page::script(SCRIPT))
@@ -163,14 +158,13 @@ fn last_change(line: &Told<'_>) -> Option<usize> {
 fn families(start: &Start<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..start.families.names.len())
         .map(|family| {
-            let scores_of = |counted: &Counted<'_>| {
-                let whole =
-                    (0..counted.line.runs.len()).filter(|index| counted.line.runs[*index].whole);
+            let scores_of = |told: &Told<'_>| {
+                let whole = (0..told.line.runs.len()).filter(|index| told.line.runs[*index].whole);
                 whole
-                    .map(|index| counted.scores.common(family, index))
+                    .map(|index| told.scores.common(family, index))
                     .collect()
             };
-            start.counted.iter().map(scores_of).collect()
+            start.told.iter().map(scores_of).collect()
         })
         .collect();
     let is_moving = |family: &usize| scores[*family].iter().any(|row| moves(row));
@@ -197,8 +191,8 @@ fn curves(start: &Start<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], captio
             let name = &start.families.names[**family];
             html! { a href={ "#q=" (link::encoded(name)) } { (name) } }
         });
-    for (i, counted) in start.counted.iter().enumerate() {
-        table = table.text(breakable(&counted.line.name), move |family| {
+    for (i, told) in start.told.iter().enumerate() {
+        table = table.text(breakable(&told.line.name), move |family| {
             curve(&scores[**family][i])
         });
     }

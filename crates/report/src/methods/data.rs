@@ -296,17 +296,15 @@ impl<'a> Methods<'a> {
                 .push((record, m));
         }
         let questions = sorted.into_iter().map(|(name, scenes)| {
-            let mut methods: Vec<&str> =
-                scenes.values().flatten().map(|(_, m)| &*m.method).collect();
-            methods.sort_unstable();
-            methods.dedup();
+            let methods = scenes.values().flatten().map(|(_, m)| &*m.method);
+            let methods: BTreeSet<&str> = methods.collect();
             let scenes = scenes.into_iter();
             Question {
                 name,
                 scenes: scenes
                     .map(|(s, series)| scene(name, s, &series, &adapters))
                     .collect(),
-                methods,
+                methods: methods.into_iter().collect(),
             }
         });
         let questions = questions.collect();
@@ -322,11 +320,8 @@ impl<'a> Methods<'a> {
     }
 
     /// The kinds of adapters there are, in order.
-    pub(crate) fn kinds(&self) -> Vec<Kind> {
-        let mut kinds: Vec<Kind> = self.adapters.iter().map(|a| a.kind).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        kinds
+    pub(crate) fn kinds(&self) -> BTreeSet<Kind> {
+        self.adapters.iter().map(|a| a.kind).collect()
     }
 }
 
@@ -448,7 +443,7 @@ mod tests {
             "alpha 0.5, size=8",
         ];
         assert_eq!(settings, expected);
-        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
+        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware].into());
         assert_eq!(methods.questions[1].style("b"), 1);
     }
 

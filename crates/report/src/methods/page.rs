@@ -61,7 +61,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         "run.jsonl and pictures/ in this folder",
         &main,
     )
-    .style(chart::STYLE)
+    .style(&chart::style())
     .style(STYLE)
     .script(SCRIPT, false)
     .html()

@@ -11,6 +11,7 @@ use crate::chart::{
 use crate::lists::grouped;
 use crate::numbers::share;
 use maud::{Markup, html};
+use std::collections::BTreeSet;
 
 /// The break of one method's curve, and the adapters that share it.
 pub(super) struct CurveBreak<'a> {
@@ -33,12 +34,9 @@ impl CurveBreak<'_> {
 }
 
 /// The parameters along which some method of the scene has a curve.
-fn parameters<'a>(scene: &SceneSeries<'a>) -> Vec<&'a str> {
+fn parameters<'a>(scene: &SceneSeries<'a>) -> BTreeSet<&'a str> {
     let curves = scene.series.iter().filter(|s| s.values().len() > 1);
-    let mut names: Vec<&str> = curves.filter_map(|s| s.parameter).collect();
-    names.sort_unstable();
-    names.dedup();
-    names
+    curves.filter_map(|s| s.parameter).collect()
 }
 
 /// The curves along a parameter.
@@ -117,9 +115,7 @@ pub(super) fn charts<'a>(
     let mut panels = Vec::new();
     for parameter in parameters(scene) {
         let found = curves(scene, parameter);
-        let mut variants: Vec<&str> = found.iter().map(|s| s.variant.as_str()).collect();
-        variants.sort_unstable();
-        variants.dedup();
+        let variants: BTreeSet<&str> = found.iter().map(|s| s.variant.as_str()).collect();
         for variant in variants {
             let in_variant = found.iter().copied().filter(|s| s.variant == variant);
             let series: Vec<&Series<'a>> = in_variant.collect();

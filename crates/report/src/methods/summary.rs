@@ -160,7 +160,7 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
     for best in best(methods).iter().filter(|best| best.number < LISTED) {
         let mut line = format!("  {}{}", best.scene, best.setting.at());
         if several {
-            line.push_str(&format!(" ({})", best.kind.name()));
+            line += &format!(" ({})", best.kind.name());
         }
         let (method, error) = (best.accurate.0, share(best.accurate.1));
         line.push_str(&match best.fast {
@@ -170,12 +170,12 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
                 format!(": {method} {error}; {fast} {} on {adapter}", duration(time))
             }
         });
-        text.push_str(&format!("{}\n", plain(&line, width.max(20))));
+        text += &format!("{}\n", plain(&line, width.max(20)));
     }
     let scenes = methods.scenes().count();
     if scenes > LISTED {
         let more = count((scenes - LISTED) as u64, "more scene");
-        text.push_str(&format!("  and {more}\n"));
+        text += &format!("  and {more}\n");
     }
     text
 }

@@ -100,6 +100,12 @@ impl<'a> Grid<'a> {
     pub(crate) fn record(&self, index: usize) -> &'a Record {
         &self.run.records[index]
     }
+
+    /// The records on one adapter, by area, case file and case.
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &'a Record> {
+        let indices = self.areas.iter().flat_map(move |area| area.on(adapter));
+        indices.map(|index| self.record(index))
+    }
 }
 
 impl Area<'_> {

@@ -49,10 +49,10 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text.push_str(&unexpected(run, options));
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
     if improvements > 0 {
-        text.push_str(&format!(
+        text += &format!(
             "{}: their expectations can be removed\n",
             count(improvements as u64, "improvement")
-        ));
+        );
     }
     text.push_str(&incomplete(run));
     text
@@ -151,10 +151,10 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     if reasons.len() > REASONS {
         let others = &reasons[REASONS..];
         let n: u64 = others.iter().map(Undrawn::records).sum();
-        text.push_str(&format!(
+        text += &format!(
             "  {n:>width$}  for {}\n",
             count(others.len() as u64, "other reason")
-        ));
+        );
     }
     text
 }
@@ -182,7 +182,7 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         let adapter = plain(&record.adapter, 60);
         // One line, whole: a terminal breaks it where it must, and a program finds all of it.
         let (case, reason) = (plain(&record.case, 300), headline(record));
-        text.push_str(&format!("{head}  {adapter}  {case}: {reason}\n"));
+        text += &format!("{head}  {adapter}  {case}: {reason}\n");
     }
     match bad.len().saturating_sub(LISTED) {
         0 => {}
@@ -198,10 +198,10 @@ fn incomplete(run: &Run) -> String {
     }
     let missing = run.missing();
     if missing > 0 {
-        text.push_str(&format!(
+        text += &format!(
             "Incomplete: {missing} of {} records are missing.\n",
             run.header.expected_records()
-        ));
+        );
     }
     text
 }

@@ -72,20 +72,18 @@ pub(super) fn compared(claim: &Claim) -> String {
             names.join(", ")
         }
     };
-    text.push_str(&format!(". Cases: {families}"));
+    text += &format!(". Cases: {families}");
     match claim.values {
         Values::All => {}
         Values::Between(low, high) if high.is_infinite() => {
-            text.push_str(&format!(" from {} on", digits(low, 3)));
+            text += &format!(" from {} on", digits(low, 3));
         }
         Values::Between(low, high) => {
-            text.push_str(&format!(" from {} to {}", digits(low, 3), digits(high, 3)));
+            text += &format!(" from {} to {}", digits(low, 3), digits(high, 3));
         }
     }
     if let Some([less, more]) = claim.fewer {
-        text.push_str(&format!(
-            ", on adapters where {less} counts fewer fragments than {more}"
-        ));
+        text += &format!(", on adapters where {less} counts fewer fragments than {more}");
     }
     text.push('.');
     if !claim.note.is_empty() {
