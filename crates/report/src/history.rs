@@ -9,6 +9,7 @@ mod data;
 mod families;
 mod looks;
 mod matrix;
+mod model;
 mod news;
 mod page;
 mod places;

@@ -12,13 +12,14 @@ mod pictures;
 mod scatter;
 mod stability;
 mod summary;
-#[cfg(test)]
-mod tests {
-    pub(crate) mod made;
-}
 
 pub(crate) use data::Methods;
 pub(crate) use driver::section as driver_section;
 pub(crate) use name::PAGE;
 pub(crate) use page::page;
 pub(crate) use summary::{lines, section};
+
+#[cfg(test)]
+mod tests {
+    pub(crate) mod made;
+}

@@ -4,9 +4,8 @@
 //! which could name a prototype.
 
 use super::courses::{Course, Courses};
-use super::looks::Looks;
-use super::news::{self, News, Told};
-use super::places::Places;
+use super::model::{Model, Told};
+use super::news::{self, News};
 use super::times::{Series, Timed};
 use crate::lists::Interner;
 use crate::numbers::trimmed;
@@ -50,7 +49,8 @@ impl Files {
 }
 
 /// All runs, timelines, drivers, machines and looks.
-pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Value {
+pub(super) fn runs(model: &Model<'_>) -> Value {
+    let places = model.places;
     let (mut drivers, mut machines) = (Interner::default(), Interner::default());
     let timelines: Vec<Value> = places
         .timelines
@@ -72,7 +72,7 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
         .runs
         .iter()
         .map(|run| {
-            let on = history.machine(run.machine).map(machine);
+            let on = model.history.machine(run.machine).map(machine);
             let on = machines.place(on.unwrap_or_default());
             let labels: Vec<[String; 2]> = run
                 .labels
@@ -102,7 +102,7 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
         "timelines": timelines,
         "drivers": drivers,
         "machines": machines,
-        "looks": looks.data(),
+        "looks": model.looks.data(),
     })
 }
 
@@ -322,16 +322,12 @@ fn number(value: f64) -> Value {
 }
 
 /// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
-pub(super) fn events(
-    places: &Places<'_>,
-    told: &[Told<'_>],
-    ranks: &[usize],
-) -> BTreeMap<usize, String> {
+pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
-    for (line, told) in told.iter().enumerate() {
+    for (line, told) in model.told.iter().enumerate() {
         for (case, course) in told.courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
-                let place = places.timelines[line].runs[event.at as usize].place;
+                let place = told.line.runs[event.at as usize].place;
                 let kinds = found.entry(place).or_default();
                 let key = (line, news::number(event.event));
                 kinds.entry(key).or_default().push(ranks[case]);

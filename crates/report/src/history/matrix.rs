@@ -1,8 +1,8 @@
 //! Areas against versions, one table per timeline: the share of good cases.
 
 use super::families::Families;
-use super::news::Told;
-use super::places::{Line, Places};
+use super::model::{Model, Told};
+use super::places::Line;
 use crate::numbers::{percent, thousands};
 use crate::page::adapter::breakable;
 use crate::table::{Cell, Table};
@@ -30,12 +30,8 @@ fn columns(line: &Line<'_>) -> Vec<usize> {
 }
 
 /// The table of a timeline.
-pub(super) fn table(
-    places: &Places<'_>,
-    families: &Families,
-    number: usize,
-    told: &Told<'_>,
-) -> Markup {
+pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
+    let (places, families, told) = (model.places, &model.families, &model.told[number]);
     let line = told.line;
     let shown_runs = columns(line);
     let shown = &shown_runs[shown_runs.len().saturating_sub(COLUMNS)..];

@@ -1,13 +1,12 @@
 //! Writing the pages of a history.
 
 use super::data::{self, CaseFiles, Files, file};
-use super::families::Families;
-use super::looks::Looks;
 use super::matrix;
-use super::news::{News, Told};
-use super::page::{Start, page};
+use super::model::Model;
+use super::news::News;
+use super::page::page;
 use super::places::Places;
-use super::times::{self, Series};
+use super::times::Series;
 use crate::error::ReportError;
 use crate::staged::{Kind, Staged, WrittenFolder};
 use etalon_history::{History, Labels, TriageEntry};
@@ -42,43 +41,27 @@ pub fn write_history(
         });
     }
     let mut folder = Staged::begin(to, &FOLDER, true)?;
-    let cases = history.cases()?;
-    let families = Families::new(cases);
-    let mut looks = Looks::default();
-    let read = |line| Told::read(history, &places, line, &families, &mut looks);
-    let told = places.timelines.iter().map(read);
-    let told: Vec<Told<'_>> = told.collect::<Result<_, _>>()?;
-    let states = history.triage_states()?;
-    let series = times::read(history, &places, &states)?;
-    let news = News::find(&places, &told, cases, &families, &looks, &series, &states);
-
+    let model = Model::read(history, &places)?;
+    let news = News::find(&model);
     let mut write = |name: &str, value: &str| {
         folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
     };
-    let order = Order::of(cases);
-    write("runs", &data::runs(history, &places, &looks).to_string())?;
-    write("cases", &data::cases(cases, &order.cases).to_string())?;
+    let order = Order::of(model.cases);
+    write("runs", &data::runs(&model).to_string())?;
+    write("cases", &data::cases(model.cases, &order.cases).to_string())?;
     write("news", &data::news(&news).to_string())?;
-    let (packed, index) = packed(history, &places, &told, &series, &order)?;
+    let (packed, index) = packed(&model, &order)?;
     for (kind, files) in &packed {
         for (number, text) in files.iter().enumerate() {
             write(&format!("{kind}-{number}"), text)?;
         }
     }
-    for (number, told) in told.iter().enumerate() {
-        let value = matrix::data(&families, told).to_string();
+    for (number, told) in model.told.iter().enumerate() {
+        let value = matrix::data(&model.families, told).to_string();
         write(&format!("adapter-{number}"), &value)?;
     }
-    let html = page(&Start {
-        history,
-        places: &places,
-        families: &families,
-        told: &told,
-        news: &news,
-        cases: cases.len(),
-        index: &index.to_string(),
-    });
-    let (runs, cases) = (places.runs.len(), cases.len());
+    let html = page(&model, &news, &index.to_string());
+    let (runs, cases) = (places.runs.len(), model.cases.len());
     let about = json!({ "etalon": "history", "format": 1, "runs": runs, "cases": cases });
     folder.finish(html.as_bytes(), about)
 }
@@ -104,35 +87,28 @@ impl Order {
 /// The files of cases, of their frame times and of the events of runs, and the first case or run of each file.
 type Packed = ([(&'static str, Vec<String>); 3], Value);
 
-fn packed(
-    history: &History,
-    places: &Places<'_>,
-    told: &[Told<'_>],
-    series: &[Series],
-    order: &Order,
-) -> Result<Packed, ReportError> {
-    let cases = history.cases()?;
+fn packed(model: &Model<'_>, order: &Order) -> Result<Packed, ReportError> {
     let mut series_of: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
-    for times in series {
+    for times in &model.series {
         series_of.entry(times.case).or_default().push(times);
     }
-    let log = history.triage_log()?;
+    let log = model.history.triage_log()?;
     let mut said: BTreeMap<&str, Vec<&TriageEntry>> = BTreeMap::new();
     for entry in log.iter().filter(|entry| entry.subject.step.is_none()) {
         said.entry(&entry.subject.case).or_default().push(entry);
     }
     let (mut files, mut timed) = (CaseFiles::default(), Files::default());
     for (rank, case) in order.cases.iter().enumerate() {
-        let id = &cases[*case];
+        let id = &model.cases[*case];
         let times = series_of.get(case).map(|series| {
-            timed.push(rank, &data::times(id, history, series));
+            timed.push(rank, &data::times(id, model.history, series));
             timed.files.len() - 1
         });
         let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
-        files.push(rank, *case, told, times, said);
+        files.push(rank, *case, &model.told, times, said);
     }
     let mut events = Files::default();
-    for (place, text) in data::events(places, told, &order.ranks) {
+    for (place, text) in data::events(model, &order.ranks) {
         events.push(place, &text);
     }
     let (first, files) = files.finish();

@@ -1,6 +1,6 @@
 //! The method records of a run, sorted by question, scene and method.
 
-use super::name::value_text;
+use super::name::{anchor, value_text};
 use crate::lists::distinct;
 use etalon_record::{Measured, Record, Run};
 use std::collections::{BTreeMap, BTreeSet};
@@ -116,6 +116,32 @@ impl Setting<'_> {
             text if text.is_empty() => text,
             text => format!(" at {text}"),
         }
+    }
+}
+
+/// A scene as the page shows it.
+pub(crate) struct Shown<'s, 'a> {
+    pub(crate) methods: &'s Methods<'a>,
+    pub(crate) question: &'s Question<'a>,
+    pub(crate) scene: &'s SceneSeries<'a>,
+    /// The id of the element that holds its charts.
+    pub(crate) anchor: String,
+    /// Every setting that some method was drawn at.
+    pub(crate) settings: Vec<Setting<'a>>,
+    /// The place of the setting that stands for the scene.
+    pub(crate) main: usize,
+}
+
+impl Shown<'_, '_> {
+    /// The class of what is shown at a setting only.
+    pub(crate) fn class(&self, class: &str, setting: usize) -> String {
+        let off = if setting == self.main { "" } else { " off" };
+        format!("{class} at{off}")
+    }
+
+    /// The position of a method in its question, which gives it its colour and its shape.
+    pub(crate) fn style(&self, method: &str) -> usize {
+        self.question.style(method)
     }
 }
 
@@ -312,6 +338,27 @@ impl<'a> Methods<'a> {
             adapters,
             questions,
         })
+    }
+
+    /// Every scene as the page shows it.
+    pub(crate) fn shown(&self) -> Vec<Shown<'_, 'a>> {
+        let mut all = Vec::new();
+        for (q, question) in self.questions.iter().enumerate() {
+            all.extend(question.scenes.iter().enumerate().map(|(s, scene)| {
+                let settings = scene.settings();
+                let main = scene.main();
+                let main = settings.iter().position(|s| Some(s) == main.as_ref());
+                Shown {
+                    methods: self,
+                    question,
+                    scene,
+                    anchor: anchor(q, s),
+                    settings,
+                    main: main.unwrap_or(0),
+                }
+            }));
+        }
+        all
     }
 
     /// Every scene of every question.

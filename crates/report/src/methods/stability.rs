@@ -1,7 +1,7 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, Question, SceneSeries, Series, Setting};
+use super::data::{Methods, SceneSeries, Series, Setting, Shown};
 use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
@@ -52,7 +52,8 @@ fn scale(series: &[&Series<'_>]) -> Scale {
 }
 
 /// Every method's break in a scene, in order; adapters that break alike together.
-pub(super) fn found<'a>(methods: &Methods<'a>, scene: &SceneSeries<'a>) -> Vec<CurveBreak<'a>> {
+pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
+    let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
         let all = curves(scene, parameter);
@@ -105,34 +106,25 @@ fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
 }
 
 /// All charts of a scene; none where no method has several values of a parameter.
-pub(super) fn charts<'a>(
-    methods: &Methods<'a>,
-    question: &Question<'a>,
-    scene: &SceneSeries<'a>,
-    settings: &[Setting<'a>],
-    main: usize,
-) -> Vec<Markup> {
+pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
     let mut panels = Vec::new();
-    for parameter in parameters(scene) {
-        let found = curves(scene, parameter);
+    for parameter in parameters(shown.scene) {
+        let found = curves(shown.scene, parameter);
         let variants: BTreeSet<&str> = found.iter().map(|s| s.variant.as_str()).collect();
         for variant in variants {
             let in_variant = found.iter().copied().filter(|s| s.variant == variant);
-            let series: Vec<&Series<'a>> = in_variant.collect();
-            for adapters in alike(methods, &series) {
-                let curves = (parameter, variant, &series[..]);
-                let place = (settings, main);
-                panels.push(panel(methods, question, scene, curves, &adapters, place));
-            }
+            let series: Vec<&Series<'_>> = in_variant.collect();
+            let adapters = alike(shown.methods, &series).into_iter();
+            panels.extend(adapters.map(|on| panel(shown, parameter, variant, &series, &on)));
         }
     }
     panels
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
-pub(super) fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
-    let (broken, steady): (Vec<_>, Vec<_>) =
-        found(methods, scene).into_iter().partition(|f| f.crosses());
+pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
+    let methods = shown.methods;
+    let (broken, steady): (Vec<_>, Vec<_>) = found(shown).into_iter().partition(|f| f.crosses());
     let groups = grouped(steady.into_iter().map(|f| {
         let side = if f.found == Break::Always {
             "Always"
@@ -194,14 +186,14 @@ fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
     groups
 }
 
-fn panel<'a>(
-    methods: &Methods<'a>,
-    question: &Question<'a>,
-    scene: &SceneSeries<'a>,
-    (parameter, variant, series): (&str, &str, &[&Series<'a>]),
+fn panel(
+    shown: &Shown<'_, '_>,
+    parameter: &str,
+    variant: &str,
+    series: &[&Series<'_>],
     adapters: &[usize],
-    (settings, main): (&[Setting<'a>], usize),
 ) -> Markup {
+    let (methods, scene) = (shown.methods, shown.scene);
     let on = adapters[0];
     let errors = series
         .iter()
@@ -234,10 +226,14 @@ fn panel<'a>(
         labels.avoid(&places(s));
     }
     labels.avoid(&[(LEFT, plot.y(LIMIT)), (RIGHT, plot.y(LIMIT))]);
-    let cursors = settings.iter().enumerate().filter_map(|(index, setting)| {
-        let (name, value) = setting.parameter?;
-        (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
-    });
+    let cursors = shown
+        .settings
+        .iter()
+        .enumerate()
+        .filter_map(|(index, setting)| {
+            let (name, value) = setting.parameter?;
+            (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
+        });
     let crossings = |s: &Series<'_>| match breaks::find(&s.curve(on), log) {
         Some(Break::Crossings(crossings)) => crossings,
         _ => Vec::new(),
@@ -261,11 +257,10 @@ fn panel<'a>(
         (plot.frame(value_text, share, parameter, "← more accurate: RMSE"))
         (line_at(&plot, LIMIT, "one"))
         @for (index, x) in cursors {
-            @let hidden = if index == main { "cursor at" } else { "cursor at off" };
-            path class=(hidden) data-at=(index) d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
+            path class=(shown.class("cursor", index)) data-at=(index) d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
         }
         @for s in series {
-            @let (style, places) = (question.style(s.method), places(s));
+            @let (style, places) = (shown.style(s.method), places(s));
             g class={ "of " (color(style)) } {
                 path class={ "curve " (color(style)) } d=(polyline(&places)) stroke-dasharray=(dash(style)) {}
                 @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
@@ -276,7 +271,7 @@ fn panel<'a>(
         }
         g.rings {
             @for (s, rings) in series.iter().zip(&rings) {
-                @let style = color(question.style(s.method));
+                @let style = color(shown.style(s.method));
                 @for (c, center, label) in rings {
                     g class={ "of " (style) } {
                         circle class={ "break " (style) } cx=(n(center.0)) cy=(n(center.1)) r="6" {
@@ -291,7 +286,7 @@ fn panel<'a>(
         }
         @for (s, end) in series.iter().zip(&ends) {
             @if let Some((x, y)) = end {
-                g class={ "of " (color(question.style(s.method))) } {
+                g class={ "of " (color(shown.style(s.method))) } {
                     text.label x=(n(*x)) y=(n(*y)) { (s.method) }
                 }
             }

@@ -2,7 +2,7 @@
 
 use super::breaks::LIMIT;
 use super::data::{Kind, Methods, Point, SceneSeries, Series, Setting};
-use super::name::{PAGE, anchor};
+use super::name::PAGE;
 use crate::numbers::{count, duration, share};
 use crate::table::{Cell, Table};
 use crate::words::plain;
@@ -38,28 +38,24 @@ enum Fast<'a> {
 /// Finds the best methods of all scenes.
 fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
     let mut found = Vec::new();
-    let mut number = 0;
-    for (q, question) in methods.questions.iter().enumerate() {
-        for (s, scene) in question.scenes.iter().enumerate() {
-            let Some(setting) = scene.main() else {
+    for (number, shown) in methods.shown().into_iter().enumerate() {
+        let Some(setting) = shown.scene.main() else {
+            continue;
+        };
+        for kind in methods.kinds() {
+            let all: Vec<_> = candidates(methods, shown.scene, &setting, kind).collect();
+            let Some((series, _, error)) = accurate(&all) else {
                 continue;
             };
-            for kind in methods.kinds() {
-                let all: Vec<_> = candidates(methods, scene, &setting, kind).collect();
-                let Some((series, _, error)) = accurate(&all) else {
-                    continue;
-                };
-                found.push(Best {
-                    anchor: anchor(q, s),
-                    number,
-                    scene: format!("{}/{}", scene.question, scene.name),
-                    setting: setting.clone(),
-                    kind,
-                    accurate: (series.method, *error),
-                    fast: fast(methods, &all),
-                });
-            }
-            number += 1;
+            found.push(Best {
+                anchor: shown.anchor.clone(),
+                number,
+                scene: format!("{}/{}", shown.scene.question, shown.scene.name),
+                setting: setting.clone(),
+                kind,
+                accurate: (series.method, *error),
+                fast: fast(methods, &all),
+            });
         }
     }
     found
