@@ -4,7 +4,7 @@
 //! call of one function with one value. The page's policy lets its own script load them, and nothing else load anything.
 
 use crate::error::ReportError;
-use crate::files::replace;
+use crate::files::{make, replace};
 use crate::lists::Interner;
 use crate::picture::{enlarged, thumbnail};
 use etalon_frame::Frame;
@@ -76,10 +76,7 @@ pub fn reference_png(frame: &Frame) -> Option<Vec<u8>> {
 /// Returns an error if the folder cannot be written to.
 pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), ReportError> {
     let below = folder.join(CATALOGUE);
-    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
-        path: below.clone(),
-        source,
-    })?;
+    make(&below)?;
     let mut areas: BTreeMap<&str, Vec<&CatalogueCase>> = BTreeMap::new();
     for case in &catalogue.cases {
         areas

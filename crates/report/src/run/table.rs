@@ -2,7 +2,7 @@
 
 use crate::methods;
 use crate::numbers::count;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, Tally, rate};
 use crate::run::undrawn::{Undrawn, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
@@ -109,9 +109,13 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     let table = table
         .number("expected", |(_, tally, _)| some(tally.excused()))
         .number("cases/s", |(_, _, rate)| rate.clone());
-    let rows = rows
-        .iter()
-        .map(|(adapter, records)| (*adapter, Tally::of(records.iter().copied()), rate(records)));
+    let rows = rows.iter().map(|(adapter, records)| {
+        (
+            *adapter,
+            Tally::of(records.iter().copied()),
+            rate(records).map(|rate| format!("{rate:.0}")),
+        )
+    });
     let (mut text, left_out) = table.terminal(rows, options, &optional);
     if !left_out.is_empty() {
         text.push('\n');
@@ -157,14 +161,6 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
         );
     }
     text
-}
-
-fn rate(records: &[&Record]) -> Option<String> {
-    let seconds: f64 = records
-        .iter()
-        .map(|r| r.seconds.draw + r.seconds.judge)
-        .sum();
-    (seconds > 0.0).then(|| format!("{:.0}", records.len() as f64 / seconds))
 }
 
 fn unexpected(run: &Run, options: TableOptions) -> String {

@@ -5,12 +5,11 @@ use super::index;
 use crate::catalogue::CATALOGUE;
 use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
-use crate::files::replace;
+use crate::files::{make, replace};
 use crate::methods::{self, Methods};
 use crate::news::News;
 use etalon_frame::threads::join;
 use etalon_record::{Dead, Run};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The files that [`write()`] may write into a run folder.
@@ -125,10 +124,7 @@ fn others(
 /// deqp-runner's lists, in a folder of their own.
 fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Result<Vec<PathBuf>, ReportError> {
     let below = folder.join(deqp::FOLDER);
-    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
-        path: below.clone(),
-        source,
-    })?;
+    make(&below)?;
     let lists = deqp::lists(folder, run, grid).into_iter();
     lists
         .map(|list| replace(&below, &list.name, list.text.as_bytes()))

@@ -137,6 +137,15 @@ impl BenchDiff {
             .collect()
     }
 
+    /// The sign of the conclusion, its class on a page and its colour on a terminal.
+    pub(super) fn look(&self) -> [&'static str; 3] {
+        match (self.worse(), self.untold()) {
+            (true, _) => ["✗", "bad", "31"],
+            (false, [0, 0]) => ["✓", "good", "32"],
+            (false, _) => ["?", "o", "33"],
+        }
+    }
+
     /// The conclusion in one line.
     pub(super) fn conclusion(&self) -> String {
         let mut parts = Vec::new();

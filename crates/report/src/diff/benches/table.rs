@@ -47,11 +47,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
         }
         text.push('\n');
     }
-    let (sign, color) = match (diff.worse(), diff.untold()) {
-        (true, _) => ("✗", "31"),
-        (false, [0, 0]) => ("✓", "32"),
-        (false, _) => ("?", "33"),
-    };
+    let [sign, _, color] = diff.look();
     let line = format!("{sign} {}.", diff.conclusion());
     text.push_str(&options.paint(&plain(&line, 400), color));
     text.push('\n');

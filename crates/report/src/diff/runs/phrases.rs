@@ -8,12 +8,12 @@ use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A sign that distinguishes directions without colour.
-pub(super) fn sign(direction: Direction) -> &'static str {
+/// A sign that distinguishes directions without colour, the colour on a terminal, and the title on a page.
+pub(super) fn look(direction: Direction) -> [&'static str; 3] {
     match direction {
-        Direction::Worse => "✗",
-        Direction::Better => "✓",
-        Direction::Other => "≠",
+        Direction::Worse => ["✗", "31", "Worse"],
+        Direction::Better => ["✓", "32", "Better"],
+        Direction::Other => ["≠", "36", "Other changes"],
     }
 }
 

@@ -120,15 +120,11 @@ fn changes(
     if these.is_empty() {
         return;
     }
-    let color = match direction {
-        Direction::Worse => "31",
-        Direction::Better => "32",
-        Direction::Other => "36",
-    };
+    let [sign, color, _] = phrases::look(direction);
     *text += &format!("\n{} {}\n", these.len(), direction.name());
     let room = options.room(4);
     for change in these.iter().take(most) {
-        let head = format!("{} {}", phrases::sign(direction), phrases::verdicts(change));
+        let head = format!("{sign} {}", phrases::verdicts(change));
         let adapter = plain(&both_names(&change.adapter), 120);
         let case = plain(&change.case, 300);
         *text += &format!("{}  {adapter}  {case}\n", options.paint(&head, color));
