@@ -191,21 +191,16 @@ impl CaseFile {
 
 /// Timeline, first and last run, spans, and gaps and events as far as there are any.
 fn course_data(line: usize, course: &Course, courses: &Courses) -> Value {
-    let spans: Vec<u32> = course
-        .spans
-        .iter()
-        .flat_map(|(from, look)| [*from, *look])
-        .collect();
-    let gaps = courses.gaps.list(course.gaps);
-    let gaps: Vec<u32> = gaps
-        .into_iter()
-        .flat_map(|(from, runs)| [from, runs])
-        .collect();
-    let events: Vec<u32> = course
-        .events
-        .iter()
-        .flat_map(|e| [news::number(e.event) as u32, e.after, e.at])
-        .collect();
+    let flat = |pairs: &[(u32, u32)]| -> Vec<u32> {
+        pairs
+            .iter()
+            .flat_map(|(first, other)| [*first, *other])
+            .collect()
+    };
+    let (spans, gaps) = (flat(&course.spans), flat(&courses.gaps.list(course.gaps)));
+    let events = course.events.iter();
+    let events = events.flat_map(|e| [news::number(e.event) as u32, e.after, e.at]);
+    let events: Vec<u32> = events.collect();
     let mut value = vec![
         json!(line),
         json!(course.first),

@@ -40,32 +40,29 @@ pub(crate) struct Facts {
 }
 
 impl Recorded {
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().filter_map(|file| file.to_str())
+    }
+
     /// The pages, `index.html` first.
     pub(crate) fn pages(&self) -> Vec<&str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
-        let mut pages: Vec<&str> = names
-            .filter(|name| name.ends_with(".html") && !name.contains('/'))
-            .collect();
+        let is_page = |name: &&str| name.ends_with(".html") && !name.contains('/');
+        let mut pages: Vec<&str> = self.names().filter(is_page).collect();
         pages.sort_by_key(|name| (*name != "index.html", *name));
         pages
     }
 
     /// The files beside the pages.
     pub(crate) fn beside(&self) -> impl Iterator<Item = &str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
+        let names = self.names();
         names.filter(|name| !name.ends_with(".html") && !name.contains('/'))
     }
 
     /// The areas whose cases can be seen.
     pub(crate) fn galleries(&self) -> Vec<&str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
-        names
-            .filter_map(|name| {
-                name.strip_prefix(CATALOGUE)?
-                    .strip_prefix('/')?
-                    .strip_suffix(".js")
-            })
-            .collect()
+        let scripts = self.names().filter_map(|name| name.strip_suffix(".js"));
+        let areas = scripts.filter_map(|name| name.strip_prefix(CATALOGUE)?.strip_prefix('/'));
+        areas.collect()
     }
 }
 

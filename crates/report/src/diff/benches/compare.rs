@@ -3,7 +3,7 @@
 use crate::bench::figures::{self, software};
 use crate::numbers::count;
 use crate::words::machine;
-use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
+use etalon_record::{AdapterRecord, Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
 };
@@ -326,17 +326,11 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
         let Some(new) = a.adapter(&old.name) else {
             continue;
         };
-        differs(format!("{}: device", old.name), &old.device, &new.device);
-        differs(
-            format!("{}: driver", old.name),
-            &old.driver_text(),
-            &new.driver_text(),
-        );
-        differs(
-            format!("{}: API", old.name),
-            &old.api_version,
-            &new.api_version,
-        );
+        let facts = |a: &AdapterRecord| [a.device.clone(), a.driver_text(), a.api_version.clone()];
+        let names = ["device", "driver", "API"].into_iter();
+        for (name, (b, a)) in names.zip(facts(old).into_iter().zip(facts(new))) {
+            differs(format!("{}: {name}", old.name), &b, &a);
+        }
     }
     for (bench, name) in [(before, "first"), (after, "second")] {
         if bench.missing() > 0 || bench.truncated {
