@@ -3,7 +3,7 @@
 use etalon_history::HistoryError;
 use etalon_record::RecordError;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The reason for which a report could not be made.
@@ -106,4 +106,22 @@ pub enum ReportError {
         /// The adapters of the second run.
         after: String,
     },
+}
+
+impl ReportError {
+    /// The error of a file that cannot be written.
+    pub(crate) fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Io {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    /// The error of a file that cannot be read.
+    pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Unread {
+            path: path.to_owned(),
+            source,
+        }
+    }
 }

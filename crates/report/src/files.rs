@@ -7,10 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Makes a folder.
 pub(crate) fn make(folder: &Path) -> Result<(), ReportError> {
-    fs::create_dir_all(folder).map_err(|source| ReportError::Io {
-        path: folder.to_owned(),
-        source,
-    })
+    fs::create_dir_all(folder).map_err(ReportError::unwritten(folder))
 }
 
 /// Writes a file of a folder.

@@ -34,10 +34,7 @@ pub struct WrittenFolder {
 /// Checks that a place is empty, or has an earlier folder of the kind, with no other file, that may be replaced.
 fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     let path = to.to_owned();
-    let unread = |source| ReportError::Unread {
-        path: to.to_owned(),
-        source,
-    };
+    let unread = ReportError::unread(to);
     match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
         Ok(true) => return Ok(()),
         Ok(false) => {}
@@ -49,7 +46,7 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
         let kind = kind.names[1];
         return Err(ReportError::Occupied { path, kind });
     }
-    let text = fs::read(&file).map_err(unread)?;
+    let text = fs::read(&file).map_err(&unread)?;
     let value: Value = serde_json::from_slice(&text).unwrap_or_default();
     let listed = value["files"].as_array();
     let listed: Option<HashSet<&str>> =
@@ -59,7 +56,7 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
         None => kind.top.iter().any(|top| path.starts_with(top)),
     };
     let mut paths = Vec::new();
-    files(to, Path::new(""), &mut paths).map_err(unread)?;
+    files(to, Path::new(""), &mut paths).map_err(&unread)?;
     paths.sort_unstable();
     let foreign = |path: &PathBuf| path.as_os_str() != kind.mark && !is_listed(path);
     match paths.into_iter().find(foreign) {
@@ -137,7 +134,7 @@ impl Staged {
         let path = self.beside.join(&name);
         let folder = path.parent().unwrap_or(&self.beside);
         let written = fs::create_dir_all(folder).and_then(|()| fs::write(&path, bytes));
-        written.map_err(|source| wrong(&self.to.join(&name), source))?;
+        written.map_err(ReportError::unwritten(&self.to.join(&name)))?;
         self.names
             .push(name.as_ref().to_string_lossy().into_owned());
         self.bytes += bytes.len() as u64;
@@ -160,17 +157,17 @@ impl Staged {
         let old = self.beside.with_extension("old");
         let replaces = self.to.exists();
         if replaces {
-            fs::rename(&self.to, &old).map_err(|source| wrong(&self.to, source))?;
+            fs::rename(&self.to, &old).map_err(ReportError::unwritten(&self.to))?;
         }
         if let Err(source) = fs::rename(&self.beside, &self.to) {
             if replaces {
                 // Best effort: the first error is the one to report.
                 let _ = fs::rename(&old, &self.to);
             }
-            return Err(wrong(&self.to, source));
+            return Err(ReportError::unwritten(&self.to)(source));
         }
         if replaces {
-            fs::remove_dir_all(&old).map_err(|source| wrong(&old, source))?;
+            fs::remove_dir_all(&old).map_err(ReportError::unwritten(&old))?;
         }
         Ok(WrittenFolder {
             html: self.to.join("index.html"),
@@ -185,12 +182,5 @@ impl Drop for Staged {
     fn drop(&mut self) {
         // Gone if it was finished. Best effort: it is of no use to anyone.
         let _ = fs::remove_dir_all(&self.beside);
-    }
-}
-
-fn wrong(path: &Path, source: io::Error) -> ReportError {
-    ReportError::Io {
-        path: path.to_owned(),
-        source,
     }
 }

@@ -25,11 +25,8 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
     let (low, high) = (low.min(0.99) - 0.005, high.max(1.01) + 0.005);
     let end = points.last()?.0.max(1e-9);
     let plot = Plot {
-        x: Scale::Linear {
-            low: 0.0,
-            high: end,
-        },
-        y: Scale::Linear { low, high },
+        x: Scale::Linear(0.0, end),
+        y: Scale::Linear(low, high),
         zero: 0.0,
     };
     let mut places: Vec<Vec<f64>> = vec![Vec::new(); PLACES];

@@ -71,11 +71,11 @@ fn benchmarks(figures: &[CaseFigures<'_>]) -> Vec<Benchmark> {
             extra: extra(timed),
         }
     };
-    let all = figures.iter().flat_map(|figures| {
-        let timed = figures.timed.iter().flatten();
-        timed.map(|timed| (figures.case, timed))
+    let timed = figures.iter().flat_map(|figures| {
+        let adapters = figures.timed.iter().flatten();
+        adapters.map(|timed| (figures.case, timed))
     });
-    all.map(each).collect()
+    timed.map(each).collect()
 }
 
 fn figure(summary: &Summary) -> Figure {

@@ -37,16 +37,10 @@ struct Document<'a> {
 
 #[derive(Serialize)]
 struct Results<'a> {
-    tool: Tool<'a>,
+    tool: Value,
     summary: Summary,
     tests: Vec<Test<'a>>,
     environment: Environment<'a>,
-}
-
-#[derive(Serialize)]
-struct Tool<'a> {
-    name: &'static str,
-    version: &'a str,
 }
 
 #[derive(Default, Serialize)]
@@ -156,10 +150,7 @@ pub(crate) fn json(run: &Run, grid: &Grid<'_>) -> Result<Vec<u8>, ReportError> {
         spec_version: SPEC_VERSION,
         generated_by: format!("etalon {}", h.etalon),
         results: Results {
-            tool: Tool {
-                name: "etalon",
-                version: &h.etalon,
-            },
+            tool: json!({ "name": "etalon", "version": h.etalon }),
             summary,
             tests,
             environment: Environment {

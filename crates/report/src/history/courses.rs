@@ -8,6 +8,7 @@ use etalon_stats::{Class, Happening, happenings};
 use std::collections::HashMap;
 
 /// The course of one case on one timeline. Runs are places in the timeline.
+#[derive(Default)]
 pub(super) struct Course {
     /// The first run that has a record.
     pub(super) first: u32,
@@ -83,8 +84,7 @@ impl Courses {
         looks: &mut Looks,
         mut each: impl FnMut(usize, usize, u32, &Looks),
     ) -> Result<Self, HistoryError> {
-        let mut course_of: Vec<Option<Course>> = Vec::new();
-        course_of.resize_with(cases, || None);
+        let mut course_of: Vec<Option<Course>> = (0..cases).map(|_| None).collect();
         let mut gaps = Gaps::default();
         for (index, run) in line.runs.iter().enumerate() {
             let here = index as u32;
@@ -108,9 +108,7 @@ impl Courses {
                             first: here,
                             last: here,
                             spans: vec![(here, look)],
-                            gaps: 0,
-                            is_common: false,
-                            events: Vec::new(),
+                            ..Course::default()
                         });
                     }
                 }

@@ -4,7 +4,7 @@
 //! which could name a prototype.
 
 use super::courses::{Course, Courses};
-use super::model::{Model, Told};
+use super::model::{Model, Timeline};
 use super::news::{self, News};
 use super::times::{Series, Timed};
 use crate::lists::Interner;
@@ -146,7 +146,7 @@ impl CaseFiles {
         &mut self,
         place: usize,
         case: usize,
-        told: &[Told<'_>],
+        timelines: &[Timeline<'_>],
         times: Option<usize>,
         said: &[&TriageEntry],
     ) {
@@ -155,11 +155,11 @@ impl CaseFiles {
             self.first.push(place);
         }
         let now = &mut self.now;
-        let on_line = |(line, told): (usize, &Told<'_>)| {
-            let courses = &told.courses;
+        let on_line = |(line, timeline): (usize, &Timeline<'_>)| {
+            let courses = &timeline.courses;
             Some(course_data(line, courses.of[case].as_ref()?, courses))
         };
-        let lines = told.iter().enumerate().filter_map(on_line);
+        let lines = timelines.iter().enumerate().filter_map(on_line);
         let text = lines.collect::<Value>().to_string();
         now.bytes += 4;
         if !now.courses.has(&text) {
@@ -319,10 +319,10 @@ fn number(value: f64) -> Value {
 /// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
 pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
-    for (line, told) in model.told.iter().enumerate() {
-        for (case, course) in told.courses.of.iter().enumerate() {
+    for (line, timeline) in model.timelines.iter().enumerate() {
+        for (case, course) in timeline.courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
-                let place = told.line.runs[event.at as usize].place;
+                let place = timeline.line.runs[event.at as usize].place;
                 let kinds = found.entry(place).or_default();
                 let key = (line, news::number(event.event));
                 kinds.entry(key).or_default().push(ranks[case]);

@@ -1,7 +1,7 @@
 //! Areas against versions, one table per timeline: the share of good cases.
 
 use super::families::Families;
-use super::model::{Model, Told};
+use super::model::{Model, Timeline};
 use super::places::Line;
 use crate::numbers::{percent, thousands};
 use crate::page::adapter::breakable;
@@ -31,16 +31,20 @@ fn columns(line: &Line<'_>) -> Vec<usize> {
 
 /// The table of a timeline.
 pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
-    let (places, families, told) = (model.places, &model.families, &model.told[number]);
-    let line = told.line;
+    let (places, families, timeline) = (model.places, &model.families, &model.timelines[number]);
+    let line = timeline.line;
     let shown_runs = columns(line);
     let shown = &shown_runs[shown_runs.len().saturating_sub(COLUMNS)..];
-    let common = told.scores.sum(0..families.names.len(), shown[0]).common.of;
+    let common = timeline
+        .scores
+        .sum(0..families.names.len(), shown[0])
+        .common
+        .of;
     let areas = (0..families.areas.len())
         .map(|area| (Some(&*families.areas[area]), of_area(families, area)));
     let areas: Vec<(Option<&str>, Vec<usize>)> = areas
         .filter(|(_, family)| {
-            let drawn = |run: &usize| told.scores.sum(family.iter().copied(), *run).own.of;
+            let drawn = |run: &usize| timeline.scores.sum(family.iter().copied(), *run).own.of;
             shown.iter().any(|run| drawn(run) > 0)
         })
         .collect();
@@ -57,7 +61,7 @@ pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
             }
         };
         table = table.text(head, move |(_, cases)| {
-            let sum = |run: usize| told.scores.sum(cases.iter().copied(), run);
+            let sum = |run: usize| timeline.scores.sum(cases.iter().copied(), run);
             let before = i.checked_sub(1).map(|before| sum(shown[before]).common);
             cell(&sum(*number), before)
         });
@@ -122,16 +126,16 @@ fn shade(score: Score) -> Option<String> {
 
 /// The scores of every whole run for the script, newest first: place of the run in the timeline, then by area good and all of the common
 /// set, good and all of the run's own.
-pub(super) fn data(families: &Families, told: &Told<'_>) -> Value {
-    let whole = (0..told.line.runs.len())
+pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
+    let whole = (0..timeline.line.runs.len())
         .rev()
-        .filter(|run| told.line.runs[*run].whole);
+        .filter(|run| timeline.line.runs[*run].whole);
     let areas: Vec<Vec<usize>> = (0..families.areas.len())
         .map(|area| of_area(families, area))
         .collect();
     let rows = whole.map(|run| {
         let cells = areas.iter().map(|family| {
-            let both = told.scores.sum(family.iter().copied(), run);
+            let both = timeline.scores.sum(family.iter().copied(), run);
             match both.own.of {
                 0 => json!(0),
                 _ => json!([both.common.good, both.common.of, both.own.good, both.own.of]),

@@ -16,14 +16,13 @@ pub(super) struct Model<'a> {
     pub(super) cases: &'a [Rc<str>],
     pub(super) families: Families,
     pub(super) looks: Looks,
-    /// By timeline.
-    pub(super) told: Vec<Told<'a>>,
+    pub(super) timelines: Vec<Timeline<'a>>,
     pub(super) series: Vec<Series>,
     pub(super) states: TriageStates,
 }
 
 /// A timeline and what is known of it.
-pub(super) struct Told<'a> {
+pub(super) struct Timeline<'a> {
     pub(super) line: &'a Line<'a>,
     pub(super) courses: Courses,
     pub(super) scores: Scores,
@@ -37,7 +36,7 @@ impl<'a> Model<'a> {
         let cases = history.cases()?;
         let families = Families::new(cases);
         let mut looks = Looks::default();
-        let mut told = Vec::new();
+        let mut timelines = Vec::new();
         for line in &places.timelines {
             let mut scores = Scores::new(families.names.len(), line.runs.len());
             let take = |run, case: usize, look, looks: &Looks| {
@@ -45,7 +44,7 @@ impl<'a> Model<'a> {
             };
             let courses = Courses::read(history, line, cases.len(), &mut looks, take)?;
             scores.compare(&courses, line, &families, &looks);
-            told.push(Told {
+            timelines.push(Timeline {
                 line,
                 courses,
                 scores,
@@ -59,7 +58,7 @@ impl<'a> Model<'a> {
             cases,
             families,
             looks,
-            told,
+            timelines,
             series: times::read(history, places, &states)?,
             states,
         })
@@ -67,6 +66,6 @@ impl<'a> Model<'a> {
 
     /// The name of a timeline.
     pub(super) fn name(&self, line: usize) -> &str {
-        &self.told[line].line.name
+        &self.timelines[line].line.name
     }
 }

@@ -91,12 +91,12 @@ struct Hit {
 impl News {
     pub(super) fn find(model: &Model<'_>) -> Self {
         let (families, looks) = (&model.families, &model.looks);
-        let mut counts = vec![[0; 5]; model.told.len()];
+        let mut counts = vec![[0; 5]; model.timelines.len()];
         let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
         let mut sets: BTreeMap<(usize, u32), BTreeMap<usize, u64>> = BTreeMap::new();
-        for (line, told) in model.told.iter().enumerate() {
-            let is_last = |event: &&Happening<u32>| event.at as usize == told.last;
-            for (case, course) in told.courses.of.iter().enumerate() {
+        for (line, timeline) in model.timelines.iter().enumerate() {
+            let is_last = |event: &&Happening<u32>| event.at as usize == timeline.last;
+            for (case, course) in timeline.courses.of.iter().enumerate() {
                 let Some(course) = course else { continue };
                 for event in course.events.iter().filter(is_last) {
                     let kind = number(event.event);
@@ -138,8 +138,8 @@ impl News {
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
-        let mut counts = KINDS.map(|(kind, _, due)| {
-            let lines = items(kind).count().min(due).min(room);
+        let mut counts = KINDS.map(|(kind, _, most)| {
+            let lines = items(kind).count().min(most).min(room);
             room -= lines;
             lines
         });
@@ -228,7 +228,7 @@ fn named(names: &[&str]) -> String {
 
 /// The changes of one series that are news.
 fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
-    let line = &model.told[series.line].line.runs;
+    let line = &model.timelines[series.line].line.runs;
     // The end of a series that nobody measures any more is no news.
     let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
     let recent = |point: &ChangePoint| {

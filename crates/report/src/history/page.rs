@@ -1,7 +1,7 @@
 //! The start page.
 
 use super::matrix;
-use super::model::{Model, Told};
+use super::model::{Model, Timeline};
 use super::news::{Item, News};
 use super::sparkline::{moves, sparkline};
 use crate::numbers::{count, percent, thousands};
@@ -48,7 +48,7 @@ pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
             (last_runs(model, found))
             section id="over-time" {
                 h2 { "Areas over time" }
-                @for number in 0..model.told.len() { (matrix::table(model, number)) }
+                @for number in 0..model.timelines.len() { (matrix::table(model, number)) }
             }
             (families(model))
         }
@@ -100,14 +100,14 @@ fn line(item: &Item) -> Markup {
 /// The last run of every adapter, and what changed in numbers.
 fn last_runs(model: &Model<'_>, news: &News) -> Markup {
     let places = model.places;
-    let run = |line: &Told<'_>, index: usize| {
+    let run = |line: &Timeline<'_>, index: usize| {
         let run = &line.line.runs[index];
         html! {
             a href={ "#run=" (places.runs[run.place].id) } { (places.day(run.place)) }
             " " (run.part.adapter.shown_version())
         }
     };
-    type Row<'a> = (&'a Told<'a>, &'a [u64; 5]);
+    type Row<'a> = (&'a Timeline<'a>, &'a [u64; 5]);
     let mut table = Table::<Row<'_>>::new("last")
         .caption("Each adapter against its run before")
         .head("Adapter", |(line, _)| {
@@ -128,11 +128,11 @@ fn last_runs(model: &Model<'_>, news: &News) -> Markup {
         .text("Last change", |(line, _)| {
             last_change(line).map(|index| run(line, index))
         })
-        .page(model.told.iter().zip(&news.counts))
+        .page(model.timelines.iter().zip(&news.counts))
 }
 
 /// The last run that shows an event.
-fn last_change(line: &Told<'_>) -> Option<usize> {
+fn last_change(line: &Timeline<'_>) -> Option<usize> {
     let courses = line.courses.of.iter().flatten();
     let events = courses.flat_map(|course| &course.events);
     events.map(|event| event.at as usize).max()
@@ -142,13 +142,14 @@ fn last_change(line: &Told<'_>) -> Option<usize> {
 fn families(model: &Model<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..model.families.names.len())
         .map(|family| {
-            let scores_of = |told: &Told<'_>| {
-                let whole = (0..told.line.runs.len()).filter(|index| told.line.runs[*index].whole);
+            let scores_of = |timeline: &Timeline<'_>| {
+                let whole =
+                    (0..timeline.line.runs.len()).filter(|index| timeline.line.runs[*index].whole);
                 whole
-                    .map(|index| told.scores.common(family, index))
+                    .map(|index| timeline.scores.common(family, index))
                     .collect()
             };
-            model.told.iter().map(scores_of).collect()
+            model.timelines.iter().map(scores_of).collect()
         })
         .collect();
     let is_moving = |family: &usize| scores[*family].iter().any(|row| moves(row));
@@ -175,8 +176,8 @@ fn curves(model: &Model<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], captio
             let name = &model.families.names[**family];
             html! { a href={ "#q=" (link::encoded(name)) } { (name) } }
         });
-    for (i, told) in model.told.iter().enumerate() {
-        table = table.text(breakable(&told.line.name), move |family| {
+    for (i, timeline) in model.timelines.iter().enumerate() {
+        table = table.text(breakable(&timeline.line.name), move |family| {
             curve(&scores[**family][i])
         });
     }

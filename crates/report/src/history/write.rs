@@ -56,8 +56,8 @@ pub fn write_history(
             write(&format!("{kind}-{number}"), text)?;
         }
     }
-    for (number, told) in model.told.iter().enumerate() {
-        let value = matrix::data(&model.families, told).to_string();
+    for (number, timeline) in model.timelines.iter().enumerate() {
+        let value = matrix::data(&model.families, timeline).to_string();
         write(&format!("adapter-{number}"), &value)?;
     }
     let html = page(&model, &news, &index.to_string());
@@ -105,7 +105,7 @@ fn packed(model: &Model<'_>, order: &Order) -> Result<Packed, ReportError> {
             timed.files.len() - 1
         });
         let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
-        files.push(rank, *case, &model.told, times, said);
+        files.push(rank, *case, &model.timelines, times, said);
     }
     let mut events = Files::default();
     for (place, text) in data::events(model, &order.ranks) {

@@ -342,9 +342,9 @@ impl<'a> Methods<'a> {
 
     /// Every scene as the page shows it.
     pub(crate) fn shown(&self) -> Vec<Shown<'_, 'a>> {
-        let mut all = Vec::new();
+        let mut shown = Vec::new();
         for (q, question) in self.questions.iter().enumerate() {
-            all.extend(question.scenes.iter().enumerate().map(|(s, scene)| {
+            shown.extend(question.scenes.iter().enumerate().map(|(s, scene)| {
                 let settings = scene.settings();
                 let main = scene.main();
                 let main = settings.iter().position(|s| Some(s) == main.as_ref());
@@ -358,7 +358,7 @@ impl<'a> Methods<'a> {
                 }
             }));
         }
-        all
+        shown
     }
 
     /// Every scene of every question.

@@ -221,7 +221,7 @@ fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
 }
 
 /// The mean and the largest distance over all encodings, as shares of their ranges.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Shares {
     channels: f64,
     mean: f64,
@@ -245,11 +245,7 @@ fn shares<'a>(
                 continue;
             };
             let measured = result.entry(area).or_insert_with(|| vec![None; adapters]);
-            let sum = measured[adapter].get_or_insert(Shares {
-                channels: 0.0,
-                mean: 0.0,
-                max: 0.0,
-            });
+            let sum = measured[adapter].get_or_insert_default();
             let channels = legal.channels as f64;
             sum.channels += channels;
             sum.mean += (mean - sum.mean) * channels / sum.channels;

@@ -57,7 +57,7 @@ pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
         let all = curves(scene, parameter);
-        let log = matches!(scale(&all), Scale::Log { .. });
+        let log = matches!(scale(&all), Scale::Log(..));
         for series in all {
             let first = result.len();
             for (index, adapter) in methods.adapters.iter().enumerate() {
@@ -199,7 +199,7 @@ fn panel(
         .iter()
         .flat_map(|s| s.points.iter().filter_map(|p| p.error()));
     let x = scale(series);
-    let log = matches!(x, Scale::Log { .. });
+    let log = matches!(x, Scale::Log(..));
     let plot = Plot {
         x,
         y: Scale::log(errors.clone().filter(|e| *e > 0.0).chain([LIMIT])),

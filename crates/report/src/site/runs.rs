@@ -132,7 +132,7 @@ fn scope(cases: u64, adapters: &[AdapterRecord]) -> String {
 
 fn result(run: &Run) -> Markup {
     let count_of =
-        |of: &dyn Fn(&Record) -> bool| run.records.iter().filter(|r| of(r)).count() as u64;
+        |test: &dyn Fn(&Record) -> bool| run.records.iter().filter(|r| test(r)).count() as u64;
     let undrawn = count_of(&|r| r.verdict == Verdict::NotSupported);
     html! {
         @if run.missing() > 0 {
@@ -154,12 +154,8 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
         if !below.is_empty() && !path.is_dir() {
             continue;
         }
-        let unread = |source| ReportError::Unread {
-            path: path.clone(),
-            source,
-        };
-        for entry in fs::read_dir(&path).map_err(unread)? {
-            let entry = entry.map_err(unread)?;
+        for entry in fs::read_dir(&path).map_err(ReportError::unread(&path))? {
+            let entry = entry.map_err(ReportError::unread(&path))?;
             let name = PathBuf::from(entry.file_name());
             let ending = name.extension().and_then(|e| e.to_str());
             let takes = match below {

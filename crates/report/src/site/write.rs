@@ -56,8 +56,5 @@ fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
-    fs::read(path).map_err(|source| ReportError::Unread {
-        path: path.to_owned(),
-        source,
-    })
+    fs::read(path).map_err(ReportError::unread(path))
 }

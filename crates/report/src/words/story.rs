@@ -35,24 +35,24 @@ pub(crate) fn operations(story: &Story) -> Vec<ToldLine> {
         if let Some((scene, ruling)) =
             alone.next_if(|(scene, _)| event.scene.as_ref() == Some(scene))
         {
-            lines.push(ToldLine {
-                at: scene_name(scene),
-                operation: "alone".to_owned(),
-                detail: ruling_sentence(ruling),
-                citation: None,
-            });
+            lines.push(line(scene_name(scene), "alone", ruling_sentence(ruling)));
         }
         lines.push(event_line(event));
     }
     if story.cut {
-        lines.push(ToldLine {
-            at: "end of the record".to_owned(),
-            operation: "cut".to_owned(),
-            detail: "the rest of the story did not fit".to_owned(),
-            citation: None,
-        });
+        let cut = "the rest of the story did not fit".to_owned();
+        lines.push(line("end of the record".to_owned(), "cut", cut));
     }
     lines
+}
+
+fn line(at: String, operation: &str, detail: String) -> ToldLine {
+    ToldLine {
+        at,
+        operation: operation.to_owned(),
+        detail,
+        citation: None,
+    }
 }
 
 /// Returns a whole story as text, each line with its newline.

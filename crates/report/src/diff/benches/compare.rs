@@ -199,12 +199,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let samples_of = |record: &BenchRecord| samples(record, time, ruled);
         match (samples_of(old), new.and_then(samples_of)) {
-            (Some(b), Some(a)) => found.changes.push(TimeChange {
-                case: case.clone(),
-                adapter: adapter.clone(),
-                software: kind,
-                ..changed(&b, &a)
-            }),
+            (Some(b), Some(a)) => found.changes.push(changed(old, kind, &b, &a)),
             (Some(_), None) => {
                 let mut gone = gone(old, new, true, time);
                 gone.vanished = after.header.adapter(adapter).is_none();
@@ -236,14 +231,14 @@ fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     }
 }
 
-fn changed(before: &Samples, after: &Samples) -> TimeChange {
+fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Samples) -> TimeChange {
     let comparison = compare(before, after);
     let finite = |low: f64, high: f64| (low > 0.0 && high.is_finite()).then_some([low, high]);
     let ratio = comparison.ratio;
     TimeChange {
-        case: String::new(),
-        adapter: String::new(),
-        software: false,
+        case: record.picture.case.clone(),
+        adapter: record.picture.adapter.clone(),
+        software,
         outcome: comparison.outcome.name(),
         why: match comparison.outcome {
             Conclusion::CannotTell(why) => Some(Why::text(why)),
