@@ -4,7 +4,7 @@
 //! call of one function with one value. The page's policy lets its own script load them, and nothing else load anything.
 
 use crate::error::ReportError;
-use crate::files::replace;
+use crate::files::{make, replace};
 use crate::lists::Interner;
 use crate::picture::{enlarged, thumbnail};
 use etalon_frame::Frame;
@@ -50,12 +50,12 @@ pub struct Catalogue {
 struct Area<'a> {
     files: BTreeMap<&'a str, &'a Value>,
     shaders: BTreeMap<&'a str, &'a str>,
-    lines: Vec<&'a str>,
-    pictures: Vec<&'a str>,
+    lines: Interner<&'a str>,
+    pictures: Interner<&'a str>,
     /// Lists of lines.
-    scenes: Vec<Vec<usize>>,
+    scenes: Interner<Vec<usize>>,
     /// Lists of shaders.
-    used: Vec<&'a [&'static str]>,
+    used: Interner<&'a [&'static str]>,
     /// By file and the rest of the id: scene, picture (-1 for none), list of shaders.
     cases: BTreeMap<&'a str, BTreeMap<&'a str, (usize, i64, usize)>>,
 }
@@ -76,10 +76,7 @@ pub fn reference_png(frame: &Frame) -> Option<Vec<u8>> {
 /// Returns an error if the folder cannot be written to.
 pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), ReportError> {
     let below = folder.join(CATALOGUE);
-    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
-        path: below.clone(),
-        source,
-    })?;
+    make(&below)?;
     let mut areas: BTreeMap<&str, Vec<&CatalogueCase>> = BTreeMap::new();
     for case in &catalogue.cases {
         areas
@@ -102,15 +99,12 @@ pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), Repor
 
 fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
     let mut area = Area::default();
-    let mut lines: Interner<&str> = Interner::default();
-    let mut scenes: Interner<Vec<usize>> = Interner::default();
-    let mut pictures: Interner<&str> = Interner::default();
-    let mut used: Interner<&[&'static str]> = Interner::default();
     let mut bytes = 0;
     for case in cases {
-        let scene = case.lines.iter().map(|line| lines.place(line)).collect();
+        let scene = case.lines.iter().map(|line| area.lines.place(line));
+        let scene = scene.collect();
         let picture = &*case.picture;
-        let new = if pictures.has(&picture) {
+        let new = if area.pictures.has(&picture) {
             0
         } else {
             picture.len()
@@ -119,35 +113,25 @@ fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
             -1
         } else {
             bytes += new;
-            pictures.place(picture) as i64
+            area.pictures.place(picture) as i64
         };
-        let shaders = case.shaders.iter();
-        area.shaders.extend(shaders.map(|name| {
-            (
-                *name,
-                catalogue.shaders.get(name).copied().unwrap_or_default(),
-            )
-        }));
-        area.files.extend(
-            catalogue
-                .files
-                .get_key_value(&case.file)
-                .map(|(name, text)| (&**name, text)),
-        );
+        for name in &case.shaders {
+            let text = catalogue.shaders.get(name).copied();
+            area.shaders.insert(name, text.unwrap_or_default());
+        }
+        if let Some((name, text)) = catalogue.files.get_key_value(&case.file) {
+            area.files.insert(name, text);
+        }
         let variant = case.id.strip_prefix(&case.file).unwrap_or(&case.id);
-        let place = (scenes.place(scene), picture, used.place(&case.shaders));
-        area.cases
-            .entry(&case.file)
-            .or_default()
-            .insert(variant, place);
+        let place = (
+            area.scenes.place(scene),
+            picture,
+            area.used.place(&case.shaders),
+        );
+        let file = area.cases.entry(&case.file).or_default();
+        file.insert(variant, place);
     }
-    Area {
-        lines: lines.values,
-        scenes: scenes.values,
-        pictures: pictures.values,
-        used: used.values,
-        ..area
-    }
+    area
 }
 
 /// The scripts of a run folder: area and path below the folder; none where the folder has none.

@@ -3,7 +3,7 @@
 use etalon_history::HistoryError;
 use etalon_record::RecordError;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The reason for which a report could not be made.
@@ -40,17 +40,21 @@ pub enum ReportError {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder for a site holds something else.
-    #[error("{} is not empty and holds no site; name another folder", path.display())]
-    NoSite {
+    /// A folder for pages holds something else.
+    #[error("{} is not empty and holds no {kind}; name another folder", path.display())]
+    Occupied {
         /// The folder.
         path: PathBuf,
+        /// The kind of pages.
+        kind: &'static str,
     },
-    /// A file in a site that is not of it.
-    #[error("{} is not of the site and would be lost; move it", path.display())]
-    NotOfTheSite {
+    /// A file in a folder of pages that is not of it.
+    #[error("{} is not of the {kind} and would be lost; move it", path.display())]
+    Foreign {
         /// The file.
         path: PathBuf,
+        /// The kind of pages.
+        kind: &'static str,
     },
     /// A recorded folder lies in the site, or the site in it.
     #[error("{} and {} must not lie one in the other; name another folder for the site", site.display(), folder.display())]
@@ -66,18 +70,6 @@ pub enum ReportError {
     /// A history has no run of these labels.
     #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
     NoRuns {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The folder for the page of a history holds something else.
-    #[error("{} is not empty and holds no page of a history; name another folder", path.display())]
-    NoHistoryPage {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// A file in the page of a history that is not of it.
-    #[error("{} is not of the page and would be lost; move it", path.display())]
-    NotOfTheHistory {
         /// The file.
         path: PathBuf,
     },
@@ -114,4 +106,22 @@ pub enum ReportError {
         /// The adapters of the second run.
         after: String,
     },
+}
+
+impl ReportError {
+    /// The error of a file that cannot be written.
+    pub(crate) fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Io {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    /// The error of a file that cannot be read.
+    pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Unread {
+            path: path.to_owned(),
+            source,
+        }
+    }
 }

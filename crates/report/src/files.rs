@@ -1,8 +1,14 @@
 //! Files of reports, written beside their place and renamed into it: a reader never sees half a report.
 
 use crate::error::ReportError;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Makes a folder.
+pub(crate) fn make(folder: &Path) -> Result<(), ReportError> {
+    fs::create_dir_all(folder).map_err(ReportError::unwritten(folder))
+}
 
 /// Writes a file of a folder.
 pub(crate) fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
@@ -27,5 +33,43 @@ pub(crate) fn replace_at(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportErr
         None => Err(ReportError::NoFile {
             path: path.to_owned(),
         }),
+    }
+}
+
+/// A file name for a text, other than all before: what could mislead a file system or an address is replaced.
+pub(crate) fn file_name(text: &str, ending: &str, taken: &mut BTreeSet<String>) -> String {
+    const LONGEST: usize = 120;
+    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
+    let safe = |c: char| if fine(c) { c } else { '_' };
+    let safe: String = text.chars().take(LONGEST).map(safe).collect();
+    let safe = match safe.strip_prefix('.') {
+        Some(suffix) => format!("_{suffix}"),
+        None if safe.is_empty() => "_".to_owned(),
+        None => safe,
+    };
+    let mut name = format!("{safe}{ending}");
+    let mut number = 1;
+    // Some file systems hold names for the same that differ in case alone.
+    while !taken.insert(name.to_ascii_lowercase()) {
+        number += 1;
+        name = format!("{safe}-{number}{ending}");
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_stay_in_the_folder_and_apart() {
+        let mut taken = BTreeSet::new();
+        let mut name = |text: &str| file_name(text, ".csv", &mut taken);
+        assert_eq!(name("gl:es:llvmpipe"), "gl_es_llvmpipe.csv");
+        assert_eq!(name("gl:es/llvmpipe"), "gl_es_llvmpipe-2.csv");
+        assert_eq!(name("GL:es:llvmpipe"), "GL_es_llvmpipe-3.csv");
+        assert_eq!(name("../../x"), "_._.._x.csv");
+        assert_eq!(name(""), "_.csv");
+        assert!(name(&"v".repeat(5000)).len() < 130);
     }
 }

@@ -9,6 +9,7 @@ mod data;
 mod families;
 mod looks;
 mod matrix;
+mod model;
 mod news;
 mod page;
 mod places;
@@ -17,4 +18,4 @@ mod sparkline;
 mod times;
 mod write;
 
-pub use write::{HISTORY_PAGE_FILE, WrittenHistory, write_history};
+pub use write::{HISTORY_PAGE_FILE, write_history};

@@ -3,13 +3,14 @@
 use crate::error::ReportError;
 use crate::files::replace;
 use crate::numbers::{count, duration};
-use crate::page::Page;
 use crate::page::origin::origin;
+use crate::page::{self, Page};
 use crate::table::{Cell, Table};
 use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
 use maud::{Markup, html};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The page of a hunt.
@@ -30,7 +31,7 @@ pub struct WrittenHunt {
 /// Returns an error if the folder cannot be written to.
 pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError> {
     let json = hunt.write(folder)?;
-    let html = replace(folder, HUNT_PAGE, page(hunt).as_bytes())?;
+    let html = replace(folder, HUNT_PAGE, html(hunt).as_bytes())?;
     Ok(WrittenHunt { html, json })
 }
 
@@ -41,28 +42,28 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     let mut text = format!("{table}\n\n{}\n", totals(hunt));
     for (title, mutants, reason) in noted(hunt) {
         if !mutants.is_empty() {
-            text.push_str(&format!("\n{title}\n"));
+            text += &format!("\n{title}\n");
         }
         for m in mutants {
-            text.push_str(&format!("  {}\n", plain(&m.mutant.name, 100)));
+            text += &format!("  {}\n", plain(&m.mutant.name, 100));
             if let Some(reason) = reason(m).filter(|reason| !reason.is_empty()) {
-                text.push_str(&format!("      {}\n", plain(reason, options.room(5))));
+                text += &format!("      {}\n", plain(reason, options.room(5)));
             }
         }
     }
     let complaints: Vec<_> = hunt.complaints().collect();
     if !complaints.is_empty() {
-        text.push_str(&format!("\n{}\n", options.paint("Wrong", "31")));
+        text += &format!("\n{}\n", options.paint("Wrong", "31"));
         for (mutant, why) in complaints {
             let name = plain(&mutant.mutant.name, 100);
-            text.push_str(&format!("  {name}: {why}\n"));
+            text += &format!("  {name}: {why}\n");
         }
     }
     text
 }
 
 /// The page.
-fn page(hunt: &Hunt) -> String {
+fn html(hunt: &Hunt) -> String {
     let main = html! {
         (head(hunt))
         (by_area(hunt))
@@ -79,6 +80,26 @@ fn page(hunt: &Hunt) -> String {
 
 fn head(hunt: &Hunt) -> Markup {
     let complaints: Vec<_> = hunt.complaints().collect();
+    let totals = [
+        (Catch::Caught, "Some case failed."),
+        (
+            Catch::Noticed,
+            "Legal: some texels lie outside the yardstick, none is wrong.",
+        ),
+        (Catch::Survived, "Every case passed."),
+        (Catch::Broken, "It could not be drawn: a bug of the mutant."),
+    ];
+    let totals = totals.map(|(outcome, about)| {
+        (
+            class(outcome),
+            hunt.count(outcome) as u64,
+            outcome.name(),
+            about,
+        )
+    });
+    let totals = totals
+        .into_iter()
+        .filter(|(class, n, ..)| *n > 0 || *class != "b");
     html! {
         header {
             h1 { "etalon mutants" }
@@ -102,24 +123,7 @@ fn head(hunt: &Hunt) -> Markup {
                 }
             }
         }
-        section {
-            h2 { "Totals" }
-            ul.totals {
-                @for (outcome, about) in [
-                    (Catch::Caught, "Some case failed."),
-                    (Catch::Noticed, "Legal: some texels lie outside the yardstick, none is wrong."),
-                    (Catch::Survived, "Every case passed."),
-                    (Catch::Broken, "It could not be drawn: a bug of the mutant."),
-                ] {
-                    @let n = hunt.count(outcome);
-                    @if n > 0 || outcome != Catch::Broken {
-                        li class=(class(outcome)) {
-                            span.big { (n) } " " span.m { (outcome.name()) } small { (about) }
-                        }
-                    }
-                }
-            }
-        }
+        (page::totals(totals))
     }
 }
 
@@ -235,9 +239,7 @@ struct AreaRow<'a> {
 /// The share of every area, in alphabetical order.
 fn areas(hunt: &Hunt) -> Vec<AreaRow<'_>> {
     let tallies = || hunt.mutants.iter().flat_map(|m| &m.areas);
-    let mut names: Vec<&str> = tallies().map(|t| t.area.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
+    let names: BTreeSet<&str> = tallies().map(|t| t.area.as_str()).collect();
     let row = |area| {
         let mut row = AreaRow {
             area,
@@ -298,7 +300,7 @@ fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
 
 /// The totals in one line.
 fn totals(hunt: &Hunt) -> String {
-    let counted = |outcome: Catch| format!("{} {}", hunt.count(outcome), outcome.name());
+    let counted = |outcome: Catch| format!("{} {}", hunt.count(outcome) as u64, outcome.name());
     let mut parts = vec![
         counted(Catch::Caught),
         counted(Catch::Noticed),

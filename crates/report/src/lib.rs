@@ -45,17 +45,14 @@ pub use command::quoted;
 pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
 pub use diff::runs;
 pub use error::ReportError;
-pub use history::{HISTORY_PAGE_FILE, WrittenHistory, write_history};
+pub use history::{HISTORY_PAGE_FILE, write_history};
 pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
-pub use run::{
-    RUN_FILES, RUN_FOLDERS, RunReports, dead_lines, table, write, write_run, write_run_with_news,
-};
-pub use site::{SITE_FILE, WrittenSite, write_site};
+pub use run::{RUN_FILES, RUN_FOLDERS, RunReports, dead_lines, table, write, write_run_with_news};
+pub use site::{SITE_FILE, write_site};
+pub use staged::WrittenFolder;
 pub use terminal::TableOptions;
 pub use versions::{VERSIONS_PAGE, versions_table, write_versions};
-pub use words::{
-    EventLine, ReducedCase, judged_by, operations, operations_text, plain, sentence, story_text,
-};
+pub use words::{ReducedCase, judged_by, operations_text, plain, sentence, story_text};

@@ -1,5 +1,6 @@
 //! Lists in the order in which their items are first met.
 
+use serde::{Serialize, Serializer};
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -28,6 +29,16 @@ pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
     keys.values.into_iter().zip(groups).collect()
 }
 
+/// Moves one item of each kind before the second of any; else their order is kept.
+pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
+    let mut seen: HashMap<K, usize> = HashMap::new();
+    items.sort_by_cached_key(|item| {
+        let rank = seen.entry(kind(item)).or_default();
+        *rank += 1;
+        *rank
+    });
+}
+
 /// Values, each once, by the place at which they were first met.
 pub(crate) struct Interner<T> {
     places: HashMap<T, usize>,
@@ -40,6 +51,12 @@ impl<T> Default for Interner<T> {
             places: HashMap::new(),
             values: Vec::new(),
         }
+    }
+}
+
+impl<T: Serialize> Serialize for Interner<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.values.serialize(serializer)
     }
 }
 

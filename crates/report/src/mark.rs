@@ -11,24 +11,11 @@ pub(crate) fn mark(verdict: Verdict, tone: Tone) -> Markup {
 
 /// The class that colours a verdict: a fixed letter, never taken from a record.
 pub(crate) fn class(verdict: Verdict, tone: Tone) -> &'static str {
-    match (verdict, tone) {
-        (_, Tone::Missed) => "f",
-        (Verdict::Fail, Tone::Excused) => "f x",
-        (Verdict::RequiredByCts, Tone::Excused) => "r x",
-        (Verdict::Disputed, Tone::Excused) => "q x",
-        (Verdict::Blocked, Tone::Excused) => "k x",
-        (Verdict::Open, Tone::Excused) => "o x",
-        (_, Tone::Excused) => "b x",
-        (Verdict::Pass, Tone::Plain) => "p",
-        (Verdict::Imprecise, Tone::Plain) => "i",
-        (Verdict::Fail, Tone::Plain) => "f",
-        (Verdict::RequiredByCts, Tone::Plain) => "r",
-        (Verdict::Disputed, Tone::Plain) => "q",
-        (Verdict::Blocked, Tone::Plain) => "k",
-        (Verdict::Open, Tone::Plain) => "o",
-        (Verdict::Measured, Tone::Plain) => "n",
-        (Verdict::NotSupported | Verdict::Skipped, Tone::Plain) => "u",
-        (_, Tone::Plain) => "b",
+    let (_, [plain, excused]) = words::signs(verdict);
+    match tone {
+        Tone::Missed => "f",
+        Tone::Excused => excused,
+        Tone::Plain => plain,
     }
 }
 

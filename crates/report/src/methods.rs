@@ -6,8 +6,6 @@ mod claims;
 mod data;
 mod driver;
 mod front;
-#[cfg(test)]
-mod made;
 mod name;
 mod page;
 mod pictures;
@@ -20,3 +18,8 @@ pub(crate) use driver::section as driver_section;
 pub(crate) use name::PAGE;
 pub(crate) use page::page;
 pub(crate) use summary::{lines, section};
+
+#[cfg(test)]
+mod tests {
+    pub(crate) mod made;
+}

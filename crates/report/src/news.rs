@@ -103,12 +103,12 @@ pub fn news_table(news: &News, options: TableOptions) -> String {
             continue;
         }
         let color = if entries.is_empty() { "" } else { color };
-        text.push_str(&format!("{}\n", options.paint(&head, color)));
+        text += &format!("{}\n", options.paint(&head, color));
         for entry in entries.iter().take(LISTED) {
-            text.push_str(&format!("  {}\n", line(entry)));
+            text += &format!("  {}\n", line(entry));
         }
         if let Some(more @ 1..) = entries.len().checked_sub(LISTED) {
-            text.push_str(&format!("  and {more} more\n"));
+            text += &format!("  and {more} more\n");
         }
     }
     text

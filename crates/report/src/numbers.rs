@@ -1,6 +1,8 @@
 //! Numbers as text. Measured values keep a fixed number of digits, so that columns line up and the
 //! precision shows; chosen values (axis ticks, limits) drop trailing zeros.
 
+use etalon_stats::quantile;
+
 /// `1 case`, `2 cases`.
 pub(crate) fn count(n: u64, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
@@ -104,6 +106,13 @@ pub(crate) fn trimmed(text: String) -> String {
     } else {
         text
     }
+}
+
+/// The median of the values that are numbers; none of none.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    quantile(&values, 0.5)
 }
 
 /// Digits in groups of three, with narrow no-break spaces.

@@ -8,7 +8,7 @@ pub(crate) mod origin;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use sha2::{Digest, Sha256};
 
 const STYLE: &str = include_str!("page/style.css");
@@ -18,7 +18,7 @@ pub(crate) struct Page<'a> {
     title: &'a str,
     source: &'a str,
     main: &'a Markup,
-    styles: Vec<&'static str>,
+    styles: String,
     script: Option<&'static str>,
     /// True if the page's own script loads others from the page's folder.
     beside: bool,
@@ -31,15 +31,15 @@ impl<'a> Page<'a> {
             title,
             source,
             main,
-            styles: Vec::new(),
+            styles: STYLE.to_owned(),
             script: None,
             beside: false,
         }
     }
 
     /// Adds a style sheet to the one of all pages.
-    pub(crate) fn style(mut self, style: impl Into<Option<&'static str>>) -> Self {
-        self.styles.extend(style.into());
+    pub(crate) fn style(mut self, style: &str) -> Self {
+        self.styles.push_str(style);
         self
     }
 
@@ -64,7 +64,7 @@ impl<'a> Page<'a> {
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="color-scheme" content="light dark";
                     title { (self.title) }
-                    style { (PreEscaped(STYLE)) @for style in &self.styles { (PreEscaped(style)) } }
+                    style { (PreEscaped(&self.styles)) }
                 }
                 body {
                     a.skip href="#main" { "Skip to the content" }
@@ -74,6 +74,22 @@ impl<'a> Page<'a> {
             }
         }
         .into_string()
+    }
+}
+
+/// Totals, which are the legend at the same time: class, number, name and meaning of each.
+pub(crate) fn totals<N: Render>(
+    items: impl IntoIterator<Item = (&'static str, u64, N, &'static str)>,
+) -> Markup {
+    html! {
+        section {
+            h2 { "Totals" }
+            ul.totals {
+                @for (class, n, name, about) in items {
+                    li class=(class) { span.big { (n) } " " span.m { (name) } small { (about) } }
+                }
+            }
+        }
     }
 }
 

@@ -121,13 +121,12 @@ pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
     let alike =
         |sample| (0..3).all(|c| value(&image.low, sample, c) == value(&image.actual, sample, c));
     let alpha = color && image.channels.len() == 4 && (0..image.wrong.len()).all(alike);
-    let codes = |codes: &[u32]| {
-        view.ringed(sample, |sample, _, _| match (color, alpha) {
-            (true, false) => [0, 1, 2].map(|c| value(codes, sample, c)),
-            (true, true) => [value(codes, sample, 3); 3],
-            (false, _) => [value(codes, sample, 0); 3],
-        })
+    let look = match (color, alpha) {
+        (true, false) => Look::Rgb,
+        (true, true) => Look::Grey(3),
+        (false, _) => Look::Grey(0),
     };
+    let codes = |codes: &[u32]| view.ringed(sample, |sample, _, _| view.texel(codes, sample, look));
     let difference = view.ringed(sample, |sample, _, _| match image.wrong[sample] {
         FrameImage::FINE => FINE,
         FrameImage::IMPRECISE => IMPRECISE,
@@ -301,10 +300,14 @@ impl<'a> View<'a> {
 
     /// One pixel per sample; samples of one texel lie in pictures of their own, side by side.
     fn plain(&self, label: String, codes: &[u32], look: Look) -> Option<Picture> {
-        self.draw(label, 1, |sample, _, _| match look {
+        self.draw(label, 1, |sample, _, _| self.texel(codes, sample, look))
+    }
+
+    fn texel(&self, codes: &[u32], sample: usize, look: Look) -> [u8; 3] {
+        match look {
             Look::Rgb => [0, 1, 2].map(|c| self.value(codes, sample, c)),
             Look::Grey(channel) => [self.value(codes, sample, channel); 3],
-        })
+        }
     }
 
     /// Blocks of pixels, so that a wrong texel can carry a mark.
@@ -436,7 +439,7 @@ impl<'a> View<'a> {
             Alpha::None => {}
             Alpha::One(code) => {
                 let value = crate::words::value_text(image.channels[3], code);
-                text.push_str(&format!(" Alpha is {value} everywhere."));
+                text += &format!(" Alpha is {value} everywhere.");
             }
             Alpha::Varies => text.push_str(" Alpha has grey pictures of its own."),
         }
@@ -449,7 +452,7 @@ impl<'a> View<'a> {
         let [width, height] = image.size;
         if (self.window.width, self.window.height) != (width, height) {
             let Window { x, y, .. } = self.window;
-            text.push_str(&format!(" Only the part from texel ({x}, {y}) is shown."));
+            text += &format!(" Only the part from texel ({x}, {y}) is shown.");
         }
         text
     }

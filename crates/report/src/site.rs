@@ -7,4 +7,4 @@ mod runs;
 mod start;
 mod write;
 
-pub use write::{SITE_FILE, WrittenSite, write_site};
+pub use write::{SITE_FILE, write_site};

@@ -8,60 +8,64 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The content of a place for a folder of pages.
-pub(crate) enum Content {
-    /// Nothing.
-    Empty,
-    /// An earlier folder of this kind.
-    Earlier,
-    /// An earlier folder of this kind with a file that is not of it.
-    Foreign(PathBuf),
-    /// Something else.
-    Other,
+/// A kind of folder of pages.
+pub(crate) struct Kind {
+    /// The file by which a folder is known. It lists the files of the folder.
+    pub(crate) mark: &'static str,
+    /// All that is at the top beside it, of earlier folders, whose mark lists no files.
+    pub(crate) top: &'static [&'static str],
+    /// The name, and the name that tells the kind from others.
+    pub(crate) names: [&'static str; 2],
 }
 
-impl Content {
-    /// Looks at a place for a folder, which is known by its file `mark`. That file lists the files of the folder; of
-    /// earlier folders, whose mark lists none, `top` is all that is at the top.
-    ///
-    /// # Errors
-    /// Returns an error if the place cannot be read.
-    pub(crate) fn of(to: &Path, mark: &str, top: &[&str]) -> Result<Self, ReportError> {
-        let unread = |source| ReportError::Unread {
-            path: to.to_owned(),
-            source,
-        };
-        match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
-            Ok(true) => return Ok(Self::Empty),
-            Ok(false) => {}
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Empty),
-            Err(error) => return Err(unread(error)),
-        }
-        let file = to.join(mark);
-        if !is_marked(&file) {
-            return Ok(Self::Other);
-        }
-        let text = fs::read(&file).map_err(unread)?;
-        let value: Value = serde_json::from_slice(&text).unwrap_or_default();
-        let listed = value["files"].as_array();
-        let listed: Option<HashSet<&str>> =
-            listed.map(|files| files.iter().filter_map(Value::as_str).collect());
-        let of_it = |path: &Path| {
-            let name = path.to_string_lossy();
-            name == mark
-                || match &listed {
-                    Some(files) => files.contains(&*name),
-                    None => path
-                        .iter()
-                        .next()
-                        .is_some_and(|f| top.iter().any(|t| f == *t)),
-                }
-        };
-        let mut paths = Vec::new();
-        files(to, Path::new(""), &mut paths).map_err(unread)?;
-        paths.sort_unstable();
-        let foreign = paths.into_iter().find(|path| !of_it(path));
-        Ok(foreign.map_or(Self::Earlier, |path| Self::Foreign(to.join(path))))
+/// A folder of pages that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenFolder {
+    /// The start page.
+    pub html: PathBuf,
+    /// The bytes of the start page.
+    pub start: u64,
+    /// The number of files.
+    pub files: u64,
+    /// The bytes of all files.
+    pub bytes: u64,
+}
+
+/// Checks that a place is empty, or has an earlier folder of the kind, with no other file, that may be replaced.
+fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
+    let path = to.to_owned();
+    let unread = ReportError::unread(to);
+    match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
+        Ok(true) => return Ok(()),
+        Ok(false) => {}
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(unread(error)),
+    }
+    let file = to.join(kind.mark);
+    if !is_marked(&file) {
+        let kind = kind.names[1];
+        return Err(ReportError::Occupied { path, kind });
+    }
+    let text = fs::read(&file).map_err(&unread)?;
+    let value: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let listed = value["files"].as_array();
+    let listed: Option<HashSet<&str>> =
+        listed.map(|files| files.iter().filter_map(Value::as_str).collect());
+    let is_listed = |path: &Path| match &listed {
+        Some(files) => files.contains(&*path.to_string_lossy()),
+        None => kind.top.iter().any(|top| path.starts_with(top)),
+    };
+    let mut paths = Vec::new();
+    files(to, Path::new(""), &mut paths).map_err(&unread)?;
+    paths.sort_unstable();
+    let foreign = |path: &PathBuf| path.as_os_str() != kind.mark && !is_listed(path);
+    match paths.into_iter().find(foreign) {
+        _ if !replace => Err(ReportError::HasSite { path }),
+        Some(path) => Err(ReportError::Foreign {
+            path: to.join(path),
+            kind: kind.names[0],
+        }),
+        None => Ok(()),
     }
 }
 
@@ -85,36 +89,37 @@ fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()
 
 /// A folder in the making.
 pub(crate) struct Staged {
+    kind: &'static Kind,
     to: PathBuf,
     beside: PathBuf,
     names: Vec<String>,
-    /// The number of files that were written.
-    pub(crate) files: u64,
-    /// Their bytes.
-    pub(crate) bytes: u64,
+    bytes: u64,
 }
 
 impl Staged {
-    /// Begins a folder.
+    /// Begins a folder, which may `replace` an earlier one of its kind.
     ///
     /// # Errors
-    /// Returns an error if the place has no name, or the folder beside it cannot be made.
-    pub(crate) fn begin(to: &Path) -> Result<Self, ReportError> {
+    /// Returns an error if the place has no name, cannot be read, or holds something else.
+    pub(crate) fn begin(
+        to: &Path,
+        kind: &'static Kind,
+        replace: bool,
+    ) -> Result<Self, ReportError> {
+        check(to, kind, replace)?;
         let Some(name) = to.file_name() else {
             return Err(ReportError::NoFile {
                 path: to.to_owned(),
             });
         };
         let hidden = format!(".{}.{}", name.to_string_lossy(), std::process::id());
-        let staged = Self {
+        Ok(Self {
+            kind,
             to: to.to_owned(),
             beside: to.with_file_name(hidden),
             names: Vec::new(),
-            files: 0,
             bytes: 0,
-        };
-        fs::create_dir_all(&staged.beside).map_err(|source| wrong(&staged.beside, source))?;
-        Ok(staged)
+        })
     }
 
     /// Writes a file.
@@ -129,38 +134,47 @@ impl Staged {
         let path = self.beside.join(&name);
         let folder = path.parent().unwrap_or(&self.beside);
         let written = fs::create_dir_all(folder).and_then(|()| fs::write(&path, bytes));
-        written.map_err(|source| wrong(&self.to.join(&name), source))?;
+        written.map_err(ReportError::unwritten(&self.to.join(&name)))?;
         self.names
             .push(name.as_ref().to_string_lossy().into_owned());
-        self.files += 1;
         self.bytes += bytes.len() as u64;
         Ok(())
     }
 
-    /// Writes the file by which the folder is known, with the files that it lists, and puts the folder into its place.
-    /// `about` is the rest of its content, which has the key `etalon`.
+    /// Writes the start page and the file by which the folder is known, with the files that it lists, and puts the folder
+    /// into its place. `about` is the rest of its content, which has the key `etalon`.
     ///
     /// # Errors
     /// Returns an error if the system refuses; what was there before is back then.
-    pub(crate) fn finish(&mut self, mark: &str, mut about: Value) -> Result<(), ReportError> {
+    pub(crate) fn finish(
+        mut self,
+        start: &[u8],
+        mut about: Value,
+    ) -> Result<WrittenFolder, ReportError> {
+        self.write("index.html", start)?;
         about["files"] = json!(self.names);
-        self.write(mark, about.to_string().as_bytes())?;
+        self.write(self.kind.mark, about.to_string().as_bytes())?;
         let old = self.beside.with_extension("old");
         let replaces = self.to.exists();
         if replaces {
-            fs::rename(&self.to, &old).map_err(|source| wrong(&self.to, source))?;
+            fs::rename(&self.to, &old).map_err(ReportError::unwritten(&self.to))?;
         }
         if let Err(source) = fs::rename(&self.beside, &self.to) {
             if replaces {
                 // Best effort: the first error is the one to report.
                 let _ = fs::rename(&old, &self.to);
             }
-            return Err(wrong(&self.to, source));
+            return Err(ReportError::unwritten(&self.to)(source));
         }
         if replaces {
-            fs::remove_dir_all(&old).map_err(|source| wrong(&old, source))?;
+            fs::remove_dir_all(&old).map_err(ReportError::unwritten(&old))?;
         }
-        Ok(())
+        Ok(WrittenFolder {
+            html: self.to.join("index.html"),
+            start: start.len() as u64,
+            files: self.names.len() as u64,
+            bytes: self.bytes,
+        })
     }
 }
 
@@ -168,12 +182,5 @@ impl Drop for Staged {
     fn drop(&mut self) {
         // Gone if it was finished. Best effort: it is of no use to anyone.
         let _ = fs::remove_dir_all(&self.beside);
-    }
-}
-
-fn wrong(path: &Path, source: io::Error) -> ReportError {
-    ReportError::Io {
-        path: path.to_owned(),
-        source,
     }
 }

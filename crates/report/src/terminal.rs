@@ -48,7 +48,7 @@ pub(crate) fn listed(
         let part = part.as_ref();
         let length = part.chars().count() + 2;
         if i > 0 && column + length > options.width {
-            text.push_str(&format!("\n{}", " ".repeat(indent)));
+            text += &format!("\n{}", " ".repeat(indent));
             column = indent;
         }
         text.push_str(part);

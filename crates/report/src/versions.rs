@@ -5,8 +5,8 @@ mod groups;
 use crate::error::ReportError;
 use crate::files::replace;
 use crate::numbers::count;
-use crate::page::Page;
 use crate::page::origin::origin;
+use crate::page::{self, Page};
 use crate::table::{Cell, Table, as_is};
 use crate::terminal::TableOptions;
 use crate::words::plain;
@@ -24,42 +24,26 @@ pub const VERSIONS_PAGE: &str = "versions.html";
 /// Returns an error if the folder cannot be written to.
 pub fn write_versions(folder: &Path, versions: &Versions) -> Result<PathBuf, ReportError> {
     versions.write(folder)?;
-    replace(folder, VERSIONS_PAGE, page(versions).as_bytes())
+    replace(folder, VERSIONS_PAGE, html(versions).as_bytes())
 }
 
 /// A table with a row per finding and span of releases, and the totals. Always ends in a newline.
 pub fn versions_table(versions: &Versions, options: TableOptions) -> String {
     let groups = groups(versions);
-    let mut totals = [0_usize; 4];
-    for group in &groups {
-        totals[group.course.clone() as usize] += group.cases.len();
-    }
-    let bad = |group: &&Group<'_>| matches!(group.course, Course::Bad | Course::Flaky);
-    let rows: Vec<&Group<'_>> = groups.iter().filter(bad).collect();
+    let rows: Vec<_> = groups.iter().enumerate().filter(shown).collect();
     let mut text = String::new();
     if !rows.is_empty() {
-        let table = Table::new("")
-            .text("finding", |group: &&Group<'_>| {
-                let first = || format!("none: {}", plain(&group.cases[0].case, 120));
-                group.finding.map_or_else(first, str::to_owned)
-            })
-            .text("bad in", |group| group.bad().to_owned())
-            .text("versions of a finding", |group| {
-                group.range.clone().unwrap_or_default()
-            })
-            .number("cases", |group| group.cases.len());
-        text = format!("{}\n\n", table.terminal(rows, options, &[]).0);
+        text = format!("{}\n\n", findings().terminal(rows, options, &[]).0);
     }
-    let [bad, flaky, good, unknown] = totals.map(|n| n as u64);
-    text.push_str(&format!(
-        "{} of {}, oldest {}, newest {}: {} bad in some, {flaky} flaky, {good} good in all that were drawn, \
+    let [bad, flaky, good, unknown] = totals(&groups);
+    text += &format!(
+        "{} of {}, oldest {}, newest {}: {bad} bad in some, {flaky} flaky, {good} good in all that were drawn, \
          {unknown} not drawn or not asserted\n",
         count(versions.cases.len() as u64, "case"),
         plain(&versions.header.line, 64),
         end(versions.header.releases.first()),
         end(versions.header.releases.last()),
-        bad,
-    ));
+    );
     text
 }
 
@@ -68,14 +52,12 @@ fn end(release: Option<&ReleaseRecord>) -> String {
 }
 
 /// The page.
-fn page(versions: &Versions) -> String {
+fn html(versions: &Versions) -> String {
     let groups = groups(versions);
     let main = html! {
         (head(versions, &groups))
         (overview(versions, &groups))
-        @for (number, group) in groups.iter().enumerate() {
-            @if shown(group) { (section(versions, number, group)) }
-        }
+        @for (number, group) in groups.iter().enumerate().filter(shown) { (section(versions, number, group)) }
     };
     Page::new(
         &format!("etalon: {} over its releases", versions.header.line),
@@ -85,32 +67,60 @@ fn page(versions: &Versions) -> String {
     .html()
 }
 
+/// A row per group, by its number on the page.
 fn findings<'a>() -> Table<'a, (usize, &'a Group<'a>)> {
     Table::new("figures")
-        .head("Finding", |(number, group): &(usize, &'a Group<'a>)| {
-            html! {
+        .head("finding", |(number, group): &(usize, &'a Group<'a>)| {
+            let first = &group.cases[0].case;
+            let none = || format!("none: {}", plain(first, 120));
+            let shown = html! {
                 a href={ "#g" (number) } { (title(group)) }
-                @if group.finding.is_none() { br; small { (group.cases[0].case) } }
-            }
+                @if group.finding.is_none() { br; small { (first) } }
+            };
+            Cell::from(group.finding.map_or_else(none, str::to_owned)).on_page(shown)
         })
-        .number("Cases", |(_, group)| group.cases.len())
-        .text("Bad in", |(_, group)| group.bad())
-        .text("Versions of a finding", |(_, group)| {
-            html! { @if let Some(range) = &group.range { code { (range) } } }
+        .text("bad in", |(_, group)| group.bad())
+        .text("versions of a finding", |(_, group)| {
+            let range = group.range.as_deref();
+            let shown = html! { @if let Some(range) = range { code { (range) } } };
+            Cell::from(range.unwrap_or_default()).on_page(shown)
         })
+        .number("cases", |(_, group)| group.cases.len())
 }
 
 /// True if a group has rows of its own.
-fn shown(group: &Group<'_>) -> bool {
+fn shown((_, group): &(usize, &Group<'_>)) -> bool {
     matches!(group.course, Course::Bad | Course::Flaky)
+}
+
+/// The number of cases by course.
+fn totals(groups: &[Group<'_>]) -> [u64; 4] {
+    let mut totals = [0; 4];
+    for group in groups {
+        totals[group.course as usize] += group.cases.len() as u64;
+    }
+    totals
 }
 
 fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
     let header = &versions.header;
-    let counted = |course: Course| -> u64 {
-        let same = groups.iter().filter(|g| g.course == course);
-        same.map(|g| g.cases.len() as u64).sum()
-    };
+    let [bad, flaky, good, unknown] = totals(groups);
+    let totals = [
+        ("f", bad, "bad", "In some releases."),
+        (
+            "o",
+            flaky,
+            "flaky",
+            "Not the same each time, in some release.",
+        ),
+        ("p", good, "good", "In all releases that were drawn."),
+        (
+            "u",
+            unknown,
+            "unknown",
+            "Not drawn, or nothing was asserted.",
+        ),
+    ];
     html! {
         header {
             h1 { (header.line) " over its releases" }
@@ -125,24 +135,10 @@ fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
                 }
             }
         }
-        section {
-            h2 { "Totals" }
-            ul.totals {
-                @for (class, course, word, about) in [
-                    ("f", Course::Bad, "bad", "In some releases."),
-                    ("o", Course::Flaky, "flaky", "Not the same each time, in some release."),
-                    ("p", Course::Good, "good", "In all releases that were drawn."),
-                    ("u", Course::Unknown, "unknown", "Not drawn, or nothing was asserted."),
-                ] {
-                    li class=(class) {
-                        span.big { (counted(course)) } " " span.m { (word) } small { (about) }
-                    }
-                }
-            }
-            p {
-                (key("f", "✗", "bad")) (key("p", "✓", "good")) (key("o", "~", "flaky"))
-                (key("u", "–", "not drawn or not asserted")) (key("u", "·", "as its neighbours, not drawn"))
-            }
+        (page::totals(totals))
+        p {
+            (key("f", "✗", "bad")) (key("p", "✓", "good")) (key("o", "~", "flaky"))
+            (key("u", "–", "not drawn or not asserted")) (key("u", "·", "as its neighbours, not drawn"))
         }
     }
 }
@@ -155,10 +151,10 @@ fn overview(versions: &Versions, groups: &[Group<'_>]) -> Markup {
     html! {
         section {
             h2 { "By finding" }
-            @if !groups.iter().any(shown) {
+            @if !groups.iter().enumerate().any(|group| shown(&group)) {
                 p.state.good { b { "✓ No case is bad in any release." } }
             } @else {
-                (findings().page(groups.iter().enumerate().filter(|(_, group)| shown(group))))
+                (findings().page(groups.iter().enumerate().filter(shown)))
             }
             p.note {
                 "The releases: "

@@ -11,13 +11,13 @@ mod texel;
 mod value;
 mod verdict;
 
-pub use event::EventLine;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;
 pub(crate) use record::{headline, process_end};
 pub use reduced::ReducedCase;
-pub use story::{judged_by, operations, operations_text, sentence, story_text};
+pub(crate) use story::operations;
+pub use story::{judged_by, operations_text, sentence, story_text};
 pub(crate) use texel::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, value_text,
 };
-pub(crate) use verdict::{Tone, meaning, name, repetitions, symbol};
+pub(crate) use verdict::{Tone, meaning, name, repetitions, signs, symbol};

@@ -1,18 +1,12 @@
 //! The charts of a bench: the ruler over its time, and the spread of one adapter's frame times as a strip in a table.
 
 use super::figures::Timed;
-use crate::chart::{Scale, n};
+use crate::chart::{HEIGHT, Plot, Scale, chart, n, polyline};
 use crate::numbers::{change, duration};
 use etalon_record::Bench;
 use etalon_stats::quantile;
 use maud::{Markup, html};
 
-const WIDTH: f64 = 900.0;
-const HEIGHT: f64 = 180.0;
-const LEFT: f64 = 60.0;
-const RIGHT: f64 = WIDTH - 10.0;
-const TOP: f64 = 10.0;
-const BOTTOM: f64 = HEIGHT - 30.0;
 /// Places along the time axis at which the ruler is shown.
 const PLACES: usize = 300;
 
@@ -30,8 +24,11 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
     let high = quantile(&times, 0.98)? / median;
     let (low, high) = (low.min(0.99) - 0.005, high.max(1.01) + 0.005);
     let end = points.last()?.0.max(1e-9);
-    let scale = Scale::Linear { low, high };
-    let y = |ratio: f64| BOTTOM - scale.at(ratio) * (BOTTOM - TOP);
+    let plot = Plot {
+        x: Scale::Linear(0.0, end),
+        y: Scale::Linear(low, high),
+        zero: 0.0,
+    };
     let mut places: Vec<Vec<f64>> = vec![Vec::new(); PLACES];
     for (at, time) in &points {
         let place = (at / end * (PLACES - 1) as f64) as usize;
@@ -39,36 +36,28 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
             values.push(time / median);
         }
     }
-    let (mut line, mut upper, mut lower) = (String::new(), String::new(), Vec::new());
+    let (mut line, mut upper, mut lower) = (Vec::new(), Vec::new(), Vec::new());
     for (i, values) in places.iter_mut().enumerate() {
         values.sort_by(f64::total_cmp);
-        let x = LEFT + (RIGHT - LEFT) * i as f64 / (PLACES - 1) as f64;
+        let x = plot.x(end * i as f64 / (PLACES - 1) as f64);
         if let (Some(middle), Some(least), Some(most)) =
             (quantile(values, 0.5), values.first(), values.last())
         {
-            let pen = if line.is_empty() { 'M' } else { 'L' };
-            line.push_str(&format!("{pen}{} {}", n(x), n(y(middle))));
-            upper.push_str(&format!("{pen}{} {}", n(x), n(y(*most))));
-            lower.push(format!("L{} {}", n(x), n(y(*least))));
+            line.push((x, plot.y(middle)));
+            upper.push((x, plot.y(*most)));
+            lower.push((x, plot.y(*least)));
         }
     }
     lower.reverse();
-    let band = format!("{upper}{}Z", lower.concat());
-    Some(html! {
-        svg.drift viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="img" {
-            title { "The ruler's time over the bench, relative to its median of " (duration(median)) }
-            path.band d=(band) {}
-            @for ratio in [low, 1.0, high] {
-                path.grid d={ "M" (n(LEFT)) " " (n(y(ratio))) "H" (n(RIGHT)) } {}
-                text x=(LEFT - 6.0) y=(n(y(ratio) + 4.0)) text-anchor="end" {
-                    (change(ratio))
-                }
-            }
-            path.line d=(line) {}
-            text x=(LEFT) y=(HEIGHT - 8.0) { "0 s" }
-            text x=(RIGHT) y=(HEIGHT - 8.0) text-anchor="end" { (format!("{end:.0} s")) }
-        }
-    })
+    upper.extend(lower);
+    let body = html! {
+        (plot.frame(|time| format!("{time:.0} s"), change, "time", "change of the ruler's time"))
+        path.band d={ (polyline(&upper)) "Z" } {}
+        path.curve.k0 d=(polyline(&line)) {}
+    };
+    let about = format!("Relative to its median of {}.", duration(median));
+    let title = format!("The ruler's time over the {end:.0} s of the bench");
+    Some(chart(HEIGHT, &title, &about, &body))
 }
 
 const STRIP_WIDTH: f64 = 180.0;

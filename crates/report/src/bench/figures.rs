@@ -1,9 +1,10 @@
 //! The figures of a bench.
 
 use crate::lists::grouped;
-use crate::numbers::duration;
-use etalon_record::{AdapterRecord, Bench, BenchRecord, Time, Verdict};
+use crate::numbers::{count, duration, percent, round_duration};
+use etalon_record::{AdapterRecord, Bench, BenchRecord, BenchSettings, Time, Verdict};
 use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
+use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 /// Software and hardware adapters, which never share a ranking: the value of [`software`], and in words.
@@ -15,19 +16,11 @@ pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
     adapter.is_some_and(|a| a.software)
 }
 
-/// The figures of a whole bench.
-pub(crate) struct Figures<'a> {
-    /// By case, in the bench's order.
-    pub(crate) cases: Vec<CaseFigures<'a>>,
-}
-
 /// The figures of one case.
 pub(crate) struct CaseFigures<'a> {
     pub(crate) case: &'a str,
-    /// Timed on the processor, fastest first.
-    pub(crate) software: Vec<Timed<'a>>,
-    /// Timed on other devices, fastest first.
-    pub(crate) hardware: Vec<Timed<'a>>,
+    /// Timed on the processor, and on other devices; fastest first.
+    pub(crate) timed: [Vec<Timed<'a>>; 2],
     /// Not timed: the picture is wrong, or could not be drawn, or there is no round yet.
     pub(crate) untimed: Vec<&'a BenchRecord>,
 }
@@ -35,11 +28,7 @@ pub(crate) struct CaseFigures<'a> {
 impl<'a> CaseFigures<'a> {
     /// The adapters of a kind.
     pub(crate) fn of_kind(&self, software: bool) -> &[Timed<'a>] {
-        if software {
-            &self.software
-        } else {
-            &self.hardware
-        }
+        &self.timed[usize::from(!software)]
     }
 }
 
@@ -78,42 +67,27 @@ impl Timed<'_> {
     }
 }
 
-impl<'a> Figures<'a> {
-    pub(crate) fn new(bench: &'a Bench) -> Self {
-        let records = bench.records.iter();
-        let cases = grouped(records.map(|r| (r.picture.case.as_str(), r)));
-        let cases = cases.into_iter().map(|(case, records)| {
-            let (mut on_processor, mut elsewhere, mut untimed) =
-                (Vec::new(), Vec::new(), Vec::new());
-            for record in records {
-                let adapter = bench.header.adapter(&record.picture.adapter);
-                match timed(record) {
-                    Some(timed) if software(adapter) => on_processor.push(timed),
-                    Some(timed) => elsewhere.push(timed),
-                    None => untimed.push(record),
-                }
+/// The figures of a bench by case, in the bench's order.
+pub(crate) fn figures(bench: &Bench) -> Vec<CaseFigures<'_>> {
+    let records = bench.records.iter();
+    let cases = grouped(records.map(|r| (r.picture.case.as_str(), r)));
+    let cases = cases.into_iter().map(|(case, records)| {
+        let (mut timed, mut untimed) = ([Vec::new(), Vec::new()], Vec::new());
+        for record in records {
+            let adapter = bench.header.adapter(&record.picture.adapter);
+            match self::timed(record) {
+                Some(times) => timed[usize::from(!software(adapter))].push(times),
+                None => untimed.push(record),
             }
-            rank(&mut on_processor);
-            rank(&mut elsewhere);
-            CaseFigures {
-                case,
-                software: on_processor,
-                hardware: elsewhere,
-                untimed,
-            }
-        });
-        Self {
-            cases: cases.collect(),
         }
-    }
-
-    /// Everything that was timed.
-    pub(crate) fn timed(&self) -> impl Iterator<Item = (&'a str, &Timed<'a>)> {
-        self.cases.iter().flat_map(|c| {
-            let timed = c.software.iter().chain(&c.hardware);
-            timed.map(|t| (c.case, t))
-        })
-    }
+        timed.iter_mut().for_each(|times| rank(times));
+        CaseFigures {
+            case,
+            timed,
+            untimed,
+        }
+    });
+    cases.collect()
 }
 
 /// The verdict of a record and its message: those of its end, else those of its picture.
@@ -142,6 +116,24 @@ fn timed(record: &BenchRecord) -> Option<Timed<'_>> {
         others: others.collect(),
         samples: wall,
     })
+}
+
+/// What a bench lacks, as a state of its pages.
+pub(crate) fn incomplete(bench: &Bench) -> Markup {
+    let missing = bench.missing();
+    html! {
+        @if bench.truncated || missing > 0 {
+            p.state.bad { b { "! Incomplete. " } (count(missing, "round")) " missing." }
+        }
+    }
+}
+
+/// What ends a bench, as facts of its pages.
+pub(crate) fn limits(settings: &BenchSettings) -> Markup {
+    html! {
+        @if let Some(share) = settings.within { dt { "Enough" } dd { "intervals within " (percent(share, 1)) } }
+        @if let Some(limit) = settings.limit { dt { "Time limit" } dd { (round_duration(limit)) " of rounds on each adapter" } }
+    }
 }
 
 /// Sorts by median, and gives a rank of its own only to what is slower than the first of the rank

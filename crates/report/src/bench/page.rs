@@ -1,64 +1,57 @@
 //! `index.html` of a bench.
 
 use super::charts::{Times, drift, strip};
-use super::figures::{CaseFigures, Figures, KINDS, Timed, end};
-use crate::lists::distinct;
-use crate::numbers::{between, change, count, duration, percent, round_duration};
+use super::figures::{CaseFigures, KINDS, Timed, end, incomplete, limits};
+use crate::chart;
+use crate::numbers::{between, change, count, duration, percent};
 use crate::page::Page;
-use crate::page::adapter::{adapter as adapter_cell, breakable, details};
+use crate::page::adapter::{adapter as adapter_cell, breakable, section as adapters};
 use crate::page::origin::origin;
 use crate::table::{Cell, Table, as_is};
 use crate::words;
 use etalon_record::{Bench, BenchRecord, Time, cell};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER};
 use maud::{Markup, html};
+use std::collections::BTreeSet;
 
 const OWN_STYLE: &str = include_str!("bench.css");
 
 /// The page.
-pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
+pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
     let main = html! {
         (head(bench, figures))
         (explanation())
-        @if figures.cases.is_empty() {
+        @if figures.is_empty() {
             p { "No case was drawn, so there is nothing to report." }
         } @else {
             @for (kind, title) in KINDS { (overview(figures, kind, title)) }
             (ruler(bench))
             section id="cases" {
                 h2 { "Cases" }
-                @for (i, case) in figures.cases.iter().enumerate() { (of_case(case, i)) }
+                @for (i, case) in figures.iter().enumerate() { (of_case(case, i)) }
             }
         }
-        section id="adapters" {
-            h2 { "Adapters" }
-            @if bench.header.adapters.is_empty() { p { "None." } }
-            @for adapter in &bench.header.adapters { (details(adapter)) }
-            @for absent in &bench.header.absent {
-                p.soft { (absent.name) ": " (absent.reason) "; " (absent.remedy) }
-            }
-        }
+        (adapters(&bench.header.adapters, &bench.header.absent))
     };
     Page::new(
         &format!("etalon bench {}", bench.header.started),
         "bench.jsonl in this folder",
         &main,
     )
+    .style(&chart::style())
     .style(OWN_STYLE)
     .html()
 }
 
-fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
+fn head(bench: &Bench, figures: &[CaseFigures<'_>]) -> Markup {
     let h = &bench.header;
-    let untimed = figures.cases.iter().flat_map(|c| &c.untimed);
+    let untimed = figures.iter().flat_map(|c| &c.untimed);
     let bad = untimed.filter(|r| end(r).0.is_bad()).count() as u64;
     html! {
         header {
             h1 { "etalon bench" }
             p.lead { "Frame times of graphics drivers, of frames that were judged right." }
-            @if bench.truncated || bench.missing() > 0 {
-                p.state.bad { b { "! Incomplete. " } (count(bench.missing(), "round")) " missing." }
-            }
+            (incomplete(bench))
             @if bad > 0 {
                 p.state.bad {
                     b { "✗ " (count(bad, "picture")) " wrong, broken or unjudged" }
@@ -73,14 +66,9 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
                 }
                 dt { "Shader caches" } dd { (h.shader_cache.name()) }
                 dt { "Ruler" } dd { (h.ruler) }
-                @if let Some(share) = h.settings.within {
-                    dt { "Enough" } dd { "intervals within " (percent(share, 1)) }
-                }
-                @if let Some(limit) = h.settings.limit {
-                    dt { "Time limit" } dd { (round_duration(limit)) " of rounds on each adapter" }
-                }
+                (limits(&h.settings))
             }
-            @if figures.cases.iter().any(|c| cell(c.case).is_some()) {
+            @if figures.iter().any(|c| cell(c.case).is_some()) {
                 nav { a href="matrix.html" { "Performance matrix" } }
             }
         }
@@ -115,10 +103,9 @@ fn explanation() -> Markup {
 }
 
 /// Medians of all cases on all adapters of a kind.
-fn overview(figures: &Figures<'_>, kind: bool, title: &str) -> Markup {
-    let timed = figures.cases.iter().flat_map(|c| c.of_kind(kind));
-    let mut adapters = distinct(timed.map(Timed::adapter));
-    adapters.sort_unstable();
+fn overview(figures: &[CaseFigures<'_>], kind: bool, title: &str) -> Markup {
+    let timed = figures.iter().flat_map(|c| c.of_kind(kind));
+    let adapters: BTreeSet<&str> = timed.map(Timed::adapter).collect();
     let several = adapters.len() > 1;
     let mut table = Table::<(usize, &CaseFigures<'_>)>::new("times").head("Case", |(i, case)| {
         html! { a href={ "#case-" (i) } { (case.case) } }
@@ -136,7 +123,7 @@ fn overview(figures: &Figures<'_>, kind: bool, title: &str) -> Markup {
         @if !adapters.is_empty() {
             section {
                 h2 { (title) " adapters, wall time per frame" }
-                (table.page(figures.cases.iter().enumerate()))
+                (table.page(figures.iter().enumerate()))
                 p.cap { "Bold: first rank among these adapters. –: not timed." }
             }
         }

@@ -1,6 +1,6 @@
 //! The summary of a bench for a terminal.
 
-use super::figures::{Figures, KINDS, Timed, end};
+use super::figures::{KINDS, Timed, end, figures};
 use crate::numbers::{between, change, count, duration};
 use crate::table::Table;
 use crate::terminal::TableOptions;
@@ -11,9 +11,9 @@ use std::iter::repeat;
 /// The cases outside the performance matrix: a table per kind of adapter with a row per case and adapter, fastest first; then what was not
 /// timed, and why. Always ends in a newline.
 pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
-    let figures = Figures::new(bench);
+    let figures = figures(bench);
     let mut text = String::new();
-    let cases = || figures.cases.iter().filter(|c| cell(c.case).is_none());
+    let cases = || figures.iter().filter(|c| cell(c.case).is_none());
     for (kind, title) in KINDS {
         let rows: Vec<(&str, &Timed<'_>)> = cases()
             .flat_map(|case| {
@@ -24,7 +24,7 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
         if !rows.is_empty() {
             let optional = ["n", "gpu", "cpu", "visible", "p95", "interval"];
             let (table, _) = table().terminal(rows, options, &optional);
-            text.push_str(&format!("{title}\n{table}\n\n"));
+            text += &format!("{title}\n{table}\n\n");
         }
     }
     let untimed: Vec<_> = cases().flat_map(|c| &c.untimed).collect();
@@ -33,14 +33,14 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
         for record in untimed {
             let (verdict, p) = (end(record).0, &record.picture);
             let (adapter, case) = (plain(&p.adapter, 60), plain(&p.case, 200));
-            text.push_str(&format!("  {verdict}  {adapter}  {case}\n"));
+            text += &format!("  {verdict}  {adapter}  {case}\n");
         }
         text.push('\n');
     }
     let missing = bench.missing();
     if bench.truncated || missing > 0 {
         let rounds = count(missing, "round");
-        text.push_str(&format!("Incomplete: {rounds} missing.\n"));
+        text += &format!("Incomplete: {rounds} missing.\n");
     }
     text.push_str(
         "Median of the rounds' medians with its 99 % interval; adapters with equal ranks (#) do not differ provably;\n\

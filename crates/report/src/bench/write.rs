@@ -1,6 +1,6 @@
 //! Writing the reports of a bench.
 
-use super::figures::{Figures, Timed};
+use super::figures::{CaseFigures, Timed, figures};
 use super::page;
 use crate::error::ReportError;
 use crate::files::replace;
@@ -38,7 +38,7 @@ pub struct WrittenBench {
 /// Returns an error if the folder holds no readable bench, or cannot be written to.
 pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let bench = Bench::read(folder)?;
-    let figures = Figures::new(&bench);
+    let figures = figures(&bench);
     let html = page::page(&bench, &figures);
     let matrix = Matrix::new(&bench);
     let benchmarks = benchmarks(&figures);
@@ -60,8 +60,8 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
 }
 
 /// All that was timed, in the order of the figures.
-fn benchmarks(figures: &Figures<'_>) -> Vec<Benchmark> {
-    let each = figures.timed().map(|(case, timed)| {
+fn benchmarks(figures: &[CaseFigures<'_>]) -> Vec<Benchmark> {
+    let each = |(case, timed): (&str, &Timed<'_>)| {
         let wall = [(Time::Wall, figure(&timed.wall))].into_iter();
         let others = timed.others.iter().map(|(time, s)| (*time, figure(s)));
         Benchmark {
@@ -70,8 +70,12 @@ fn benchmarks(figures: &Figures<'_>) -> Vec<Benchmark> {
             times: wall.chain(others).collect(),
             extra: extra(timed),
         }
+    };
+    let timed = figures.iter().flat_map(|figures| {
+        let adapters = figures.timed.iter().flatten();
+        adapters.map(|timed| (figures.case, timed))
     });
-    each.collect()
+    timed.map(each).collect()
 }
 
 fn figure(summary: &Summary) -> Figure {

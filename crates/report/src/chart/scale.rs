@@ -4,9 +4,9 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     /// Between two values.
-    Linear { low: f64, high: f64 },
+    Linear(f64, f64),
     /// Between the decimal logarithms of two values.
-    Log { low: f64, high: f64 },
+    Log(f64, f64),
 }
 
 impl Scale {
@@ -17,10 +17,7 @@ impl Scale {
             0.0 => low.abs().max(1.0) * 0.5,
             span => span * 0.04,
         };
-        Self::Linear {
-            low: low - pad,
-            high: high + pad,
-        }
+        Self::Linear(low - pad, high + pad)
     }
 
     /// A logarithmic scale with all values, which must be positive, inside, over a factor of two at
@@ -31,18 +28,12 @@ impl Scale {
         let pad = ((high - low) * 0.06)
             .max((0.31 - (high - low)) / 2.0)
             .max(0.02);
-        Self::Log {
-            low: low - pad,
-            high: high + pad,
-        }
+        Self::Log(low - pad, high + pad)
     }
 
     /// A logarithmic scale between two positive values.
     pub(crate) fn log_between(low: f64, high: f64) -> Self {
-        Self::Log {
-            low: low.log10(),
-            high: high.log10(),
-        }
+        Self::Log(low.log10(), high.log10())
     }
 
     /// Logarithmic where positive values lie far apart, else linear.
@@ -58,8 +49,8 @@ impl Scale {
     /// The place of a value.
     pub(crate) fn at(self, value: f64) -> f64 {
         let (low, high, value) = match self {
-            Self::Linear { low, high } => (low, high, value),
-            Self::Log { low, high } => (low, high, value.log10()),
+            Self::Linear(low, high) => (low, high, value),
+            Self::Log(low, high) => (low, high, value.log10()),
         };
         ((value - low) / (high - low)).clamp(0.0, 1.0)
     }
@@ -67,8 +58,8 @@ impl Scale {
     /// Round values inside, about as many as asked for and never more than twice as many.
     pub(crate) fn ticks(self, count: usize) -> Vec<f64> {
         match self {
-            Self::Linear { low, high } => linear_ticks(low, high, count),
-            Self::Log { low, high } => {
+            Self::Linear(low, high) => linear_ticks(low, high, count),
+            Self::Log(low, high) => {
                 let decades = high - low;
                 if decades < 0.7 {
                     let ticks = linear_ticks(10_f64.powf(low), 10_f64.powf(high), count);
@@ -160,7 +151,7 @@ mod tests {
         assert_eq!(ticks, [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1]);
         let ticks = Scale::log([1e-6, 1.0]).ticks(5);
         assert_eq!(ticks, [1e-6, 1e-4, 0.01, 1.0]);
-        assert!(matches!(Scale::fitting(&[1.0, 4.0]), Scale::Linear { .. }));
-        assert!(matches!(Scale::fitting(&[1.0, 64.0]), Scale::Log { .. }));
+        assert!(matches!(Scale::fitting(&[1.0, 4.0]), Scale::Linear(..)));
+        assert!(matches!(Scale::fitting(&[1.0, 64.0]), Scale::Log(..)));
     }
 }

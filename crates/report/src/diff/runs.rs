@@ -61,7 +61,7 @@ pub fn diff(
     let [first, second] = &folders;
     let chosen = pairs::choose(first, second, adapters)?;
     let same_selection = facts::same_selection(&runs[0].header, &runs[1].header);
-    let selections = Selections::new([before, after], &runs, same_selection)?;
+    let selection = Selection::read(after, &runs[1], same_selection)?;
     let mut found = RunDiff {
         kind: "runs",
         warnings: warnings(&runs, same_selection),
@@ -71,9 +71,9 @@ pub fn diff(
         ..RunDiff::default()
     };
     for adapter in chosen {
-        of_pair(&mut found, &folders, adapter, &selections);
+        of_pair(&mut found, &folders, adapter, &selection);
     }
-    if selections.unknown {
+    if matches!(selection, Selection::Unknown) {
         let alone = found.only.iter().filter(|o| o.side == Side::Before);
         match alone.count() as u64 {
             0 => {}
@@ -115,7 +115,7 @@ fn of_pair(
     found: &mut RunDiff,
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
-    selections: &Selections,
+    selection: &Selection,
 ) {
     let matched = Matched::new(folders, adapter);
     let mut pair = Pair::new(adapter, facts::of_adapters(folders, adapter));
@@ -140,7 +140,7 @@ fn of_pair(
                 adapter: record.adapter.clone(),
                 side,
                 verdict: record.verdict,
-                worse: side == Side::Before && selections.due_after(&record.case),
+                worse: side == Side::Before && selection.has(&record.case),
             });
         }
     }
@@ -151,44 +151,40 @@ fn of_pair(
 }
 
 /// The cases that the second run was to draw.
-struct Selections {
-    /// True if the runs are of one selection.
-    same: bool,
-    /// The list of the second run and its shard.
-    after: Option<(HashSet<String>, Option<Shard>)>,
-    /// True if the selections differ, and a run does not list its own.
-    unknown: bool,
+enum Selection {
+    /// Those of the first run.
+    Same,
+    /// Those of a list and a shard.
+    Listed(HashSet<String>, Option<Shard>),
+    /// The selections differ, and the second run does not list its own.
+    Unknown,
 }
 
-impl Selections {
-    fn new(folders: [&Path; 2], runs: &[Run; 2], same: bool) -> Result<Self, ReportError> {
+impl Selection {
+    fn read(folder: &Path, run: &Run, same: bool) -> Result<Self, ReportError> {
         if same {
-            return Ok(Self {
-                same,
-                after: None,
-                unknown: false,
-            });
+            return Ok(Self::Same);
         }
-        let [_, after] = runs;
-        let list = if after.header.settings.selection.is_empty() {
-            None
-        } else {
-            read_cases(folders[1], &after.header)?
+        let settings = &run.header.settings;
+        let list = match &*settings.selection {
+            "" => None,
+            _ => read_cases(folder, &run.header)?,
         };
-        Ok(Self {
-            same,
-            unknown: list.is_none(),
-            after: list.map(|ids| (ids.into_iter().collect(), after.header.settings.shard)),
-        })
+        Ok(list.map_or(Self::Unknown, |ids| {
+            Self::Listed(ids.into_iter().collect(), settings.shard)
+        }))
     }
 
     /// True if the second run was to hold a record of a case.
-    fn due_after(&self, case: &str) -> bool {
-        let listed = self.after.as_ref().is_some_and(|(ids, shard)| {
-            let drawn = |shard: &Shard| shard_of(case, shard.count) == shard.index;
-            ids.contains(case) && shard.as_ref().is_none_or(drawn)
-        });
-        self.same || listed
+    fn has(&self, case: &str) -> bool {
+        match self {
+            Self::Same => true,
+            Self::Listed(ids, shard) => {
+                let drawn = |shard: Shard| shard_of(case, shard.count) == shard.index;
+                ids.contains(case) && shard.is_none_or(drawn)
+            }
+            Self::Unknown => false,
+        }
     }
 }
 

@@ -37,16 +37,10 @@ struct Document<'a> {
 
 #[derive(Serialize)]
 struct Results<'a> {
-    tool: Tool<'a>,
+    tool: Value,
     summary: Summary,
     tests: Vec<Test<'a>>,
     environment: Environment<'a>,
-}
-
-#[derive(Serialize)]
-struct Tool<'a> {
-    name: &'static str,
-    version: &'a str,
 }
 
 #[derive(Default, Serialize)]
@@ -128,12 +122,9 @@ pub(crate) fn json(run: &Run, grid: &Grid<'_>) -> Result<Vec<u8>, ReportError> {
     let mut tests = Vec::with_capacity(run.records.len() + 1);
     let mut total = 0.0;
     for column in 0..grid.adapters.len() {
-        for area in &grid.areas {
-            for index in area.on(column) {
-                let record = grid.record(index);
-                total += seconds(record);
-                tests.push(test(record));
-            }
+        for record in grid.on(column) {
+            total += seconds(record);
+            tests.push(test(record));
         }
     }
     let incomplete = incomplete(run);
@@ -159,10 +150,7 @@ pub(crate) fn json(run: &Run, grid: &Grid<'_>) -> Result<Vec<u8>, ReportError> {
         spec_version: SPEC_VERSION,
         generated_by: format!("etalon {}", h.etalon),
         results: Results {
-            tool: Tool {
-                name: "etalon",
-                version: &h.etalon,
-            },
+            tool: json!({ "name": "etalon", "version": h.etalon }),
             summary,
             tests,
             environment: Environment {
@@ -238,40 +226,30 @@ fn extra(record: &Record) -> Map<String, Value> {
     let process = record.process.as_ref().map(|end| {
         json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit, "seconds": end.seconds })
     });
-    let facts = [
-        ("adapter", Some(json!(record.adapter))),
-        ("texels", (t.total > 0).then(|| json!(t))),
-        (
-            "asserted",
-            (channels > 0).then(|| json!(asserted as f64 / channels as f64)),
-        ),
-        (
-            "expected",
-            record
-                .expected
-                .as_ref()
-                .map(|expected| json!(expected.reason)),
-        ),
-        ("improves", record.improves.map(|verdict| json!(verdict))),
-        ("dueFail", record.due_fail.then_some(json!(true))),
-        (
-            "repeats",
-            Some(json!(record.repeats)).filter(|_| !record.repeats.is_empty()),
-        ),
-        (
-            "after",
-            Some(json!(record.after)).filter(|_| !record.after.is_empty()),
-        ),
-        (
-            "blockedBy",
-            Some(json!(record.blocked_by)).filter(|_| !record.blocked_by.is_empty()),
-        ),
-        ("process", process),
-    ];
-    let facts = facts.into_iter();
-    facts
-        .filter_map(|(key, value)| Some((key.to_owned(), value?)))
-        .collect()
+    let facts = json!({
+        "adapter": record.adapter,
+        "texels": (t.total > 0).then_some(t),
+        "asserted": (channels > 0).then(|| asserted as f64 / channels as f64),
+        "expected": record.expected.as_ref().map(|expected| &expected.reason),
+        "improves": record.improves,
+        "dueFail": record.due_fail.then_some(true),
+        "repeats": listed(&record.repeats),
+        "after": listed(&record.after),
+        "blockedBy": listed(&record.blocked_by),
+        "process": process,
+    });
+    match facts {
+        Value::Object(mut facts) => {
+            facts.retain(|_, value| !value.is_null());
+            facts
+        }
+        _ => Map::new(),
+    }
+}
+
+/// A list that is not empty.
+fn listed<T>(list: &[T]) -> Option<&[T]> {
+    (!list.is_empty()).then_some(list)
 }
 
 fn completeness(incomplete: Option<String>) -> Test<'static> {

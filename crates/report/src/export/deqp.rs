@@ -22,6 +22,7 @@
 //! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
 
 use crate::export::status::seconds;
+use crate::files::file_name;
 use crate::numbers::count;
 use crate::run::grid::Grid;
 use etalon_record::{Record, Run, Verdict, read_cases, shard_of};
@@ -44,7 +45,7 @@ pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<List> {
     let adapters = grid.adapters.iter().enumerate();
     adapters
         .map(|(column, adapter)| List {
-            name: file_name(adapter, &mut names),
+            name: file_name(adapter, ".csv", &mut names),
             text: list(run, grid, column, &selected),
         })
         .collect()
@@ -54,8 +55,7 @@ fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> Strin
     let mut lines = Vec::new();
     let mut refused = 0;
     let mut drawn = BTreeSet::new();
-    for index in grid.areas.iter().flat_map(|area| area.on(column)) {
-        let record = grid.record(index);
+    for record in grid.on(column) {
         drawn.insert(record.case.as_str());
         if readable(&record.case) {
             let seconds = seconds(record);
@@ -73,19 +73,17 @@ fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> Strin
     lines.sort_by(|a, b| a.0.cmp(b.0));
     let mut text = String::new();
     if refused > 0 {
-        text.push_str(&format!(
+        text += &format!(
             "# {} left out: deqp-runner could not read their ids\n",
             count(refused, "record")
-        ));
+        );
     }
     if missing > 0 {
         let records = count(missing, "record");
-        text.push_str(&format!(
-            "# incomplete: {records} missing, and not listed here\n"
-        ));
+        text += &format!("# incomplete: {records} missing, and not listed here\n");
     }
     for (case, status, seconds) in lines {
-        text.push_str(&format!("{case},{status},{}\n", seconds as f32));
+        text += &format!("{case},{status},{}\n", seconds as f32);
     }
     text
 }
@@ -145,45 +143,4 @@ fn selected(folder: &Path, run: &Run) -> Vec<String> {
         ids.retain(|id| shard_of(id, shard.count) == shard.index);
     }
     ids
-}
-
-/// A file name for an adapter, other than all before: what could mislead a file system is replaced.
-fn file_name(adapter: &str, taken: &mut BTreeSet<String>) -> String {
-    const LONGEST: usize = 120;
-    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
-    let safe: String = adapter
-        .chars()
-        .take(LONGEST)
-        .map(|c| if fine(c) { c } else { '_' })
-        .collect();
-    let safe = match safe.strip_prefix('.') {
-        Some(suffix) => format!("_{suffix}"),
-        None if safe.is_empty() => "_".to_owned(),
-        None => safe,
-    };
-    let mut name = format!("{safe}.csv");
-    let mut number = 1;
-    // Some file systems hold names for the same that differ in case alone.
-    while !taken.insert(name.to_ascii_lowercase()) {
-        number += 1;
-        name = format!("{safe}-{number}.csv");
-    }
-    name
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn file_names_stay_in_the_folder_and_apart() {
-        let mut taken = BTreeSet::new();
-        let mut name = |adapter: &str| file_name(adapter, &mut taken);
-        assert_eq!(name("gl:es:llvmpipe"), "gl_es_llvmpipe.csv");
-        assert_eq!(name("gl:es/llvmpipe"), "gl_es_llvmpipe-2.csv");
-        assert_eq!(name("GL:es:llvmpipe"), "GL_es_llvmpipe-3.csv");
-        assert_eq!(name("../../x"), "_._.._x.csv");
-        assert_eq!(name(""), "_.csv");
-        assert!(name(&"v".repeat(5000)).len() < 130);
-    }
 }

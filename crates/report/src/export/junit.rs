@@ -25,11 +25,7 @@ pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> 
             suite.add_property(("driver", facts.driver_text().as_str()));
             suite.add_property(("api", facts.api_version.as_str()));
         }
-        for area in &grid.areas {
-            for index in area.on(column) {
-                suite.add_test_case(test_case(grid.record(index)));
-            }
-        }
+        suite.add_test_cases(grid.on(column).map(test_case));
         report.add_test_suite(suite);
     }
     report.add_test_suite(completeness(run));

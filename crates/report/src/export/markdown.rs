@@ -71,8 +71,7 @@ impl Text {
         let left = items.len() - shown.count();
         if left > 0 {
             // The room behind the sections is there for this.
-            self.text
-                .push_str(&format!("\n{left} more left out of this summary.\n"));
+            self.text += &format!("\n{left} more left out of this summary.\n");
         }
     }
 }
@@ -226,9 +225,9 @@ fn unexpected(text: &mut Text, run: &Run) {
             escaped(&headline(record), 300),
         );
         for line in particulars(record).iter().take(6) {
-            entry.push_str(&format!("\\\n  {}", escaped(line, 300)));
+            entry += &format!("\\\n  {}", escaped(line, 300));
         }
-        entry.push_str(&format!("\\\n  {}", code(&command::explain(record), 800)));
+        entry += &format!("\\\n  {}", code(&command::explain(record), 800));
         entry
     });
 }

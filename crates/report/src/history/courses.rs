@@ -2,11 +2,13 @@
 
 use super::looks::Looks;
 use super::places::Line;
+use crate::lists::Interner;
 use etalon_history::{History, HistoryError};
 use etalon_stats::{Class, Happening, happenings};
 use std::collections::HashMap;
 
 /// The course of one case on one timeline. Runs are places in the timeline.
+#[derive(Default)]
 pub(super) struct Course {
     /// The first run that has a record.
     pub(super) first: u32,
@@ -16,6 +18,8 @@ pub(super) struct Course {
     pub(super) spans: Vec<(u32, u32)>,
     /// The runs between that have no record: a number of [`Gaps`].
     pub(super) gaps: u32,
+    /// True if all whole runs have a record.
+    pub(super) is_common: bool,
     pub(super) events: Vec<Happening<u32>>,
 }
 
@@ -41,18 +45,12 @@ impl Course {
 #[derive(Default)]
 pub(super) struct Gaps {
     /// The list before, the first run and the number of runs; list 0 is empty.
-    all: Vec<(u32, u32, u32)>,
-    numbers: HashMap<(u32, u32, u32), u32>,
+    all: Interner<(u32, u32, u32)>,
 }
 
 impl Gaps {
     fn longer(&mut self, than: u32, from: u32, runs: u32) -> u32 {
-        let courses = &mut self.all;
-        let number = self.numbers.entry((than, from, runs)).or_insert_with(|| {
-            courses.push((than, from, runs));
-            courses.len() as u32
-        });
-        *number
+        self.all.place((than, from, runs)) as u32 + 1
     }
 
     /// The gaps of a list, first run and number of runs, in order.
@@ -60,7 +58,7 @@ impl Gaps {
         let mut list = Vec::new();
         while let Some((before, from, runs)) = number
             .checked_sub(1)
-            .and_then(|index| self.all.get(index as usize))
+            .and_then(|index| self.all.values.get(index as usize))
         {
             list.push((*from, *runs));
             number = *before;
@@ -75,12 +73,10 @@ pub(super) struct Courses {
     /// By the case's number less one; `None` without a record.
     pub(super) of: Vec<Option<Course>>,
     pub(super) gaps: Gaps,
-    /// True by list of gaps if a whole run is in it.
-    pub(super) holed: HashMap<u32, bool>,
 }
 
 impl Courses {
-    /// Reads all records of a timeline. `each` is called with run, case less one, and look.
+    /// Reads all records of a timeline and finds what happened to every case. `each` is called with run, case less one, and look.
     pub(super) fn read(
         history: &History,
         line: &Line<'_>,
@@ -88,8 +84,7 @@ impl Courses {
         looks: &mut Looks,
         mut each: impl FnMut(usize, usize, u32, &Looks),
     ) -> Result<Self, HistoryError> {
-        let mut course_of: Vec<Option<Course>> = Vec::new();
-        course_of.resize_with(cases, || None);
+        let mut course_of: Vec<Option<Course>> = (0..cases).map(|_| None).collect();
         let mut gaps = Gaps::default();
         for (index, run) in line.runs.iter().enumerate() {
             let here = index as u32;
@@ -113,41 +108,32 @@ impl Courses {
                             first: here,
                             last: here,
                             spans: vec![(here, look)],
-                            gaps: 0,
-                            events: Vec::new(),
+                            ..Course::default()
                         });
                     }
                 }
             }
         }
-        let mut courses = Self {
-            of: course_of,
-            gaps,
-            holed: HashMap::new(),
-        };
-        courses.tell(line, looks);
-        Ok(courses)
-    }
-
-    /// Finds what happened to every case.
-    fn tell(&mut self, line: &Line<'_>, looks: &Looks) {
+        // True by list of gaps if a whole run is in it.
+        let mut holed: HashMap<u32, bool> = HashMap::new();
         let whole = |run: &u32| line.runs[*run as usize].whole;
         let runs = line.runs.len() as u32;
         let first = (0..runs).find(whole).unwrap_or(0);
         let last = (0..runs).rfind(whole).unwrap_or(0);
-        for course in self.of.iter_mut().flatten() {
-            let gaps = &self.gaps;
-            let list = course.gaps;
-            let holed = *self.holed.entry(list).or_insert_with(|| {
-                let mut all = gaps.list(list).into_iter();
-                all.any(|(from, runs)| (from..from + runs).any(|run| whole(&run)))
+        for course in course_of.iter_mut().flatten() {
+            let holed = *holed.entry(course.gaps).or_insert_with(|| {
+                let mut list = gaps.list(course.gaps).into_iter();
+                list.any(|(from, runs)| (from..from + runs).any(|run| whole(&run)))
             });
-            let changed = course.spans.len() > 1 || holed;
-            if !changed && course.first <= first && course.last >= last {
-                continue;
+            course.is_common = !holed && course.first <= first && course.last >= last;
+            if course.spans.len() > 1 || !course.is_common {
+                course.events = happenings(&course.classes(&gaps, line, looks));
             }
-            course.events = happenings(&course.classes(gaps, line, looks));
         }
+        Ok(Self {
+            of: course_of,
+            gaps,
+        })
     }
 }
 

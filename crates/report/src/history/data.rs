@@ -4,16 +4,15 @@
 //! which could name a prototype.
 
 use super::courses::{Course, Courses};
-use super::looks::Looks;
+use super::model::{Model, Timeline};
 use super::news::{self, News};
-use super::places::Places;
 use super::times::{Series, Timed};
 use crate::lists::Interner;
 use crate::numbers::trimmed;
 use crate::words::machine;
 use etalon_history::{History, Kind, TriageEntry, format_time};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The bytes at which a file ends and the next begins.
@@ -26,21 +25,15 @@ pub(super) fn file(name: &str, value: &str) -> String {
 }
 
 /// Texts in lists of so many bytes that each makes a file; a text is never divided.
-pub(super) struct Packed {
+#[derive(Default)]
+pub(super) struct Files {
     /// The number of the first text of each file.
     pub(super) first: Vec<usize>,
     /// The texts of each file, joined by commas.
     pub(super) files: Vec<String>,
 }
 
-impl Packed {
-    pub(super) fn new() -> Self {
-        Self {
-            first: Vec::new(),
-            files: Vec::new(),
-        }
-    }
-
+impl Files {
     pub(super) fn push(&mut self, number: usize, text: &str) {
         match self.files.last_mut() {
             Some(file) if file.len() + text.len() < FILE => {
@@ -53,17 +46,12 @@ impl Packed {
             }
         }
     }
-
-    /// The number of the file that was pushed to last.
-    pub(super) fn last(&self) -> usize {
-        self.files.len().saturating_sub(1)
-    }
 }
 
 /// All runs, timelines, drivers, machines and looks.
-pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Value {
-    let mut drivers: Interner<[String; 3]> = Interner::default();
-    let mut machines: Interner<String> = Interner::default();
+pub(super) fn runs(model: &Model<'_>) -> Value {
+    let places = model.places;
+    let (mut drivers, mut machines) = (Interner::default(), Interner::default());
     let timelines: Vec<Value> = places
         .timelines
         .iter()
@@ -84,7 +72,7 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
         .runs
         .iter()
         .map(|run| {
-            let on = history.machine(run.machine).map(machine);
+            let on = model.history.machine(run.machine).map(machine);
             let on = machines.place(on.unwrap_or_default());
             let labels: Vec<[String; 2]> = run
                 .labels
@@ -112,9 +100,9 @@ pub(super) fn runs(history: &History, places: &Places<'_>, looks: &Looks) -> Val
     json!({
         "runs": runs,
         "timelines": timelines,
-        "drivers": drivers.values,
-        "machines": machines.values,
-        "looks": looks.data(),
+        "drivers": drivers,
+        "machines": machines,
+        "looks": model.looks.data(),
     })
 }
 
@@ -134,9 +122,10 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
 }
 
 /// Files of courses. Cases of one file that went the same way share a text, which most do.
+#[derive(Default)]
 pub(super) struct CaseFiles {
-    /// The place of the first case of each file among all cases.
-    pub(super) first: Vec<usize>,
+    /// The place of the first case of each file among all cases, but of the first file.
+    first: Vec<usize>,
     files: Vec<String>,
     now: CaseFile,
 }
@@ -144,8 +133,7 @@ pub(super) struct CaseFiles {
 /// A file in the making.
 #[derive(Default)]
 struct CaseFile {
-    numbers: HashMap<String, usize>,
-    courses: Vec<String>,
+    courses: Interner<String>,
     of: Vec<usize>,
     /// The place of a case within the file, the file of its times or -1, and what people said.
     more: Vec<Value>,
@@ -153,20 +141,12 @@ struct CaseFile {
 }
 
 impl CaseFiles {
-    pub(super) fn new() -> Self {
-        Self {
-            first: vec![0],
-            files: Vec::new(),
-            now: CaseFile::default(),
-        }
-    }
-
     /// Adds the case at this place: its course on all timelines, the file of its times, what people said.
     pub(super) fn push(
         &mut self,
         place: usize,
         case: usize,
-        courses: &[Courses],
+        timelines: &[Timeline<'_>],
         times: Option<usize>,
         said: &[&TriageEntry],
     ) {
@@ -175,62 +155,52 @@ impl CaseFiles {
             self.first.push(place);
         }
         let now = &mut self.now;
-        let on_line = |(line, of): (usize, &Courses)| {
-            let course = of.of[case].as_ref()?;
-            Some(course_data(line, course, of))
+        let on_line = |(line, timeline): (usize, &Timeline<'_>)| {
+            let courses = &timeline.courses;
+            Some(course_data(line, courses.of[case].as_ref()?, courses))
         };
-        let lines = courses.iter().enumerate().filter_map(on_line);
+        let lines = timelines.iter().enumerate().filter_map(on_line);
         let text = lines.collect::<Value>().to_string();
         now.bytes += 4;
-        let number = match now.numbers.get(&text) {
-            Some(number) => *number,
-            None => {
-                now.bytes += text.len();
-                now.numbers.insert(text.clone(), now.courses.len());
-                now.courses.push(text);
-                now.courses.len() - 1
-            }
-        };
+        if !now.courses.has(&text) {
+            now.bytes += text.len();
+        }
         if times.is_some() || !said.is_empty() {
             let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
             let more = json!([now.of.len(), times.map_or(-1, |t| t as i64), said]);
             now.bytes += more.to_string().len();
             now.more.push(more);
         }
-        now.of.push(number);
+        now.of.push(now.courses.place(text));
     }
 
-    /// The texts of all files.
+    /// The first case of each file, and the texts of all files.
     pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
         self.files.push(self.now.text());
+        self.first.insert(0, 0);
         (self.first, self.files)
     }
 }
 
 impl CaseFile {
     fn text(self) -> String {
-        let (courses, places, more) = (self.courses.join(","), json!(self.of), json!(self.more));
-        format!("[[{courses}],{places},{more}]")
+        let courses = self.courses.values.join(",");
+        format!("[[{courses}],{},{}]", json!(self.of), json!(self.more))
     }
 }
 
 /// Timeline, first and last run, spans, and gaps and events as far as there are any.
 fn course_data(line: usize, course: &Course, courses: &Courses) -> Value {
-    let spans: Vec<u32> = course
-        .spans
-        .iter()
-        .flat_map(|(from, look)| [*from, *look])
-        .collect();
-    let gaps = courses.gaps.list(course.gaps);
-    let gaps: Vec<u32> = gaps
-        .into_iter()
-        .flat_map(|(from, runs)| [from, runs])
-        .collect();
-    let events: Vec<u32> = course
-        .events
-        .iter()
-        .flat_map(|e| [news::number(e.event) as u32, e.after, e.at])
-        .collect();
+    let flat = |pairs: &[(u32, u32)]| -> Vec<u32> {
+        pairs
+            .iter()
+            .flat_map(|(first, other)| [*first, *other])
+            .collect()
+    };
+    let (spans, gaps) = (flat(&course.spans), flat(&courses.gaps.list(course.gaps)));
+    let events = course.events.iter();
+    let events = events.flat_map(|e| [news::number(e.event) as u32, e.after, e.at]);
+    let events: Vec<u32> = events.collect();
     let mut value = vec![
         json!(line),
         json!(course.first),
@@ -347,16 +317,12 @@ fn number(value: f64) -> Value {
 }
 
 /// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
-pub(super) fn events(
-    places: &Places<'_>,
-    courses: &[Courses],
-    ranks: &[usize],
-) -> BTreeMap<usize, String> {
+pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
-    for (line, line_courses) in courses.iter().enumerate() {
-        for (case, course) in line_courses.of.iter().enumerate() {
+    for (line, timeline) in model.timelines.iter().enumerate() {
+        for (case, course) in timeline.courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
-                let place = places.timelines[line].runs[event.at as usize].place;
+                let place = timeline.line.runs[event.at as usize].place;
                 let kinds = found.entry(place).or_default();
                 let key = (line, news::number(event.event));
                 kinds.entry(key).or_default().push(ranks[case]);
@@ -425,7 +391,7 @@ mod tests {
 
     #[test]
     fn files_hold_whole_texts() {
-        let mut packed = Packed::new();
+        let mut packed = Files::default();
         let long = "x".repeat(60_000);
         for number in 0..3 {
             packed.push(number, &long);

@@ -1,8 +1,8 @@
 //! Areas against versions, one table per timeline: the share of good cases.
 
 use super::families::Families;
-use super::places::{Line, Places};
-use super::scores::Scores;
+use super::model::{Model, Timeline};
+use super::places::Line;
 use crate::numbers::{percent, thousands};
 use crate::page::adapter::breakable;
 use crate::table::{Cell, Table};
@@ -13,14 +13,8 @@ use serde_json::{Value, json};
 /// The most columns of a table on the start page.
 const COLUMNS: usize = 8;
 
-/// A timeline and what is counted on it.
-pub(super) struct Counted<'a> {
-    pub(super) line: &'a Line<'a>,
-    pub(super) scores: &'a Scores,
-}
-
 /// The runs that stand for the versions, the last whole one of each; of a driver that never changed, all whole runs.
-pub(super) fn columns(line: &Line<'_>) -> Vec<usize> {
+fn columns(line: &Line<'_>) -> Vec<usize> {
     let whole: Vec<usize> = (0..line.runs.len())
         .filter(|run| line.runs[*run].whole)
         .collect();
@@ -36,16 +30,12 @@ pub(super) fn columns(line: &Line<'_>) -> Vec<usize> {
 }
 
 /// The table of a timeline.
-pub(super) fn table(
-    places: &Places<'_>,
-    families: &Families,
-    number: usize,
-    counted: &Counted<'_>,
-) -> Markup {
-    let line = counted.line;
+pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
+    let (places, families, timeline) = (model.places, &model.families, &model.timelines[number]);
+    let line = timeline.line;
     let shown_runs = columns(line);
     let shown = &shown_runs[shown_runs.len().saturating_sub(COLUMNS)..];
-    let common = counted
+    let common = timeline
         .scores
         .sum(0..families.names.len(), shown[0])
         .common
@@ -54,7 +44,7 @@ pub(super) fn table(
         .map(|area| (Some(&*families.areas[area]), of_area(families, area)));
     let areas: Vec<(Option<&str>, Vec<usize>)> = areas
         .filter(|(_, family)| {
-            let drawn = |run: &usize| counted.scores.sum(family.iter().copied(), *run).own.of;
+            let drawn = |run: &usize| timeline.scores.sum(family.iter().copied(), *run).own.of;
             shown.iter().any(|run| drawn(run) > 0)
         })
         .collect();
@@ -71,7 +61,7 @@ pub(super) fn table(
             }
         };
         table = table.text(head, move |(_, cases)| {
-            let sum = |run: usize| counted.scores.sum(cases.iter().copied(), run);
+            let sum = |run: usize| timeline.scores.sum(cases.iter().copied(), run);
             let before = i.checked_sub(1).map(|before| sum(shown[before]).common);
             cell(&sum(*number), before)
         });
@@ -136,16 +126,16 @@ fn shade(score: Score) -> Option<String> {
 
 /// The scores of every whole run for the script, newest first: place of the run in the timeline, then by area good and all of the common
 /// set, good and all of the run's own.
-pub(super) fn data(families: &Families, counted: &Counted<'_>) -> Value {
-    let whole = (0..counted.line.runs.len())
+pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
+    let whole = (0..timeline.line.runs.len())
         .rev()
-        .filter(|run| counted.line.runs[*run].whole);
+        .filter(|run| timeline.line.runs[*run].whole);
     let areas: Vec<Vec<usize>> = (0..families.areas.len())
         .map(|area| of_area(families, area))
         .collect();
     let rows = whole.map(|run| {
         let cells = areas.iter().map(|family| {
-            let both = counted.scores.sum(family.iter().copied(), run);
+            let both = timeline.scores.sum(family.iter().copied(), run);
             match both.own.of {
                 0 => json!(0),
                 _ => json!([both.common.good, both.common.of, both.own.good, both.own.of]),

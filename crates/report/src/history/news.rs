@@ -1,16 +1,12 @@
 //! The changes since the last run: per adapter against its run before, worst first.
 
-use super::courses::Courses;
-use super::families::Families;
-use super::looks::Looks;
-use super::places::{Line, Places};
+use super::model::Model;
 use super::times::{Series, Timed};
 use crate::lists::grouped;
 use crate::numbers::{between, change, count};
-use etalon_history::{Subject, TriageEntry, TriageState, TriageStates};
-use etalon_stats::{Cause, ChangePoint, Event};
+use etalon_history::{Subject, TriageEntry, TriageState};
+use etalon_stats::{Cause, ChangePoint, Event, Happening};
 use std::collections::BTreeMap;
-use std::rc::Rc;
 
 /// The most lines of news on the start page.
 const LINES: usize = 24;
@@ -29,36 +25,20 @@ pub(super) enum Kind {
     Known,
 }
 
+/// The kinds, each with the class that colours its lines, and the most lines where there are many of others.
+const KINDS: [(Kind, &str, usize); 6] = [
+    (Kind::Broken, "f", 10),
+    (Kind::Flaky, "o", 3),
+    (Kind::Set, "n", 3),
+    (Kind::Fixed, "p", 3),
+    (Kind::Times, "b", 4),
+    (Kind::Known, "u", 1),
+];
+
 impl Kind {
-    pub(super) const ALL: [Self; 6] = [
-        Self::Broken,
-        Self::Flaky,
-        Self::Set,
-        Self::Fixed,
-        Self::Times,
-        Self::Known,
-    ];
-
-    /// The most lines of the kind where there are many of others.
-    fn due(self) -> usize {
-        match self {
-            Self::Broken => 10,
-            Self::Flaky | Self::Set | Self::Fixed => 3,
-            Self::Times => 4,
-            Self::Known => 1,
-        }
-    }
-
     /// The class that colours a line.
     pub(super) fn colour(self) -> &'static str {
-        match self {
-            Self::Broken => "f",
-            Self::Flaky => "o",
-            Self::Set => "n",
-            Self::Fixed => "p",
-            Self::Times => "b",
-            Self::Known => "u",
-        }
+        KINDS[self as usize].1
     }
 }
 
@@ -66,7 +46,7 @@ impl Kind {
 pub(super) struct Item {
     pub(super) kind: Kind,
     /// The sign and the word: `✗ broken`.
-    pub(super) word: String,
+    pub(super) word: &'static str,
     /// The case, or the family of cases.
     pub(super) subject: String,
     /// True if the subject is a family.
@@ -76,15 +56,7 @@ pub(super) struct Item {
     /// The state of triage with its reason, or that it is expected.
     pub(super) chip: String,
     /// The order within the kind.
-    rank: (i64, String),
-}
-
-/// A timeline as the news reads it.
-pub(super) struct Told<'a> {
-    pub(super) line: &'a Line<'a>,
-    pub(super) courses: &'a Courses,
-    /// The last run, as a place in the timeline.
-    pub(super) last: usize,
+    rank: i64,
 }
 
 /// The news, and what is counted of them per timeline.
@@ -95,15 +67,19 @@ pub(super) struct News {
     pub(super) counts: Vec<[u64; 5]>,
 }
 
-/// The place of an event in [`News::counts`] and in files.
+/// The events in the order of [`News::counts`] and of files, each with the kind and the word of its lines.
+const EVENTS: [(Event, Kind, &str); 5] = [
+    (Event::Broken, Kind::Broken, "✗ broken"),
+    (Event::Flaky, Kind::Flaky, "⇄ flaky"),
+    (Event::Fixed, Kind::Fixed, "✓ fixed"),
+    (Event::Appeared, Kind::Set, "+ appeared"),
+    (Event::Gone, Kind::Set, "− gone"),
+];
+
+/// The place of an event in [`EVENTS`].
 pub(super) fn number(event: Event) -> usize {
-    match event {
-        Event::Broken => 0,
-        Event::Flaky => 1,
-        Event::Fixed => 2,
-        Event::Appeared => 3,
-        Event::Gone => 4,
-    }
+    let place = EVENTS.iter().position(|(known, ..)| *known == event);
+    place.unwrap_or_default()
 }
 
 struct Hit {
@@ -113,26 +89,16 @@ struct Hit {
 }
 
 impl News {
-    pub(super) fn find(
-        places: &Places<'_>,
-        told: &[Told<'_>],
-        cases: &[Rc<str>],
-        families: &Families,
-        looks: &Looks,
-        series: &[Series],
-        states: &TriageStates,
-    ) -> Self {
-        let mut counts = vec![[0; 5]; told.len()];
+    pub(super) fn find(model: &Model<'_>) -> Self {
+        let (families, looks) = (&model.families, &model.looks);
+        let mut counts = vec![[0; 5]; model.timelines.len()];
         let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
         let mut sets: BTreeMap<(usize, u32), BTreeMap<usize, u64>> = BTreeMap::new();
-        for (line, line_news) in told.iter().enumerate() {
-            for (case, course) in line_news.courses.of.iter().enumerate() {
+        for (line, timeline) in model.timelines.iter().enumerate() {
+            let is_last = |event: &&Happening<u32>| event.at as usize == timeline.last;
+            for (case, course) in timeline.courses.of.iter().enumerate() {
                 let Some(course) = course else { continue };
-                for event in course
-                    .events
-                    .iter()
-                    .filter(|e| e.at as usize == line_news.last)
-                {
+                for event in course.events.iter().filter(is_last) {
                     let kind = number(event.event);
                     counts[line][kind] += 1;
                     if kind > 2 {
@@ -149,19 +115,22 @@ impl News {
                 }
             }
         }
-        let mut items: Vec<Item> = hits
-            .iter()
-            .map(|((kind, case), hits)| of_case(*kind, &cases[*case], hits, told, states))
-            .collect();
+        let of_case = |((kind, case), hits): (&(usize, usize), &Vec<Hit>)| {
+            of_case(model, *kind, &model.cases[*case], hits)
+        };
+        let mut items: Vec<Item> = hits.iter().map(of_case).collect();
         items.extend(sets.iter().map(|((kind, family), lines)| {
-            of_set(*kind, &families.names[*family as usize], lines, told)
+            of_set(model, *kind, &families.names[*family as usize], lines)
         }));
-        for times in series {
-            for timed in &times.times {
-                items.extend(of_times(places, times, timed, &cases[times.case], told));
-            }
+        for series in &model.series {
+            items.extend(
+                series
+                    .times
+                    .iter()
+                    .flat_map(|timed| of_times(model, series, timed)),
+            );
         }
-        items.sort_by(|a, b| (a.kind, &a.rank).cmp(&(b.kind, &b.rank)));
+        items.sort_by(|a, b| (a.kind, a.rank, &a.subject).cmp(&(b.kind, b.rank, &b.subject)));
         Self { items, counts }
     }
 
@@ -169,37 +138,29 @@ impl News {
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
-        let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
-        for kind in Kind::ALL {
-            let lines = items(kind).count().min(kind.due()).min(room);
-            counts.insert(kind, lines);
+        let mut counts = KINDS.map(|(kind, _, most)| {
+            let lines = items(kind).count().min(most).min(room);
             room -= lines;
-        }
-        for kind in Kind::ALL {
-            let lines = counts.entry(kind).or_default();
+            lines
+        });
+        for (lines, (kind, ..)) in counts.iter_mut().zip(KINDS) {
             let more = (items(kind).count() - *lines).min(room);
             *lines += more;
             room -= more;
         }
-        counts
-            .into_iter()
-            .flat_map(|(kind, lines)| items(kind).take(lines))
+        let lines = KINDS.into_iter().zip(counts);
+        lines
+            .flat_map(|((kind, ..), lines)| items(kind).take(lines))
             .collect()
     }
 }
 
-fn of_case(
-    kind: usize,
-    case: &str,
-    hits: &[Hit],
-    lines: &[Told<'_>],
-    states: &TriageStates,
-) -> Item {
+fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[Hit]) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
     let entry = |hit: &Hit| {
-        states.get(&Subject {
+        model.states.get(&Subject {
             case: case.to_owned(),
-            timeline: lines[hit.line].line.name.to_string(),
+            timeline: model.name(hit.line).to_owned(),
             step: None,
         })
     };
@@ -214,56 +175,39 @@ fn of_case(
         None => String::new(),
     };
     // Adapters with the same change share a mention.
-    let texts = grouped(
-        hits.iter()
-            .map(|hit| (&*hit.text, &*lines[hit.line].line.name)),
-    );
+    let texts = grouped(hits.iter().map(|hit| (&*hit.text, model.name(hit.line))));
+    let texts = texts.iter();
     let texts: Vec<String> = texts
-        .into_iter()
-        .map(|(text, names)| format!("{text} on {}", named(&names)))
+        .map(|(text, names)| format!("{text} on {}", named(names)))
         .collect();
-    let (kind_of, word) = match kind {
-        0 => (Kind::Broken, "✗ broken"),
-        1 => (Kind::Flaky, "⇄ flaky"),
-        _ => (Kind::Fixed, "✓ fixed"),
-    };
+    let (_, kind, word) = EVENTS[kind];
     Item {
-        kind: if is_known { Kind::Known } else { kind_of },
-        word: word.to_owned(),
+        kind: if is_known { Kind::Known } else { kind },
+        word,
         subject: case.to_owned(),
         is_family: false,
         text: texts.join("; "),
         chip,
-        rank: (
-            i64::from(!unexpected) * 1_000_000 - hits.len() as i64,
-            case.to_owned(),
-        ),
+        rank: i64::from(!unexpected) * 1_000_000 - hits.len() as i64,
     }
 }
 
-fn of_set(
-    kind: usize,
-    family: &str,
-    lines: &BTreeMap<usize, u64>,
-    lines_told: &[Told<'_>],
-) -> Item {
+fn of_set(model: &Model<'_>, kind: usize, family: &str, lines: &BTreeMap<usize, u64>) -> Item {
     let most = lines.values().max().copied().unwrap_or(0);
-    let names: Vec<&str> = lines
-        .keys()
-        .map(|line| &*lines_told[*line].line.name)
-        .collect();
-    let (word, verb) = match kind {
-        3 => ("+ appeared", "new"),
-        _ => ("− gone", "without a verdict"),
+    let names: Vec<&str> = lines.keys().map(|line| model.name(*line)).collect();
+    let (event, kind, word) = EVENTS[kind];
+    let verb = match event {
+        Event::Appeared => "new",
+        _ => "without a verdict",
     };
     Item {
-        kind: Kind::Set,
-        word: word.to_owned(),
+        kind,
+        word,
         subject: family.to_owned(),
         is_family: true,
         text: format!("{} {verb} on {}", count(most, "case"), named(&names)),
         chip: String::new(),
-        rank: (-(most as i64), family.to_owned()),
+        rank: -(most as i64),
     }
 }
 
@@ -283,14 +227,8 @@ fn named(names: &[&str]) -> String {
 }
 
 /// The changes of one series that are news.
-fn of_times(
-    places: &Places<'_>,
-    series: &Series,
-    timed: &Timed,
-    case: &str,
-    lines: &[Told<'_>],
-) -> Vec<Item> {
-    let line = &lines[series.line].line.runs;
+fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
+    let line = &model.timelines[series.line].line.runs;
     // The end of a series that nobody measures any more is no news.
     let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
     let recent = |point: &ChangePoint| {
@@ -307,7 +245,7 @@ fn of_times(
         let known = !is_open || point.cause == Cause::Machine || point.returns;
         let run = |index: usize| {
             let index = index.min(timed.runs.len() - 1);
-            places.day(timed.runs[index])
+            model.places.day(timed.runs[index])
         };
         let ratio = &point.ratio;
         let size = ratio.estimate.ln().abs();
@@ -317,9 +255,8 @@ fn of_times(
                 "▲ slower"
             } else {
                 "▼ faster"
-            }
-            .to_owned(),
-            subject: case.to_owned(),
+            },
+            subject: model.cases[series.case].to_string(),
             is_family: false,
             text: format!(
                 "{} {} ({}), p {}, between {} and {} on {}; a change of {} would be visible; {}{}",
@@ -329,7 +266,7 @@ fn of_times(
                 probability(point.p),
                 run(point.between[0]),
                 run(point.between[1]),
-                lines[series.line].line.name,
+                model.name(series.line),
                 change(point.visible),
                 point.cause.text(),
                 if point.returns {
@@ -343,10 +280,7 @@ fn of_times(
                 None if fresh => "found with this run".to_owned(),
                 None => "new".to_owned(),
             },
-            rank: (
-                i64::from(ratio.estimate < 1.0) * 1_000_000_000 - (size * 1e6) as i64,
-                case.to_owned(),
-            ),
+            rank: i64::from(ratio.estimate < 1.0) * 1_000_000_000 - (size * 1e6) as i64,
         });
     }
     items

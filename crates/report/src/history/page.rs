@@ -1,15 +1,13 @@
 //! The start page.
 
-use super::families::Families;
-use super::matrix::{self, Counted};
-use super::news::{Item, News, Told};
-use super::places::Places;
+use super::matrix;
+use super::model::{Model, Timeline};
+use super::news::{Item, News};
 use super::sparkline::{moves, sparkline};
 use crate::numbers::{count, percent, thousands};
 use crate::page::adapter::breakable;
 use crate::page::{self, Page, link};
 use crate::table::{Cell, Table};
-use etalon_history::History;
 use etalon_stats::Score;
 use maud::{Markup, PreEscaped, html};
 
@@ -26,31 +24,18 @@ const SCRIPT: &str = concat!(
     "})();\n",
 );
 
-/// The content of the start page.
-pub(super) struct Start<'a> {
-    pub(super) history: &'a History,
-    pub(super) places: &'a Places<'a>,
-    pub(super) families: &'a Families,
-    pub(super) counted: &'a [Counted<'a>],
-    pub(super) told: &'a [Told<'a>],
-    pub(super) news: &'a News,
-    pub(super) cases: usize,
-    /// The numbers by which the script finds files, as JSON.
-    pub(super) index: &'a str,
-}
-
-/// The HTML of the start page.
-pub(super) fn page(start: &Start<'_>) -> String {
-    let places = start.places;
+/// The HTML of the start page. `index` has the numbers by which the script finds files, as JSON.
+pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
+    let places = model.places;
     let (first, last) = (places.day(0), places.day(places.runs.len() - 1));
     let runs = count(places.runs.len() as u64, "run");
-    let file = start.history.path().file_name();
+    let file = model.history.path().file_name();
     let source = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let main = html! {
         div id="start" {
             h1 { "History" }
             p.lead {
-                (runs) ", " (first) " to " (last) ", of " (thousands(start.cases as u64)) " cases on "
+                (runs) ", " (first) " to " (last) ", of " (thousands(model.cases.len() as u64)) " cases on "
                 (count(places.timelines.len() as u64, "adapter")) "."
             }
             form.find id="find" role="search" hidden {
@@ -59,24 +44,18 @@ pub(super) fn page(start: &Start<'_>) -> String {
                 span.soft { kbd { "/" } " searches, " kbd { "j" } " and " kbd { "k" } " go through links, " kbd { "Esc" } " goes back" }
             }
             noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. What follows needs none." } }
-            (news(start))
-            (last_runs(start))
+            (news(found))
+            (last_runs(model, found))
             section id="over-time" {
                 h2 { "Areas over time" }
-                @for (number, counted) in start.counted.iter().enumerate() {
-                    (matrix::table(places, start.families, number, counted))
-                }
+                @for number in 0..model.timelines.len() { (matrix::table(model, number)) }
             }
-            (families(start))
+            (families(model))
         }
-        article id="view" aria-labelledby="view-title" hidden {
-            p { a id="back" href="#" { "← Start" } }
-            h1 id="view-title" tabindex="-1" {}
-            div id="view-body" {}
-            p id="view-state" role="status" {}
-        }
+        article id="view" aria-labelledby="view-title" hidden {}
+        p id="view-state" role="status" {}
         // A string of JSON in which nothing can end the element.
-        script type="application/json" id="index" { (PreEscaped(start.index.replace('<', "\\u003c"))) }
+        script type="application/json" id="index" { (PreEscaped(index.replace('<', "\\u003c"))) }
         (page::script(SCRIPT))
     };
     Page::new("History – etalon", &source, &main)
@@ -85,9 +64,9 @@ pub(super) fn page(start: &Start<'_>) -> String {
         .html()
 }
 
-fn news(start: &Start<'_>) -> Markup {
-    let screen = start.news.screen();
-    let items = start.news.items.len();
+fn news(news: &News) -> Markup {
+    let screen = news.screen();
+    let items = news.items.len();
     html! {
         section id="news" {
             h2 { "Since the last run" }
@@ -119,16 +98,16 @@ fn line(item: &Item) -> Markup {
 }
 
 /// The last run of every adapter, and what changed in numbers.
-fn last_runs(start: &Start<'_>) -> Markup {
-    let places = start.places;
-    let run = |line: &Told<'_>, index: usize| {
+fn last_runs(model: &Model<'_>, news: &News) -> Markup {
+    let places = model.places;
+    let run = |line: &Timeline<'_>, index: usize| {
         let run = &line.line.runs[index];
         html! {
             a href={ "#run=" (places.runs[run.place].id) } { (places.day(run.place)) }
             " " (run.part.adapter.shown_version())
         }
     };
-    type Row<'a> = (&'a Told<'a>, &'a [u64; 5]);
+    type Row<'a> = (&'a Timeline<'a>, &'a [u64; 5]);
     let mut table = Table::<Row<'_>>::new("last")
         .caption("Each adapter against its run before")
         .head("Adapter", |(line, _)| {
@@ -149,28 +128,28 @@ fn last_runs(start: &Start<'_>) -> Markup {
         .text("Last change", |(line, _)| {
             last_change(line).map(|index| run(line, index))
         })
-        .page(start.told.iter().zip(&start.news.counts))
+        .page(model.timelines.iter().zip(&news.counts))
 }
 
 /// The last run that shows an event.
-fn last_change(line: &Told<'_>) -> Option<usize> {
+fn last_change(line: &Timeline<'_>) -> Option<usize> {
     let courses = line.courses.of.iter().flatten();
     let events = courses.flat_map(|course| &course.events);
     events.map(|event| event.at as usize).max()
 }
 
 /// A curve per family and adapter. Families that never moved are folded away.
-fn families(start: &Start<'_>) -> Markup {
-    let scores: Vec<Vec<Vec<Score>>> = (0..start.families.names.len())
+fn families(model: &Model<'_>) -> Markup {
+    let scores: Vec<Vec<Vec<Score>>> = (0..model.families.names.len())
         .map(|family| {
-            let scores_of = |counted: &Counted<'_>| {
+            let scores_of = |timeline: &Timeline<'_>| {
                 let whole =
-                    (0..counted.line.runs.len()).filter(|index| counted.line.runs[*index].whole);
+                    (0..timeline.line.runs.len()).filter(|index| timeline.line.runs[*index].whole);
                 whole
-                    .map(|index| counted.scores.common(family, index))
+                    .map(|index| timeline.scores.common(family, index))
                     .collect()
             };
-            start.counted.iter().map(scores_of).collect()
+            model.timelines.iter().map(scores_of).collect()
         })
         .collect();
     let is_moving = |family: &usize| scores[*family].iter().any(|row| moves(row));
@@ -179,26 +158,26 @@ fn families(start: &Start<'_>) -> Markup {
         section id="families" {
             h2 { "Families" }
             p.cap { "Good of the cases that all whole runs of an adapter have, from the first run to the last; the height is from the least to the most." }
-            @if !moving.is_empty() { (curves(start, &scores, &moving, "Families whose score moved")) }
+            @if !moving.is_empty() { (curves(model, &scores, &moving, "Families whose score moved")) }
             @if !still.is_empty() {
                 details {
                     summary { (still.len()) " without a change" }
-                    (curves(start, &scores, &still, "Families whose score never moved"))
+                    (curves(model, &scores, &still, "Families whose score never moved"))
                 }
             }
         }
     }
 }
 
-fn curves(start: &Start<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], caption: &str) -> Markup {
+fn curves(model: &Model<'_>, scores: &[Vec<Vec<Score>>], shown: &[usize], caption: &str) -> Markup {
     let mut table = Table::<&usize>::new("curves")
         .spoken(caption)
         .head("Family", |family| {
-            let name = &start.families.names[**family];
+            let name = &model.families.names[**family];
             html! { a href={ "#q=" (link::encoded(name)) } { (name) } }
         });
-    for (i, counted) in start.counted.iter().enumerate() {
-        table = table.text(breakable(&counted.line.name), move |family| {
+    for (i, timeline) in model.timelines.iter().enumerate() {
+        table = table.text(breakable(&timeline.line.name), move |family| {
             curve(&scores[**family][i])
         });
     }

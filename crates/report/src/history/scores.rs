@@ -6,32 +6,26 @@ use super::looks::Looks;
 use super::places::Line;
 use etalon_stats::{Class, Score};
 
-/// The scores of a timeline.
+/// The scores of a timeline, by family, then by run.
 pub(super) struct Scores {
-    /// Good cases of what all whole runs have a verdict of: by family, then by run.
-    common_good: Vec<Vec<i64>>,
-    /// The number of these cases, by family.
-    common_of: Vec<usize>,
-    /// All of each run: by family, then by run.
+    /// Of what all whole runs have a verdict of; known of whole runs.
+    common: Vec<Vec<Score>>,
+    /// All of each run.
     own: Vec<Vec<Score>>,
 }
 
 impl Scores {
     pub(super) fn new(families: usize, runs: usize) -> Self {
+        let none = vec![vec![Score::default(); runs]; families];
         Self {
-            common_good: vec![vec![0; runs + 1]; families],
-            common_of: vec![0; families],
-            own: vec![vec![Score::default(); runs]; families],
+            common: none.clone(),
+            own: none,
         }
     }
 
     /// Counts a record.
     pub(super) fn take(&mut self, family: u32, run: usize, class: Class) {
-        if class != Class::Missing {
-            let score = &mut self.own[family as usize][run];
-            score.of += 1;
-            score.good += usize::from(class == Class::Good);
-        }
+        count(&mut self.own[family as usize][run], class);
     }
 
     /// Finds what all whole runs have, and counts it.
@@ -42,49 +36,28 @@ impl Scores {
         families: &Families,
         looks: &Looks,
     ) {
-        let whole = |run: &u32| line.runs[*run as usize].whole;
-        let runs = line.runs.len() as u32;
-        let first = (0..runs).find(whole).unwrap_or(0);
-        let last = (0..runs).rfind(whole).unwrap_or(0);
+        let whole = |run: u32| line.runs[run as usize].whole;
         for (course, family) in courses.of.iter().zip(&families.of) {
-            let Some(course) = course else { continue };
-            let holed = courses.holed.get(&course.gaps).copied().unwrap_or(false);
-            let decided = |(from, end, look): (u32, u32, u32)| {
-                looks.class(look) != Class::Missing || !(from..end).any(|run| whole(&run))
-            };
-            let is_common = !holed && course.first <= first && course.last >= last;
-            if !is_common || !course.ended().all(decided) {
+            let Some(course) = course.as_ref().filter(|course| course.is_common) else {
                 continue;
-            }
-            let family = *family as usize;
-            self.common_of[family] += 1;
-            for (from, end, look) in course.ended() {
-                if looks.class(look) == Class::Good {
-                    self.common_good[family][from as usize] += 1;
-                    self.common_good[family][end as usize] -= 1;
+            };
+            let decided = |(from, end, look): (u32, u32, u32)| {
+                looks.class(look) != Class::Missing || !(from..end).any(whole)
+            };
+            if course.ended().all(decided) {
+                for (from, end, look) in course.ended() {
+                    let runs = from as usize..end as usize;
+                    for score in &mut self.common[*family as usize][runs] {
+                        count(score, looks.class(look));
+                    }
                 }
-            }
-        }
-        for good in &mut self.common_good {
-            let mut sum = 0;
-            for change in good {
-                sum += *change;
-                *change = sum;
             }
         }
     }
 
     /// The score of a family in a whole run over what all of them have.
     pub(super) fn common(&self, family: usize, run: usize) -> Score {
-        Score {
-            good: usize::try_from(self.common_good[family][run]).unwrap_or(0),
-            of: self.common_of[family],
-        }
-    }
-
-    /// The score of a family over all cases of a run.
-    pub(super) fn own(&self, family: usize, run: usize) -> Score {
-        self.own[family][run]
+        self.common[family][run]
     }
 
     /// The sums over families.
@@ -93,18 +66,20 @@ impl Scores {
         families: impl Iterator<Item = usize>,
         run: usize,
     ) -> etalon_stats::Scores {
-        let add = |to: &mut Score, score: Score| {
-            to.good += score.good;
-            to.of += score.of;
-        };
-        let mut sums = etalon_stats::Scores {
-            common: Score::default(),
-            own: Score::default(),
-        };
+        let mut sums = [Score::default(); 2];
         for family in families {
-            add(&mut sums.common, self.common(family, run));
-            add(&mut sums.own, self.own(family, run));
+            let scores = [self.common[family][run], self.own[family][run]];
+            for (sum, score) in sums.iter_mut().zip(scores) {
+                sum.good += score.good;
+                sum.of += score.of;
+            }
         }
-        sums
+        let [common, own] = sums;
+        etalon_stats::Scores { common, own }
     }
+}
+
+fn count(score: &mut Score, class: Class) {
+    score.of += usize::from(class != Class::Missing);
+    score.good += usize::from(class == Class::Good);
 }

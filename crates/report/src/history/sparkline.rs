@@ -44,7 +44,7 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
         }
         before = Some(*good);
     }
-    path.push_str(&format!("H{WIDTH}"));
+    path += &format!("H{WIDTH}");
     let view = format!("0 0 {WIDTH} {HEIGHT}");
     html! {
         svg.spark viewBox=(view) width=(WIDTH) height=(HEIGHT) role="img" {

@@ -75,27 +75,9 @@ pub(super) fn read(
         }
     }
     // Changes take nearly all of the time. All points were checked, so there is no error.
-    let found = on_threads(&measured, |key| {
-        let changes = change_points(&key.points).ok()?;
-        let fresh = fresh(&key.points, &changes);
-        Some((changes, fresh))
-    });
-    for (key, found) in measured.into_iter().zip(found) {
-        let Some((changes, fresh)) = found else {
-            continue;
-        };
-        all[key.series].times.push(Timed {
-            states: changes
-                .points
-                .iter()
-                .map(|change| key.state(change))
-                .collect(),
-            time: key.time,
-            runs: key.runs,
-            points: key.points,
-            changes,
-            fresh,
-        });
+    let found = on_threads(&measured, Measured::timed);
+    for (key, timed) in measured.iter().zip(found) {
+        all[key.series].times.extend(timed);
     }
     all.retain(|series| !series.times.is_empty());
     Ok(all)
@@ -114,6 +96,18 @@ struct Measured<'a> {
 }
 
 impl Measured<'_> {
+    fn timed(&self) -> Option<Timed> {
+        let changes = change_points(&self.points).ok()?;
+        Some(Timed {
+            time: self.time,
+            runs: self.runs.clone(),
+            points: self.points.clone(),
+            states: changes.points.iter().map(|c| self.state(c)).collect(),
+            fresh: fresh(&self.points, &changes),
+            changes,
+        })
+    }
+
     /// The entry about the first run after a change, else the one about the last run within its ends.
     fn state(&self, change: &ChangePoint) -> Option<TriageEntry> {
         let [after, by] = change.between.map(|at| self.runs.get(at).copied());

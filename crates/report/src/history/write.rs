@@ -1,40 +1,28 @@
 //! Writing the pages of a history.
 
-use super::courses::Courses;
-use super::data::{self, CaseFiles, Packed, file};
-use super::families::Families;
-use super::looks::Looks;
-use super::matrix::{self, Counted};
-use super::news::{News, Told};
-use super::page::{Start, page};
+use super::data::{self, CaseFiles, Files, file};
+use super::matrix;
+use super::model::Model;
+use super::news::News;
+use super::page::page;
 use super::places::Places;
-use super::scores::Scores;
-use super::times::{self, Series};
+use super::times::Series;
 use crate::error::ReportError;
-use crate::staged::{Content, Staged};
+use crate::staged::{Kind, Staged, WrittenFolder};
 use etalon_history::{History, Labels, TriageEntry};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 
 /// The file by which a folder is known to be the page of a history.
 pub const HISTORY_PAGE_FILE: &str = "history.json";
-/// All that such a folder has at its top.
-const TOP: [&str; 3] = ["index.html", "data", HISTORY_PAGE_FILE];
-
-/// The pages of a history, written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WrittenHistory {
-    /// The start page.
-    pub html: PathBuf,
-    /// The bytes of the start page.
-    pub start: u64,
-    /// The number of files.
-    pub files: u64,
-    /// The bytes of all files.
-    pub bytes: u64,
-}
+/// The kind of such a folder.
+const FOLDER: Kind = Kind {
+    mark: HISTORY_PAGE_FILE,
+    top: &["index.html", "data"],
+    names: ["page", "page of a history"],
+};
 
 /// Writes the pages of the runs of a history that have these labels, or of all where there are none, into a folder. An earlier page in it is replaced, and stays as it is if an error is
 /// returned.
@@ -45,115 +33,37 @@ pub fn write_history(
     history: &History,
     only: &Labels,
     to: &Path,
-) -> Result<WrittenHistory, ReportError> {
+) -> Result<WrittenFolder, ReportError> {
     let places = Places::new(history, only);
     if places.runs.is_empty() {
         return Err(ReportError::NoRuns {
             path: history.path().to_owned(),
         });
     }
-    match Content::of(to, HISTORY_PAGE_FILE, &TOP)? {
-        Content::Empty | Content::Earlier => {}
-        Content::Foreign(path) => return Err(ReportError::NotOfTheHistory { path }),
-        Content::Other => {
-            return Err(ReportError::NoHistoryPage {
-                path: to.to_owned(),
-            });
-        }
-    }
-    let mut folder = Staged::begin(to)?;
-    let cases = history.cases()?;
-    let families = Families::new(cases);
-    let mut looks = Looks::default();
-    let (courses, scores) = scored(history, &places, &families, &mut looks)?;
-    let states = history.triage_states()?;
-    let series = times::read(history, &places, &states)?;
-    let lines = places
-        .timelines
-        .iter()
-        .zip(&courses)
-        .map(|(line, courses)| Told {
-            line,
-            courses,
-            last: line.last(&places.runs),
-        });
-    let lines: Vec<Told<'_>> = lines.collect();
-    let news = News::find(&places, &lines, cases, &families, &looks, &series, &states);
-
+    let mut folder = Staged::begin(to, &FOLDER, true)?;
+    let model = Model::read(history, &places)?;
+    let news = News::find(&model);
     let mut write = |name: &str, value: &str| {
         folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
     };
-    let order = Order::of(cases);
-    write("runs", &data::runs(history, &places, &looks).to_string())?;
-    write("cases", &data::cases(cases, &order.cases).to_string())?;
+    let order = Order::of(model.cases);
+    write("runs", &data::runs(&model).to_string())?;
+    write("cases", &data::cases(model.cases, &order.cases).to_string())?;
     write("news", &data::news(&news).to_string())?;
-    let packed = packed(history, &places, &courses, &series, &order)?;
-    for (kind, files) in [
-        ("case", &packed.cases),
-        ("times", &packed.times),
-        ("run", &packed.events),
-    ] {
+    let (packed, index) = packed(&model, &order)?;
+    for (kind, files) in &packed {
         for (number, text) in files.iter().enumerate() {
             write(&format!("{kind}-{number}"), text)?;
         }
     }
-    let counted: Vec<Counted<'_>> = places
-        .timelines
-        .iter()
-        .zip(&scores)
-        .map(|(line, scores)| Counted { line, scores })
-        .collect();
-    for (number, counted) in counted.iter().enumerate() {
-        let value = matrix::data(&families, counted).to_string();
+    for (number, timeline) in model.timelines.iter().enumerate() {
+        let value = matrix::data(&model.families, timeline).to_string();
         write(&format!("adapter-{number}"), &value)?;
     }
-
-    let names: Vec<&str> = places.timelines.iter().map(|line| &*line.name).collect();
-    let index =
-        json!({ "timelines": names, "cases": packed.first_cases, "runs": packed.first_runs });
-    let html = page(&Start {
-        history,
-        places: &places,
-        families: &families,
-        counted: &counted,
-        told: &lines,
-        news: &news,
-        cases: cases.len(),
-        index: &index.to_string(),
-    });
-    folder.write("index.html", html.as_bytes())?;
-    let (runs, cases) = (places.runs.len(), cases.len());
+    let html = page(&model, &news, &index.to_string());
+    let (runs, cases) = (places.runs.len(), model.cases.len());
     let about = json!({ "etalon": "history", "format": 1, "runs": runs, "cases": cases });
-    folder.finish(HISTORY_PAGE_FILE, about)?;
-    Ok(WrittenHistory {
-        html: to.join("index.html"),
-        start: html.len() as u64,
-        files: folder.files,
-        bytes: folder.bytes,
-    })
-}
-
-/// The courses and the scores of each timeline.
-type Scored = (Vec<Courses>, Vec<Scores>);
-
-fn scored(
-    history: &History,
-    places: &Places<'_>,
-    families: &Families,
-    looks: &mut Looks,
-) -> Result<Scored, ReportError> {
-    let (mut all_courses, mut scores) = (Vec::new(), Vec::new());
-    let cases = families.of.len();
-    for line in &places.timelines {
-        let mut score = Scores::new(families.names.len(), line.runs.len());
-        let courses = Courses::read(history, line, cases, looks, |run, case, look, looks| {
-            score.take(families.of[case], run, looks.class(look));
-        })?;
-        score.compare(&courses, line, families, looks);
-        all_courses.push(courses);
-        scores.push(score);
-    }
-    Ok((all_courses, scores))
+    folder.finish(html.as_bytes(), about)
 }
 
 /// Cases as the script sorts them, which compares ids in UTF-16, and the rank of each.
@@ -174,53 +84,40 @@ impl Order {
     }
 }
 
-/// The files of cases, of their frame times and of the events of runs, with the first case or run of each file.
-struct PackedFiles {
-    cases: Vec<String>,
-    times: Vec<String>,
-    events: Vec<String>,
-    first_cases: Vec<usize>,
-    first_runs: Vec<usize>,
-}
+/// The files of cases, of their frame times and of the events of runs, and the first case or run of each file.
+type Packed = ([(&'static str, Vec<String>); 3], Value);
 
-fn packed(
-    history: &History,
-    places: &Places<'_>,
-    courses: &[Courses],
-    series: &[Series],
-    order: &Order,
-) -> Result<PackedFiles, ReportError> {
-    let cases = history.cases()?;
+fn packed(model: &Model<'_>, order: &Order) -> Result<Packed, ReportError> {
     let mut series_of: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
-    for times in series {
+    for times in &model.series {
         series_of.entry(times.case).or_default().push(times);
     }
-    let log = history.triage_log()?;
+    let log = model.history.triage_log()?;
     let mut said: BTreeMap<&str, Vec<&TriageEntry>> = BTreeMap::new();
     for entry in log.iter().filter(|entry| entry.subject.step.is_none()) {
         said.entry(&entry.subject.case).or_default().push(entry);
     }
-    let (mut files, mut timed) = (CaseFiles::new(), Packed::new());
+    let (mut files, mut timed) = (CaseFiles::default(), Files::default());
     for (rank, case) in order.cases.iter().enumerate() {
-        let id = &cases[*case];
+        let id = &model.cases[*case];
         let times = series_of.get(case).map(|series| {
-            timed.push(rank, &data::times(id, history, series));
-            timed.last()
+            timed.push(rank, &data::times(id, model.history, series));
+            timed.files.len() - 1
         });
         let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
-        files.push(rank, *case, courses, times, said);
+        files.push(rank, *case, &model.timelines, times, said);
     }
-    let mut events = Packed::new();
-    for (place, text) in data::events(places, courses, &order.ranks) {
+    let mut events = Files::default();
+    for (place, text) in data::events(model, &order.ranks) {
         events.push(place, &text);
     }
-    let (first_cases, files) = files.finish();
-    let listed = |files: &[String]| files.iter().map(|text| format!("[{text}]")).collect();
-    Ok(PackedFiles {
-        cases: files,
-        times: listed(&timed.files),
-        events: listed(&events.files),
-        first_cases,
-        first_runs: events.first,
-    })
+    let (first, files) = files.finish();
+    let index = json!({ "cases": first, "runs": events.first });
+    let listed = |files: Files| files.files.iter().map(|text| format!("[{text}]")).collect();
+    let packed = [
+        ("case", files),
+        ("times", listed(timed)),
+        ("run", listed(events)),
+    ];
+    Ok((packed, index))
 }

@@ -15,13 +15,14 @@ pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
             let Some(entry) = cell.results.get(*adapter) else {
                 continue;
             };
+            let [unit, rate, low, high, work, time, rounds] = figures(entry.outcome.times());
+            let [base, clear] = [entry.of_base, entry.of_clear].map(number);
             let (state, message) = state(&entry.outcome);
-            let mut fields = vec![field(adapter), field(&cell.name)];
-            fields.extend(figures(entry.outcome.times()));
-            let shares = [entry.of_base, entry.of_clear].map(number);
-            fields.splice(6..6, shares);
-            fields.push(state);
-            fields.push(field(&message));
+            let (adapter, name, message) = (field(adapter), field(&cell.name), field(&message));
+            let fields = [
+                adapter, name, unit, rate, low, high, base, clear, work, time, rounds, state,
+                message,
+            ];
             text.push_str(&fields.join(","));
             text.push_str("\r\n");
         }

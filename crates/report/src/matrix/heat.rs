@@ -99,7 +99,7 @@ fn column<'a>(cell: &'a Cell, row_axes: &[&str]) -> (String, &'a str) {
         tests = format!("{format} {}", part("depth"));
     }
     if cell.axis("stencil").is_some() {
-        tests.push_str(&format!(", stencil {}", part("stencil")));
+        tests += &format!(", stencil {}", part("stencil"));
     }
     (tests, cell.axis("samples").unwrap_or("1"))
 }

@@ -7,7 +7,8 @@ use super::csv::state;
 use super::data::{Cell, CellOutcome, Entry, Matrix, unit};
 use super::heat::Heat;
 use super::table::half_width;
-use crate::numbers::{count, digits, duration, percent, round_duration};
+use crate::bench::figures::{incomplete, limits};
+use crate::numbers::{count, digits, duration};
 use crate::page::adapter::breakable;
 use crate::page::origin::origin;
 use crate::page::{Page, script};
@@ -63,22 +64,18 @@ fn head(matrix: &Matrix<'_>) -> Markup {
     let below = entries()
         .filter(|e| matches!(e.outcome, CellOutcome::Below(_)))
         .count() as u64;
-    let missing = matrix.bench.missing();
     html! {
         header {
             h1 { "Performance matrix" }
             p.lead { "Rates of fixed-function work, of pictures that were judged right." }
-            @if matrix.bench.truncated || missing > 0 {
-                p.state.bad { b { "! Incomplete. " } (count(missing, "round")) " missing." }
-            }
+            (incomplete(matrix.bench))
             dl.facts {
                 (origin!(h))
                 dt { "Scope" } dd {
                     (count(matrix.cells.len() as u64, "cell")) " (" (h.profile) ") on "
                     (count(matrix.adapters.len() as u64, "adapter")) ", up to " (count(u64::from(h.rounds), "round")) " each"
                 }
-                @if let Some(share) = h.settings.within { dt { "Enough" } dd { "intervals within " (percent(share, 1)) } }
-                @if let Some(limit) = h.settings.limit { dt { "Time limit" } dd { (round_duration(limit)) " of rounds on each adapter" } }
+                (limits(&h.settings))
                 dt { "Below resolution" } dd { (below) " of " (entries().count()) }
                 @if let Some(clock) = clock(matrix) { dt { "Clock" } dd { (clock) } }
             }

@@ -24,7 +24,7 @@ pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
             table = table.number(*adapter, |cell| cell.results.get(*adapter).map(figures));
         }
         let (table, _) = table.terminal(cells.iter().copied(), options, &[]);
-        text.push_str(&format!("Matrix, {}\n{table}\n\n", plain(size, 40)));
+        text += &format!("Matrix, {}\n{table}\n\n", plain(size, 40));
     }
     if !text.is_empty() {
         text.push_str(
@@ -56,10 +56,10 @@ fn figures(entry: &Entry) -> String {
     };
     let mut text = digits(rate / unit(times.measure).1, 3);
     if let Some(share) = half_width(times.slope.rate_interval(), rate) {
-        text.push_str(&format!(" ±{}%", digits(share * 100.0, 2)));
+        text += &format!(" ±{}%", digits(share * 100.0, 2));
     }
     if let Some(share) = entry.of_base {
-        text.push_str(&format!(" {}%", digits(share * 100.0, 3)));
+        text += &format!(" {}%", digits(share * 100.0, 3));
     }
     text
 }

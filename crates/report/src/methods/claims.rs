@@ -5,7 +5,7 @@ mod outcome;
 mod words;
 
 use super::data::Methods;
-use crate::lists::distinct;
+use crate::lists::{distinct, grouped};
 use crate::numbers::count;
 use crate::table::{Cell, Table};
 use check::{Checked, check};
@@ -75,19 +75,10 @@ struct Told {
 
 /// The figures of each outcome and each adapter that has others, with the cases they were found in.
 fn together(figures: &[Figure]) -> Vec<Told> {
-    let mut groups: Vec<(Holds, &str, Vec<&Figure>)> = Vec::new();
-    for figure in figures {
-        let same = |g: &&mut (Holds, &str, Vec<&Figure>)| {
-            g.0 == figure.holds && g.1 == figure.scene && g.2[0].texts_alike(figure)
-        };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.2.push(figure),
-            None => groups.push((figure.holds, &figure.scene, vec![figure])),
-        }
-    }
-    let texts = groups.into_iter().map(|(holds, scene, settings_of)| {
-        let adapters = distinct(settings_of.iter().map(|f| f.adapter.as_str()));
-        let settings = distinct(settings_of.iter().map(|f| f.setting.as_str()));
+    let groups = grouped(figures.iter().map(|f| ((f.holds, &*f.scene, f.text()), f)));
+    let texts = groups.into_iter().map(|((holds, scene, _), figures)| {
+        let adapters = distinct(figures.iter().map(|f| f.adapter.as_str()));
+        let settings = distinct(figures.iter().map(|f| f.setting.as_str()));
         let place = match settings.as_slice() {
             [] | [""] => String::new(),
             [setting] => format!(" at {setting}"),
@@ -100,7 +91,7 @@ fn together(figures: &[Figure]) -> Vec<Told> {
         };
         Told {
             holds,
-            text: Figure::range(&settings_of),
+            text: Figure::range(&figures),
             places: format!("{scene}{place} on {}", adapters.join(", ")),
         }
     });

@@ -1,6 +1,6 @@
 //! The method records of a run, sorted by question, scene and method.
 
-use super::name::value_text;
+use super::name::{anchor, value_text};
 use crate::lists::distinct;
 use etalon_record::{Measured, Record, Run};
 use std::collections::{BTreeMap, BTreeSet};
@@ -116,6 +116,32 @@ impl Setting<'_> {
             text if text.is_empty() => text,
             text => format!(" at {text}"),
         }
+    }
+}
+
+/// A scene as the page shows it.
+pub(crate) struct Shown<'s, 'a> {
+    pub(crate) methods: &'s Methods<'a>,
+    pub(crate) question: &'s Question<'a>,
+    pub(crate) scene: &'s SceneSeries<'a>,
+    /// The id of the element that holds its charts.
+    pub(crate) anchor: String,
+    /// Every setting that some method was drawn at.
+    pub(crate) settings: Vec<Setting<'a>>,
+    /// The place of the setting that stands for the scene.
+    pub(crate) main: usize,
+}
+
+impl Shown<'_, '_> {
+    /// The class of what is shown at a setting only.
+    pub(crate) fn class(&self, class: &str, setting: usize) -> String {
+        let off = if setting == self.main { "" } else { " off" };
+        format!("{class} at{off}")
+    }
+
+    /// The position of a method in its question, which gives it its colour and its shape.
+    pub(crate) fn style(&self, method: &str) -> usize {
+        self.question.style(method)
     }
 }
 
@@ -296,17 +322,15 @@ impl<'a> Methods<'a> {
                 .push((record, m));
         }
         let questions = sorted.into_iter().map(|(name, scenes)| {
-            let mut methods: Vec<&str> =
-                scenes.values().flatten().map(|(_, m)| &*m.method).collect();
-            methods.sort_unstable();
-            methods.dedup();
+            let methods = scenes.values().flatten().map(|(_, m)| &*m.method);
+            let methods: BTreeSet<&str> = methods.collect();
             let scenes = scenes.into_iter();
             Question {
                 name,
                 scenes: scenes
                     .map(|(s, series)| scene(name, s, &series, &adapters))
                     .collect(),
-                methods,
+                methods: methods.into_iter().collect(),
             }
         });
         let questions = questions.collect();
@@ -316,17 +340,35 @@ impl<'a> Methods<'a> {
         })
     }
 
+    /// Every scene as the page shows it.
+    pub(crate) fn shown(&self) -> Vec<Shown<'_, 'a>> {
+        let mut shown = Vec::new();
+        for (q, question) in self.questions.iter().enumerate() {
+            shown.extend(question.scenes.iter().enumerate().map(|(s, scene)| {
+                let settings = scene.settings();
+                let main = scene.main();
+                let main = settings.iter().position(|s| Some(s) == main.as_ref());
+                Shown {
+                    methods: self,
+                    question,
+                    scene,
+                    anchor: anchor(q, s),
+                    settings,
+                    main: main.unwrap_or(0),
+                }
+            }));
+        }
+        shown
+    }
+
     /// Every scene of every question.
     pub(crate) fn scenes(&self) -> impl Iterator<Item = &SceneSeries<'a>> {
         self.questions.iter().flat_map(|q| &q.scenes)
     }
 
     /// The kinds of adapters there are, in order.
-    pub(crate) fn kinds(&self) -> Vec<Kind> {
-        let mut kinds: Vec<Kind> = self.adapters.iter().map(|a| a.kind).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        kinds
+    pub(crate) fn kinds(&self) -> BTreeSet<Kind> {
+        self.adapters.iter().map(|a| a.kind).collect()
     }
 }
 
@@ -411,7 +453,7 @@ fn settings<'a>(record: &'a Record, m: &'a Measured) -> impl Iterator<Item = (&'
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::made::{Made, run};
+    use crate::methods::tests::made::{Made, run};
 
     #[test]
     fn records_are_sorted_into_families_and_series() {
@@ -448,7 +490,7 @@ mod tests {
             "alpha 0.5, size=8",
         ];
         assert_eq!(settings, expected);
-        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
+        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware].into());
         assert_eq!(methods.questions[1].style("b"), 1);
     }
 

@@ -1,14 +1,13 @@
 //! The accuracy of drivers: the distance of their codes from the ideal ones, beside their speed.
 
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
-use crate::numbers::{digits, duration, share};
+use crate::numbers::{digits, duration, median, share};
 use crate::page::adapter::breakable;
-use crate::run::grid::Grid;
+use crate::run::grid::{Grid, rate};
 use crate::table::{Cell, Table};
 use crate::words::plain;
 use etalon_frame::{Accuracy, Aspect, ChannelEncoding};
 use etalon_record::{Record, Verdict};
-use etalon_stats::quantile;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
@@ -86,31 +85,17 @@ struct Speed {
 }
 
 fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
-    let records: Vec<&Record> = grid
-        .run
-        .records
-        .iter()
-        .filter(|r| r.adapter == adapter)
-        .collect();
-    let seconds: f64 = records
-        .iter()
-        .map(|r| r.seconds.draw + r.seconds.judge)
-        .sum();
+    let records = grid.run.records.iter();
+    let records: Vec<&Record> = records.filter(|r| r.adapter == adapter).collect();
     let judged = records.iter().filter(|r| r.verdict.is_judged());
     let times = records
         .iter()
         .filter_map(|r| Some(r.measured.as_ref()?.time?.wall));
     Speed {
-        cases_per_second: (seconds > 0.0).then(|| records.len() as f64 / seconds),
+        cases_per_second: rate(&records),
         draw: median(judged.map(|r| r.seconds.draw)),
         frame: median(times),
     }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    quantile(&values, 0.5)
 }
 
 /// The section of `index.html`; `None` where no record has a distance.
@@ -236,7 +221,7 @@ fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
 }
 
 /// The mean and the largest distance over all encodings, as shares of their ranges.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Shares {
     channels: f64,
     mean: f64,
@@ -260,11 +245,7 @@ fn shares<'a>(
                 continue;
             };
             let measured = result.entry(area).or_insert_with(|| vec![None; adapters]);
-            let sum = measured[adapter].get_or_insert(Shares {
-                channels: 0.0,
-                mean: 0.0,
-                max: 0.0,
-            });
+            let sum = measured[adapter].get_or_insert_default();
             let channels = legal.channels as f64;
             sum.channels += channels;
             sum.mean += (mean - sum.mean) * channels / sum.channels;

@@ -1,7 +1,7 @@
 //! `methods.html`.
 
-use super::data::{Methods, Point, Question, SceneSeries, Series, Setting};
-use super::name::{anchor, title, value_text};
+use super::data::{Methods, Point, Question, SceneSeries, Series, Setting, Shown};
+use super::name::{title, value_text};
 use super::pictures::Pictures;
 use super::stability::CurveBreak;
 use super::{claims, scatter, stability};
@@ -32,11 +32,10 @@ const SCRIPT: &str = concat!(
 /// The whole page. Pictures are read from the folder as they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let mut pictures = Pictures::new(folder);
-    let questions: Vec<Markup> = methods
-        .questions
+    let shown = methods.shown();
+    let scenes: Vec<Markup> = shown
         .iter()
-        .enumerate()
-        .map(|(q, question)| in_question(run, methods, &mut pictures, (q, question)))
+        .map(|shown| in_scene(run, &mut pictures, shown))
         .collect();
     let main = html! {
         (head(run, methods))
@@ -45,7 +44,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
             h2 { "Claims of the literature" }
             (claims::section(methods))
         }
-        (breaks(methods))
+        (breaks(methods, &shown))
         section id="reading" {
             h2 { "Reading the charts" }
             h3 { "Accuracy against speed" }
@@ -53,7 +52,13 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
             h3 { "Stability" }
             (stability::caption())
         }
-        @for question in questions { (question) }
+        @for (q, question) in methods.questions.iter().enumerate() {
+            section id={ "q" (q) } {
+                h2 { (title(question.name)) }
+                (explained(question))
+                @for (shown, scene) in shown.iter().zip(&scenes) { @if std::ptr::eq(shown.question, question) { (scene) } }
+            }
+        }
         (page::script(SCRIPT))
     };
     Page::new(
@@ -61,7 +66,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         "run.jsonl and pictures/ in this folder",
         &main,
     )
-    .style(chart::STYLE)
+    .style(&chart::style())
     .style(STYLE)
     .script(SCRIPT, false)
     .html()
@@ -124,17 +129,15 @@ fn profile(run: &Run) -> Markup {
 }
 
 /// Every break point in one table; curves that never cross are listed beside their charts.
-fn breaks(methods: &Methods<'_>) -> Markup {
-    let mut rows = Vec::new();
-    for (q, question) in methods.questions.iter().enumerate() {
-        for (s, scene) in question.scenes.iter().enumerate() {
-            for found in stability::found(methods, scene) {
-                rows.push((anchor(q, s), question, scene, found));
-            }
-        }
-    }
+fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
+    let found = |shown| {
+        stability::found(shown)
+            .into_iter()
+            .map(move |found| (shown, found))
+    };
+    let rows: Vec<Broken<'_, '_>> = shown.iter().flat_map(found).collect();
     let curves = rows.len();
-    let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
+    let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, f)| f.crosses());
     let single = single_values(methods);
     html! {
         section id="breaks" {
@@ -147,7 +150,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 p.u { "Not measured: no method was drawn at two values of its parameter." }
             } @else if broken.is_empty() { p { "No method crosses it." } }
             @else {
-                div #break-rows { (broken_table(methods).page(broken)) }
+                div #break-rows { (broken_table().page(broken)) }
             }
             @if !steady.is_empty() {
                 p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
@@ -159,27 +162,20 @@ fn breaks(methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// A break with the anchor of its scene.
-type Broken<'m, 'a> = (
-    String,
-    &'m Question<'a>,
-    &'m SceneSeries<'a>,
-    CurveBreak<'a>,
-);
+/// A break in a scene.
+type Broken<'m, 'a> = (&'m Shown<'m, 'a>, CurveBreak<'a>);
 
-fn broken_table<'m, 'a>(methods: &'m Methods<'a>) -> Table<'m, Broken<'m, 'a>> {
+fn broken_table<'m, 'a>() -> Table<'m, Broken<'m, 'a>> {
     Table::new("text")
-        .text("Scene", |(anchor, question, scene, _): &Broken<'m, 'a>| {
-            html! { a href={ "#" (anchor) } { (question.name) "/" (scene.name) } }
+        .text("Scene", |(shown, _): &Broken<'m, 'a>| {
+            html! { a href={ "#" (shown.anchor) } { (shown.scene.question) "/" (shown.scene.name) } }
         })
-        .text("Method", |(_, question, _, found)| {
-            html! { (key(question.style(found.method))) " " (found.series) }
+        .text("Method", |(shown, found)| {
+            html! { (key(shown.style(found.method))) " " (found.series) }
         })
-        .text("Break", |(.., found)| found.sentence.clone())
-        .text("Pictures", |(anchor, _, scene, found)| {
-            beside(scene, anchor, &found.between)
-        })
-        .text("Adapters", |(.., found)| stability::who(methods, found))
+        .text("Break", |(_, found)| found.sentence.clone())
+        .text("Pictures", |(shown, found)| beside(shown, &found.between))
+        .text("Adapters", |(shown, found)| stability::who(shown.methods, found))
 }
 
 /// The number of series with a parameter of which there is one value.
@@ -189,37 +185,15 @@ fn single_values(methods: &Methods<'_>) -> u64 {
 }
 
 /// Links to the pictures on both sides of crossings.
-fn beside(scene: &SceneSeries<'_>, anchor: &str, between: &[[Setting<'_>; 2]]) -> Markup {
-    let settings = scene.settings();
+fn beside(shown: &Shown<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
     html! {
         @for (i, pair) in between.iter().enumerate() {
             @if i > 0 { "; " }
             @for (j, setting) in pair.iter().enumerate() {
                 @if j > 0 { " → " }
-                @let number = settings.iter().position(|s| s == setting);
-                a href={ "#" (anchor) } data-go=[number] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
+                @let number = shown.settings.iter().position(|s| s == setting);
+                a href={ "#" (shown.anchor) } data-go=[number] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
             }
-        }
-    }
-}
-
-fn in_question(
-    run: &Run,
-    methods: &Methods<'_>,
-    pictures: &mut Pictures<'_>,
-    (q, question): (usize, &Question<'_>),
-) -> Markup {
-    let scenes: Vec<Markup> = question
-        .scenes
-        .iter()
-        .enumerate()
-        .map(|(s, scene)| in_scene(run, methods, pictures, question, (&anchor(q, s), scene)))
-        .collect();
-    html! {
-        section id={ "q" (q) } {
-            h2 { (title(question.name)) }
-            (explained(question))
-            @for scene in scenes { (scene) }
         }
     }
 }
@@ -243,41 +217,31 @@ fn explained(question: &Question<'_>) -> Markup {
     }
 }
 
-fn in_scene(
-    run: &Run,
-    methods: &Methods<'_>,
-    pictures: &mut Pictures<'_>,
-    question: &Question<'_>,
-    (anchor, scene): (&str, &SceneSeries<'_>),
-) -> Markup {
+fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &Shown<'_, '_>) -> Markup {
+    let (methods, scene) = (shown.methods, shown.scene);
     let truth = scene
         .series
         .iter()
         .flat_map(|s| &s.points)
         .map(|p| p.measured.distance.truth_error)
         .fold(0.0, f64::max);
-    let settings = scene.settings();
-    let shown = scene.main();
-    let main = settings.iter().position(|s| Some(s) == shown.as_ref());
-    let main = main.unwrap_or(0);
-    let speed = scatter::charts(methods, question, scene, &settings, main);
-    let curves = stability::charts(methods, question, scene, &settings, main);
+    let (speed, curves) = (scatter::charts(shown), stability::charts(shown));
     let together = speed.len() == 1;
     // One chart leaves room beside it on a wide page, two of them for a few pictures.
-    let shots = pictures.of(methods, question, scene, &settings, main);
+    let shots = pictures.of(shown);
     let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
     let few = scene.methods().len() <= 4;
     let beside = together && (panels == 1 || (panels == 2 && few));
     html! {
-        article.scene id=(anchor) data-name={ (scene.question) "/" (scene.name) } {
+        article.scene id=(shown.anchor) data-name={ (scene.question) "/" (scene.name) } {
             h3 { (title(scene.name)) }
             p.legend {
                 @for name in scene.methods() {
-                    @let style = question.style(name);
+                    @let style = shown.style(name);
                     button class={ "key " (color(style)) } type="button" aria-pressed="false" { (line_key(style)) " " (name) }
                 }
             }
-            (slider(anchor, &settings, main))
+            (slider(shown))
             @for (i, kind) in speed.iter().enumerate() {
                 @if let Some(heading) = kind.heading { p.cap { (heading) } }
                 div.charts.speed {
@@ -289,10 +253,8 @@ fn in_scene(
             @if !together && !curves.is_empty() {
                 div.charts { @for panel in &curves { (panel) } }
             }
-            @for (i, setting) in settings.iter().enumerate() {
-                (unmeasured(methods, scene, setting, (i, i == main)))
-            }
-            @if !curves.is_empty() { (stability::list(methods, scene)) }
+            @for (i, setting) in shown.settings.iter().enumerate() { (unmeasured(shown, setting, i)) }
+            @if !curves.is_empty() { (stability::list(shown)) }
             @if !beside { (shots) }
             p.cap {
                 @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }
@@ -309,18 +271,18 @@ fn in_scene(
 }
 
 /// The setting that charts and pictures show, and the slider to others. Without scripts it stays where it is.
-fn slider(anchor: &str, settings: &[Setting<'_>], main: usize) -> Markup {
-    let names: Vec<String> = settings.iter().map(Setting::text).collect();
-    let input = format!("{anchor}-at");
+fn slider(shown: &Shown<'_, '_>) -> Markup {
+    let names: Vec<String> = shown.settings.iter().map(Setting::text).collect();
+    let input = format!("{}-at", shown.anchor);
     html! {
-        @match settings {
+        @match shown.settings.as_slice() {
             [] => {},
             [only] => { @if !only.text().is_empty() { p.setting { "At " b { (only.text()) } } } },
             several => {
                 p.setting {
-                    label for=(input) { "At " output for=(input) { (names[main]) } }
-                    " " input id=(input) type="range" min="0" max=(several.len() - 1) step="1" value=(main)
-                        data-names=(serde_json::json!(names)) aria-valuetext=(names[main]) disabled;
+                    label for=(input) { "At " output for=(input) { (names[shown.main]) } }
+                    " " input id=(input) type="range" min="0" max=(several.len() - 1) step="1" value=(shown.main)
+                        data-names=(serde_json::json!(names)) aria-valuetext=(names[shown.main]) disabled;
                 }
             }
         }
@@ -328,12 +290,8 @@ fn slider(anchor: &str, settings: &[Setting<'_>], main: usize) -> Markup {
 }
 
 /// The methods of the scene that have no error, or no time, at a setting.
-fn unmeasured(
-    methods: &Methods<'_>,
-    scene: &SceneSeries<'_>,
-    setting: &Setting<'_>,
-    (index, shown): (usize, bool),
-) -> Markup {
+fn unmeasured(shown: &Shown<'_, '_>, setting: &Setting<'_>, index: usize) -> Markup {
+    let (methods, scene) = (shown.methods, shown.scene);
     let drew = |i: &usize| scene.series.iter().any(|s| s.on(*i).next().is_some());
     let drew: Vec<usize> = (0..methods.adapters.len()).filter(drew).collect();
     let missing = grouped(drew.iter().flat_map(|i| {
@@ -344,14 +302,9 @@ fn unmeasured(
         .at(setting)
         .filter(|(_, p)| p.error().is_some() && p.wall().is_none());
     let untimed = distinct(untimed.map(|(s, _)| s.method));
-    let class = if shown {
-        "missing at"
-    } else {
-        "missing at off"
-    };
     html! {
         @if !missing.is_empty() || !untimed.is_empty() {
-            p class=(class) data-at=(index) {
+            p class=(shown.class("missing", index)) data-at=(index) {
                 @if !missing.is_empty() {
                     span.chip.u { "not measured" } (setting.at()) ": "
                     @for (i, (method, on)) in missing.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The pictures of a scene: the truth, and what each method drew at each setting.
 
-use super::data::{Methods, Point, Question, SceneSeries, Setting};
+use super::data::{Point, Setting, Shown};
 use crate::chart::color;
 use crate::numbers::{digits, share};
 use base64::Engine;
@@ -37,19 +37,12 @@ impl<'f> Pictures<'f> {
 
     /// The truth and what each method drew, at each setting; the first adapter's that has a picture. The
     /// differences of the two are computed in the page.
-    pub(super) fn of(
-        &mut self,
-        methods: &Methods<'_>,
-        question: &Question<'_>,
-        scene: &SceneSeries<'_>,
-        settings: &[Setting<'_>],
-        main: usize,
-    ) -> Markup {
+    pub(super) fn of(&mut self, shown: &Shown<'_, '_>) -> Markup {
         let mut groups = Vec::new();
-        for (index, setting) in settings.iter().enumerate() {
+        for (index, setting) in shown.settings.iter().enumerate() {
             let mut truth = None;
             let mut shots: Vec<Shot<'_, '_>> = Vec::new();
-            for (series, point) in scene.at(setting) {
+            for (series, point) in shown.scene.at(setting) {
                 let m = point.measured;
                 if shots.iter().any(|s| s.method == series.method) {
                     continue;
@@ -74,12 +67,11 @@ impl<'f> Pictures<'f> {
         }
         html! {
             @for (index, setting, truth, shots) in &groups {
-                @let class = if *index == main { "pictures at" } else { "pictures at off" };
-                div class=(class) data-at=(index) data-setting=(setting.text()) {
+                div class=(shown.class("pictures", *index)) data-at=(index) data-setting=(setting.text()) {
                     @if let Some(truth) = truth {
                         figure.truth { img src=(truth) alt={ "Picture: truth" (setting.at()) } width="128"; figcaption { "truth" } }
                     }
-                    @for shot in shots { (figure(methods, question, setting, shot)) }
+                    @for shot in shots { (figure(shown, setting, shot)) }
                 }
             }
         }
@@ -93,17 +85,12 @@ impl<'f> Pictures<'f> {
     }
 }
 
-fn figure(
-    methods: &Methods<'_>,
-    question: &Question<'_>,
-    setting: &Setting<'_>,
-    shot: &Shot<'_, '_>,
-) -> Markup {
+fn figure(shown: &Shown<'_, '_>, setting: &Setting<'_>, shot: &Shot<'_, '_>) -> Markup {
     let distance = &shot.point.measured.distance;
-    let adapter = methods.adapters[shot.point.adapter].name;
+    let adapter = shown.methods.adapters[shot.point.adapter].name;
     let name = format!("{}{}", shot.method, setting.at());
     html! {
-        figure class={ "shot " (color(question.style(shot.method))) } data-method=(shot.method) data-adapter=(adapter)
+        figure class={ "shot " (color(shown.style(shot.method))) } data-method=(shot.method) data-adapter=(adapter)
             data-case=(shot.point.record.case) {
             img src=(shot.data) alt={ "Picture: " (name) } width="128";
             figcaption {

@@ -1,6 +1,6 @@
 //! Accuracy against speed: a chart per scene and adapter, with a front for each setting.
 
-use super::data::{Kind, Methods, Point, Question, SceneSeries, Setting};
+use super::data::{Kind, Point, Setting, Shown};
 use super::front::front;
 use crate::chart::{
     BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, polyline,
@@ -33,15 +33,10 @@ pub(super) struct OfKind {
 }
 
 /// All charts of a scene: software and hardware adapters apart. The axes hold all settings, so that a
-/// method's mark moves on them from setting to setting; `main` is the one that is shown first.
-pub(super) fn charts(
-    methods: &Methods<'_>,
-    question: &Question<'_>,
-    scene: &SceneSeries<'_>,
-    settings: &[Setting<'_>],
-    main: usize,
-) -> Vec<OfKind> {
-    let dots = dots(question, scene, settings);
+/// method's mark moves on them from setting to setting.
+pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<OfKind> {
+    let methods = shown.methods;
+    let dots = dots(shown);
     let positive: Vec<f64> = dots.iter().map(|d| d.error).filter(|e| *e > 0.0).collect();
     let y = Scale::log(positive.iter().copied().chain([0.01]));
     let zero = zero_band(dots.iter().map(|d| d.error));
@@ -64,8 +59,8 @@ pub(super) fn charts(
         let adapters = methods.adapters.iter().enumerate();
         let panels = adapters.filter_map(|(index, adapter)| {
             let drew = of_kind.iter().any(|d| d.point.adapter == index);
-            let title = format!("{} on {}", scene.name, adapter.name);
-            drew.then(|| panel(&title, &plot, &of_kind, index, settings, main))
+            let title = format!("{} on {}", shown.scene.name, adapter.name);
+            drew.then(|| panel(shown, &title, &plot, &of_kind, index))
         });
         result.push(OfKind {
             heading: (kinds.len() > 1).then(|| heading(*kind)),
@@ -83,18 +78,14 @@ fn heading(kind: Kind) -> &'static str {
     }
 }
 
-fn dots<'s, 'a>(
-    question: &Question<'a>,
-    scene: &'s SceneSeries<'a>,
-    settings: &'s [Setting<'a>],
-) -> Vec<Dot<'s, 'a>> {
+fn dots<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Dot<'s, 'a>> {
     let mut dots = Vec::new();
-    for (index, setting) in settings.iter().enumerate() {
-        for (series, point) in scene.at(setting) {
+    for (index, setting) in shown.settings.iter().enumerate() {
+        for (series, point) in shown.scene.at(setting) {
             if let (Some(time), Some(error)) = (point.wall(), point.error()) {
                 dots.push(Dot {
                     point,
-                    style: question.style(series.method),
+                    style: shown.style(series.method),
                     setting: index,
                     time,
                     error,
@@ -106,34 +97,25 @@ fn dots<'s, 'a>(
 }
 
 fn panel(
+    shown: &Shown<'_, '_>,
     title: &str,
     plot: &Plot,
     dots: &[&Dot<'_, '_>],
     adapter: usize,
-    settings: &[Setting<'_>],
-    main: usize,
 ) -> Markup {
     let mut about = String::new();
+    let settings = shown.settings.iter().enumerate();
     let groups: Vec<Markup> = settings
-        .iter()
-        .enumerate()
         .map(|(index, setting)| {
-            let same: Vec<&Dot<'_, '_>> = dots
-                .iter()
-                .copied()
-                .filter(|d| d.setting == index)
-                .collect();
-            let line: Vec<&Dot<'_, '_>> = same
-                .iter()
-                .copied()
-                .filter(|d| d.point.adapter == adapter)
-                .collect();
+            let dots = dots.iter().copied();
+            let same: Vec<_> = dots.filter(|d| d.setting == index).collect();
+            let line = same.iter().copied();
+            let line: Vec<_> = line.filter(|d| d.point.adapter == adapter).collect();
             let (text, body) = at_setting(plot, &same, &line, setting);
-            if index == main {
+            if index == shown.main {
                 about = text;
             }
-            let hidden = if index == main { "at" } else { "at off" };
-            html! { g class=(hidden) data-at=(index) { (body) } }
+            html! { g class=(shown.class("dots", index)) data-at=(index) { (body) } }
         })
         .collect();
     let body = html! {

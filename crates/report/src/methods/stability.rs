@@ -1,7 +1,7 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, Question, SceneSeries, Series, Setting};
+use super::data::{Methods, SceneSeries, Series, Setting, Shown};
 use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
@@ -11,6 +11,7 @@ use crate::chart::{
 use crate::lists::grouped;
 use crate::numbers::share;
 use maud::{Markup, html};
+use std::collections::BTreeSet;
 
 /// The break of one method's curve, and the adapters that share it.
 pub(super) struct CurveBreak<'a> {
@@ -33,12 +34,9 @@ impl CurveBreak<'_> {
 }
 
 /// The parameters along which some method of the scene has a curve.
-fn parameters<'a>(scene: &SceneSeries<'a>) -> Vec<&'a str> {
+fn parameters<'a>(scene: &SceneSeries<'a>) -> BTreeSet<&'a str> {
     let curves = scene.series.iter().filter(|s| s.values().len() > 1);
-    let mut names: Vec<&str> = curves.filter_map(|s| s.parameter).collect();
-    names.sort_unstable();
-    names.dedup();
-    names
+    curves.filter_map(|s| s.parameter).collect()
 }
 
 /// The curves along a parameter.
@@ -54,11 +52,12 @@ fn scale(series: &[&Series<'_>]) -> Scale {
 }
 
 /// Every method's break in a scene, in order; adapters that break alike together.
-pub(super) fn found<'a>(methods: &Methods<'a>, scene: &SceneSeries<'a>) -> Vec<CurveBreak<'a>> {
+pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
+    let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
         let all = curves(scene, parameter);
-        let log = matches!(scale(&all), Scale::Log { .. });
+        let log = matches!(scale(&all), Scale::Log(..));
         for series in all {
             let first = result.len();
             for (index, adapter) in methods.adapters.iter().enumerate() {
@@ -107,36 +106,25 @@ fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
 }
 
 /// All charts of a scene; none where no method has several values of a parameter.
-pub(super) fn charts<'a>(
-    methods: &Methods<'a>,
-    question: &Question<'a>,
-    scene: &SceneSeries<'a>,
-    settings: &[Setting<'a>],
-    main: usize,
-) -> Vec<Markup> {
+pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
     let mut panels = Vec::new();
-    for parameter in parameters(scene) {
-        let found = curves(scene, parameter);
-        let mut variants: Vec<&str> = found.iter().map(|s| s.variant.as_str()).collect();
-        variants.sort_unstable();
-        variants.dedup();
+    for parameter in parameters(shown.scene) {
+        let found = curves(shown.scene, parameter);
+        let variants: BTreeSet<&str> = found.iter().map(|s| s.variant.as_str()).collect();
         for variant in variants {
             let in_variant = found.iter().copied().filter(|s| s.variant == variant);
-            let series: Vec<&Series<'a>> = in_variant.collect();
-            for adapters in alike(methods, &series) {
-                let curves = (parameter, variant, &series[..]);
-                let place = (settings, main);
-                panels.push(panel(methods, question, scene, curves, &adapters, place));
-            }
+            let series: Vec<&Series<'_>> = in_variant.collect();
+            let adapters = alike(shown.methods, &series).into_iter();
+            panels.extend(adapters.map(|on| panel(shown, parameter, variant, &series, &on)));
         }
     }
     panels
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
-pub(super) fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
-    let (broken, steady): (Vec<_>, Vec<_>) =
-        found(methods, scene).into_iter().partition(|f| f.crosses());
+pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
+    let methods = shown.methods;
+    let (broken, steady): (Vec<_>, Vec<_>) = found(shown).into_iter().partition(|f| f.crosses());
     let groups = grouped(steady.into_iter().map(|f| {
         let side = if f.found == Break::Always {
             "Always"
@@ -198,20 +186,20 @@ fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
     groups
 }
 
-fn panel<'a>(
-    methods: &Methods<'a>,
-    question: &Question<'a>,
-    scene: &SceneSeries<'a>,
-    (parameter, variant, series): (&str, &str, &[&Series<'a>]),
+fn panel(
+    shown: &Shown<'_, '_>,
+    parameter: &str,
+    variant: &str,
+    series: &[&Series<'_>],
     adapters: &[usize],
-    (settings, main): (&[Setting<'a>], usize),
 ) -> Markup {
+    let (methods, scene) = (shown.methods, shown.scene);
     let on = adapters[0];
     let errors = series
         .iter()
         .flat_map(|s| s.points.iter().filter_map(|p| p.error()));
     let x = scale(series);
-    let log = matches!(x, Scale::Log { .. });
+    let log = matches!(x, Scale::Log(..));
     let plot = Plot {
         x,
         y: Scale::log(errors.clone().filter(|e| *e > 0.0).chain([LIMIT])),
@@ -238,10 +226,14 @@ fn panel<'a>(
         labels.avoid(&places(s));
     }
     labels.avoid(&[(LEFT, plot.y(LIMIT)), (RIGHT, plot.y(LIMIT))]);
-    let cursors = settings.iter().enumerate().filter_map(|(index, setting)| {
-        let (name, value) = setting.parameter?;
-        (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
-    });
+    let cursors = shown
+        .settings
+        .iter()
+        .enumerate()
+        .filter_map(|(index, setting)| {
+            let (name, value) = setting.parameter?;
+            (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
+        });
     let crossings = |s: &Series<'_>| match breaks::find(&s.curve(on), log) {
         Some(Break::Crossings(crossings)) => crossings,
         _ => Vec::new(),
@@ -265,11 +257,10 @@ fn panel<'a>(
         (plot.frame(value_text, share, parameter, "← more accurate: RMSE"))
         (line_at(&plot, LIMIT, "one"))
         @for (index, x) in cursors {
-            @let hidden = if index == main { "cursor at" } else { "cursor at off" };
-            path class=(hidden) data-at=(index) d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
+            path class=(shown.class("cursor", index)) data-at=(index) d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
         }
         @for s in series {
-            @let (style, places) = (question.style(s.method), places(s));
+            @let (style, places) = (shown.style(s.method), places(s));
             g class={ "of " (color(style)) } {
                 path class={ "curve " (color(style)) } d=(polyline(&places)) stroke-dasharray=(dash(style)) {}
                 @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
@@ -280,7 +271,7 @@ fn panel<'a>(
         }
         g.rings {
             @for (s, rings) in series.iter().zip(&rings) {
-                @let style = color(question.style(s.method));
+                @let style = color(shown.style(s.method));
                 @for (c, center, label) in rings {
                     g class={ "of " (style) } {
                         circle class={ "break " (style) } cx=(n(center.0)) cy=(n(center.1)) r="6" {
@@ -295,7 +286,7 @@ fn panel<'a>(
         }
         @for (s, end) in series.iter().zip(&ends) {
             @if let Some((x, y)) = end {
-                g class={ "of " (color(question.style(s.method))) } {
+                g class={ "of " (color(shown.style(s.method))) } {
                     text.label x=(n(*x)) y=(n(*y)) { (s.method) }
                 }
             }

@@ -2,7 +2,7 @@
 
 use super::breaks::LIMIT;
 use super::data::{Kind, Methods, Point, SceneSeries, Series, Setting};
-use super::name::{PAGE, anchor};
+use super::name::PAGE;
 use crate::numbers::{count, duration, share};
 use crate::table::{Cell, Table};
 use crate::words::plain;
@@ -38,28 +38,24 @@ enum Fast<'a> {
 /// Finds the best methods of all scenes.
 fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
     let mut found = Vec::new();
-    let mut number = 0;
-    for (q, question) in methods.questions.iter().enumerate() {
-        for (s, scene) in question.scenes.iter().enumerate() {
-            let Some(setting) = scene.main() else {
+    for (number, shown) in methods.shown().into_iter().enumerate() {
+        let Some(setting) = shown.scene.main() else {
+            continue;
+        };
+        for kind in methods.kinds() {
+            let all: Vec<_> = candidates(methods, shown.scene, &setting, kind).collect();
+            let Some((series, _, error)) = accurate(&all) else {
                 continue;
             };
-            for kind in methods.kinds() {
-                let all: Vec<_> = candidates(methods, scene, &setting, kind).collect();
-                let Some((series, _, error)) = accurate(&all) else {
-                    continue;
-                };
-                found.push(Best {
-                    anchor: anchor(q, s),
-                    number,
-                    scene: format!("{}/{}", scene.question, scene.name),
-                    setting: setting.clone(),
-                    kind,
-                    accurate: (series.method, *error),
-                    fast: fast(methods, &all),
-                });
-            }
-            number += 1;
+            found.push(Best {
+                anchor: shown.anchor.clone(),
+                number,
+                scene: format!("{}/{}", shown.scene.question, shown.scene.name),
+                setting: setting.clone(),
+                kind,
+                accurate: (series.method, *error),
+                fast: fast(methods, &all),
+            });
         }
     }
     found
@@ -160,7 +156,7 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
     for best in best(methods).iter().filter(|best| best.number < LISTED) {
         let mut line = format!("  {}{}", best.scene, best.setting.at());
         if several {
-            line.push_str(&format!(" ({})", best.kind.name()));
+            line += &format!(" ({})", best.kind.name());
         }
         let (method, error) = (best.accurate.0, share(best.accurate.1));
         line.push_str(&match best.fast {
@@ -170,12 +166,12 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
                 format!(": {method} {error}; {fast} {} on {adapter}", duration(time))
             }
         });
-        text.push_str(&format!("{}\n", plain(&line, width.max(20))));
+        text += &format!("{}\n", plain(&line, width.max(20)));
     }
     let scenes = methods.scenes().count();
     if scenes > LISTED {
         let more = count((scenes - LISTED) as u64, "more scene");
-        text.push_str(&format!("  and {more}\n"));
+        text += &format!("  and {more}\n");
     }
     text
 }
@@ -183,7 +179,7 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::made::{Made, run};
+    use crate::methods::tests::made::{Made, run};
 
     #[test]
     fn only_equals_are_ranked_and_one_alone_is_not() {

@@ -3,7 +3,7 @@
 use crate::numbers::count;
 use crate::table::{Cell, Table};
 use etalon_frame::{Limits, TextureFormat};
-use etalon_record::AdapterRecord;
+use etalon_record::{AbsentAdapter, AdapterRecord};
 use maud::{Markup, PreEscaped, html};
 
 /// A name that may break after each of its colons.
@@ -21,7 +21,30 @@ pub(crate) fn adapter(name: &str) -> Cell {
     Cell::from(name).on_page(breakable(name))
 }
 
-pub(crate) fn details(a: &AdapterRecord) -> Markup {
+/// The adapters of a recording, and the remedies for absent ones.
+pub(crate) fn section(adapters: &[AdapterRecord], absent: &[AbsentAdapter]) -> Markup {
+    html! {
+        section id="adapters" {
+            h2 { "Adapters" }
+            @if adapters.is_empty() { p { "None." } }
+            @for adapter in adapters { (details(adapter)) }
+            @if !absent.is_empty() {
+                h3 { "Absent" }
+                (absent_table().page(absent))
+            }
+        }
+    }
+}
+
+fn absent_table<'a>() -> Table<'a, &'a AbsentAdapter> {
+    Table::new("text")
+        .spoken("Adapters that are absent")
+        .head("Adapter", |absent: &&AbsentAdapter| &*absent.name)
+        .text("Reason", |absent| &*absent.reason)
+        .text("Remedy", |absent| &*absent.remedy)
+}
+
+fn details(a: &AdapterRecord) -> Markup {
     let kind = if a.software { "software" } else { "hardware" };
     let l = &a.limits;
     html! {

@@ -66,12 +66,31 @@ function parameters() {
   return found;
 }
 
-// The view that the address names, and the text behind its name; null for the page itself.
-function viewOf(views) {
-  const [[name, text]] = [...parameters(), [location.hash.slice(1), ""]];
-  return Object.hasOwn(views, name) ? [views[name], text] : null;
+// Shows the view that the address names instead of the page that all views lead back to; `back` is called where it names
+// none, with true if a view was shown before. A view makes of the text behind its name what leads back, its title, its heading where that is more, and its content.
+function router(home, view, views, back) {
+  const title = document.title;
+  let turn = 0;
+  return async () => {
+    const mine = ++turn;
+    const [[name, text]] = [...parameters(), [location.hash.slice(1), ""]];
+    const made = Object.hasOwn(views, name) ? await views[name](text) : null;
+    if (mine !== turn) return;
+    const wasAway = home.hidden;
+    document.title = made ? made.title + " – etalon" : title;
+    [home.hidden, view.hidden] = [Boolean(made), !made];
+    if (!made) return back(wasAway);
+    const heading = make("h1", { id: view.id + "-title", tabindex: "-1" }, made.heading ?? made.title);
+    // What is in use, as the field of a search, stays where it is.
+    const leads = made.leads();
+    for (const child of [...view.children]) if (!leads.includes(child)) child.remove();
+    view.append(...leads.filter(lead => lead.parentElement !== view), heading, ...made.content);
+    (made.focus ?? heading).focus({ preventScroll: true });
+    if (!made.focus) scrollTo(0, 0);
+    // For those who measure.
+    performance.mark("etalon-shown");
+  };
 }
-
 // For each word of a search, a function that is true of a text in lower case that contains it; `*` matches anything.
 function wordsOf(search) {
   return search.toLowerCase().split(/\s+/).filter(Boolean).map(word => text => {
@@ -90,19 +109,6 @@ function reveal(id) {
   const target = id && $(id);
   for (let e = target; e; e = e.parentElement) if (e.tagName === "DETAILS") e.open = true;
   if (target) target.scrollIntoView();
-}
-
-// Shows a view instead of the page that all views lead back to.
-function leave(home, view, title) {
-  document.title = title + " – etalon";
-  home.hidden = true;
-  view.hidden = false;
-}
-
-function comeBack(home, view, title) {
-  document.title = title;
-  view.hidden = true;
-  home.hidden = false;
 }
 
 // True of a key that belongs to the browser.

@@ -25,14 +25,10 @@ pub fn dead_lines(dead: &[Dead]) -> String {
         let these: Vec<&Dead> = dead.iter().filter(|d| d.kind == kind).collect();
         for entry in these.iter().take(LISTED) {
             let line = format!("{}: {}: {}", meaning(kind), entry.place, entry.about);
-            text.push_str(&format!("\n  {}", plain(&line, 240)));
+            text += &format!("\n  {}", plain(&line, 240));
         }
         if these.len() > LISTED {
-            text.push_str(&format!(
-                "\n  {}: {} more",
-                meaning(kind),
-                these.len() - LISTED
-            ));
+            text += &format!("\n  {}: {} more", meaning(kind), these.len() - LISTED);
         }
     }
     text

@@ -100,6 +100,22 @@ impl<'a> Grid<'a> {
     pub(crate) fn record(&self, index: usize) -> &'a Record {
         &self.run.records[index]
     }
+
+    /// All case files.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &CaseFile<'a>> {
+        self.areas.iter().flat_map(|area| &area.files)
+    }
+
+    /// All cases.
+    pub(crate) fn cases(&self) -> impl Iterator<Item = &CaseRow<'a>> {
+        self.files().flat_map(|file| &file.cases)
+    }
+
+    /// The records on one adapter, by area, case file and case.
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &'a Record> {
+        let indices = self.areas.iter().flat_map(move |area| area.on(adapter));
+        indices.map(|index| self.record(index))
+    }
 }
 
 impl Area<'_> {
@@ -114,6 +130,13 @@ impl CaseFile<'_> {
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.cases.iter().filter_map(move |c| c.records[adapter])
     }
+}
+
+/// Records per second of drawing and judging.
+pub(crate) fn rate(records: &[&Record]) -> Option<f64> {
+    let seconds = records.iter().map(|r| r.seconds.draw + r.seconds.judge);
+    let seconds: f64 = seconds.sum();
+    (seconds > 0.0).then(|| records.len() as f64 / seconds)
 }
 
 /// Counts of records by verdict.

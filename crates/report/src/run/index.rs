@@ -16,7 +16,7 @@ mod overview;
 
 use crate::catalogue::scripts;
 use crate::chart;
-use crate::mark::{class, mark};
+use crate::mark::class;
 use crate::methods::{self, Methods};
 use crate::numbers::count;
 use crate::page::origin::origin;
@@ -53,7 +53,7 @@ pub(crate) fn page(
     let plan = findings::Plan::new(&grid);
     let scripts = scripts(folder);
     let drivers = methods::driver_section(&grid);
-    let charts = drivers.is_some().then_some(chart::STYLE);
+    let charts = drivers.as_ref().map(|_| chart::style());
     let main = html! {
         (cases::view())
         div id="report" {
@@ -77,12 +77,12 @@ pub(crate) fn page(
                 (findings::section(folder, &grid, &plan))
                 (assertions::section(&grid))
             }
-            (overview::adapters(&run.header))
+            (page::adapter::section(&run.header.adapters, &run.header.absent))
         }
     };
     Page::new(&title(run), "run.jsonl and frames/ in this folder", &main)
         .style(CASES_STYLE)
-        .style(charts)
+        .style(&charts.unwrap_or_default())
         .script(SCRIPT, !scripts.is_empty())
         .html()
 }
@@ -171,19 +171,11 @@ fn state(run: &Run, dead: &[Dead]) -> Markup {
 /// Counts over the whole run, which are the legend at the same time.
 fn totals(run: &Run) -> Markup {
     let tally = Tally::of(&run.records);
-    html! {
-        section {
-            h2 { "Totals" }
-            ul.totals {
-                @for (verdict, tone, n) in tally.entries() {
-                    li class=(class(verdict, tone)) {
-                        span.big { (n) } " " (mark(verdict, tone))
-                        small { (sentence(verdict, tone)) }
-                    }
-                }
-            }
-        }
-    }
+    page::totals(tally.entries().map(|(verdict, tone, n)| {
+        let name =
+            html! { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) };
+        (class(verdict, tone), n, name, sentence(verdict, tone))
+    }))
 }
 
 fn sentence(verdict: Verdict, tone: Tone) -> &'static str {

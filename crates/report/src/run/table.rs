@@ -2,7 +2,7 @@
 
 use crate::methods;
 use crate::numbers::count;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, Tally, rate};
 use crate::run::undrawn::{Undrawn, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
@@ -49,10 +49,10 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text.push_str(&unexpected(run, options));
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
     if improvements > 0 {
-        text.push_str(&format!(
+        text += &format!(
             "{}: their expectations can be removed\n",
             count(improvements as u64, "improvement")
-        ));
+        );
     }
     text.push_str(&incomplete(run));
     text
@@ -109,9 +109,13 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     let table = table
         .number("expected", |(_, tally, _)| some(tally.excused()))
         .number("cases/s", |(_, _, rate)| rate.clone());
-    let rows = rows
-        .iter()
-        .map(|(adapter, records)| (*adapter, Tally::of(records.iter().copied()), rate(records)));
+    let rows = rows.iter().map(|(adapter, records)| {
+        (
+            *adapter,
+            Tally::of(records.iter().copied()),
+            rate(records).map(|rate| format!("{rate:.0}")),
+        )
+    });
     let (mut text, left_out) = table.terminal(rows, options, &optional);
     if !left_out.is_empty() {
         text.push('\n');
@@ -151,20 +155,12 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     if reasons.len() > REASONS {
         let others = &reasons[REASONS..];
         let n: u64 = others.iter().map(Undrawn::records).sum();
-        text.push_str(&format!(
+        text += &format!(
             "  {n:>width$}  for {}\n",
             count(others.len() as u64, "other reason")
-        ));
+        );
     }
     text
-}
-
-fn rate(records: &[&Record]) -> Option<String> {
-    let seconds: f64 = records
-        .iter()
-        .map(|r| r.seconds.draw + r.seconds.judge)
-        .sum();
-    (seconds > 0.0).then(|| format!("{:.0}", records.len() as f64 / seconds))
 }
 
 fn unexpected(run: &Run, options: TableOptions) -> String {
@@ -182,7 +178,7 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         let adapter = plain(&record.adapter, 60);
         // One line, whole: a terminal breaks it where it must, and a program finds all of it.
         let (case, reason) = (plain(&record.case, 300), headline(record));
-        text.push_str(&format!("{head}  {adapter}  {case}: {reason}\n"));
+        text += &format!("{head}  {adapter}  {case}: {reason}\n");
     }
     match bad.len().saturating_sub(LISTED) {
         0 => {}
@@ -198,10 +194,10 @@ fn incomplete(run: &Run) -> String {
     }
     let missing = run.missing();
     if missing > 0 {
-        text.push_str(&format!(
+        text += &format!(
             "Incomplete: {missing} of {} records are missing.\n",
             run.header.expected_records()
-        ));
+        );
     }
     text
 }

@@ -56,24 +56,22 @@ pub(crate) fn undrawn(run: &Run) -> Vec<Undrawn> {
         let counts = found.entry((verdict, headline(record))).or_default();
         *counts.entry(place(&record.adapter)).or_default() += 1;
     }
-    let adapter = |column: usize| {
+    let adapter = |(column, n): (usize, u64)| {
         let adapter = run.header.adapters.get(column);
-        adapter.map_or_else(|| "?".to_owned(), |a| a.name.clone())
+        (
+            adapter.map_or_else(|| "?".to_owned(), |a| a.name.clone()),
+            n,
+        )
     };
     let mut reasons: Vec<Undrawn> = found
         .into_iter()
         .map(|((verdict, reason), adapters)| Undrawn {
             verdict: VERDICTS[verdict],
             reason,
-            adapters: adapters
-                .into_iter()
-                .map(|(column, n)| (adapter(column), n))
-                .collect(),
+            adapters: adapters.into_iter().map(adapter).collect(),
         })
         .collect();
-    reasons.sort_by_key(|u| {
-        let verdict = VERDICTS.iter().position(|v| *v == u.verdict);
-        (verdict, Reverse(u.records()))
-    });
+    let place = |u: &Undrawn| VERDICTS.iter().position(|v| *v == u.verdict);
+    reasons.sort_by_key(|u| (place(u), Reverse(u.records())));
     reasons
 }

@@ -5,12 +5,11 @@ use super::index;
 use crate::catalogue::CATALOGUE;
 use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
-use crate::files::replace;
+use crate::files::{make, replace};
 use crate::methods::{self, Methods};
 use crate::news::News;
 use etalon_frame::threads::join;
 use etalon_record::{Dead, Run};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The files that [`write()`] may write into a run folder.
@@ -54,30 +53,24 @@ impl RunReports {
     }
 }
 
-/// Reads the run in a folder and writes its reports as [`write_run`] does.
+/// Reads the run in a folder and writes its reports as [`write_run_with_news`] does.
 ///
 /// # Errors
 /// Returns an error if the folder holds no readable run, or cannot be written to.
 pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
-    write_run(folder, &Run::read(folder)?)
+    write_run_with_news(folder, &Run::read(folder)?, None)
 }
 
 /// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
 /// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
 /// its place and then renamed, so that a reader never sees half a report.
 ///
+/// The summary of a run that was compared with the one before it tells news first. [`News::settle`] gives the run in
+/// which what triage settled does not count.
+///
 /// # Errors
 /// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame file
 /// that is missing or damaged is no error: the page names it.
-pub fn write_run(folder: &Path, run: &Run) -> Result<RunReports, ReportError> {
-    write_run_with_news(folder, run, None)
-}
-
-/// [`write_run`] of a run that was compared with the one before it: the summary tells news first. [`News::settle`] gives
-/// the run in which what triage settled does not count.
-///
-/// # Errors
-/// As [`write_run`].
 pub fn write_run_with_news(
     folder: &Path,
     run: &Run,
@@ -131,10 +124,7 @@ fn others(
 /// deqp-runner's lists, in a folder of their own.
 fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Result<Vec<PathBuf>, ReportError> {
     let below = folder.join(deqp::FOLDER);
-    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
-        path: below.clone(),
-        source,
-    })?;
+    make(&below)?;
     let lists = deqp::lists(folder, run, grid).into_iter();
     lists
         .map(|list| replace(&below, &list.name, list.text.as_bytes()))

@@ -3,8 +3,11 @@
 use crate::catalogue::CATALOGUE;
 use crate::error::ReportError;
 use crate::export::deqp;
-use etalon_record::{Bench, FolderKind, Run, Verdict};
-use std::collections::{BTreeSet, HashSet};
+use crate::files::file_name;
+use crate::numbers::{count, thousands};
+use etalon_record::{AdapterRecord, Bench, FolderKind, Record, Run, Verdict};
+use maud::{Markup, html};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,55 +28,41 @@ pub(crate) struct Recorded {
     pub(crate) facts: Facts,
 }
 
-/// The kind of a folder's content.
-pub(crate) enum Facts {
-    /// A run.
-    Run(RunFacts),
-    /// A bench: start, cases, adapters.
-    Bench(String, u64, Vec<String>),
-    /// Pages of something else.
-    Other,
-}
-
-/// A run in numbers.
-pub(crate) struct RunFacts {
+/// What the start page tells of a folder.
+#[derive(Default)]
+pub(crate) struct Facts {
     pub(crate) started: String,
-    pub(crate) cases: u64,
-    pub(crate) adapters: Vec<String>,
-    pub(crate) records: u64,
-    pub(crate) missing: u64,
-    pub(crate) unexpected: u64,
-    pub(crate) passed: u64,
-    pub(crate) undrawn: u64,
+    /// Cases and adapters.
+    pub(crate) drawn: String,
+    pub(crate) result: Markup,
+    /// The words for its `index.html`.
+    pub(crate) index: &'static str,
 }
 
 impl Recorded {
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().filter_map(|file| file.to_str())
+    }
+
     /// The pages, `index.html` first.
     pub(crate) fn pages(&self) -> Vec<&str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
-        let mut pages: Vec<&str> = names
-            .filter(|name| name.ends_with(".html") && !name.contains('/'))
-            .collect();
+        let is_page = |name: &&str| name.ends_with(".html") && !name.contains('/');
+        let mut pages: Vec<&str> = self.names().filter(is_page).collect();
         pages.sort_by_key(|name| (*name != "index.html", *name));
         pages
     }
 
     /// The files beside the pages.
     pub(crate) fn beside(&self) -> impl Iterator<Item = &str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
+        let names = self.names();
         names.filter(|name| !name.ends_with(".html") && !name.contains('/'))
     }
 
     /// The areas whose cases can be seen.
     pub(crate) fn galleries(&self) -> Vec<&str> {
-        let names = self.files.iter().filter_map(|file| file.to_str());
-        names
-            .filter_map(|name| {
-                name.strip_prefix(CATALOGUE)?
-                    .strip_prefix('/')?
-                    .strip_suffix(".js")
-            })
-            .collect()
+        let scripts = self.names().filter_map(|name| name.strip_suffix(".js"));
+        let areas = scripts.filter_map(|name| name.strip_prefix(CATALOGUE)?.strip_prefix('/'));
+        areas.collect()
     }
 }
 
@@ -82,7 +71,7 @@ impl Recorded {
 /// # Errors
 /// Returns an error if one cannot be read, or holds no page.
 pub(crate) fn collect(folders: &[PathBuf]) -> Result<Vec<Recorded>, ReportError> {
-    let mut taken = HashSet::new();
+    let mut taken = BTreeSet::new();
     folders
         .iter()
         .map(|folder| {
@@ -106,26 +95,56 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
     Ok(match FolderKind::of(folder) {
         Some(FolderKind::Run) => {
             let run = Run::read(folder)?;
-            let count =
-                |verdict| run.records.iter().filter(|r| r.verdict == verdict).count() as u64;
-            Facts::Run(RunFacts {
-                started: run.header.started.clone(),
-                cases: run.header.cases,
-                adapters: run.header.adapters.iter().map(|a| a.name.clone()).collect(),
-                records: run.records.len() as u64,
-                missing: run.missing(),
-                unexpected: run.records.iter().filter(|r| r.unexpected()).count() as u64,
-                passed: count(Verdict::Pass),
-                undrawn: count(Verdict::NotSupported),
-            })
+            Facts {
+                drawn: scope(run.header.cases, &run.header.adapters),
+                result: result(&run),
+                started: run.header.started,
+                index: "conformance",
+            }
         }
         Some(FolderKind::Bench) => {
             let header = Bench::read(folder)?.header;
-            let adapters = header.adapters.iter().map(|a| a.name.clone()).collect();
-            Facts::Bench(header.started, header.cases, adapters)
+            Facts {
+                drawn: scope(header.cases, &header.adapters),
+                result: html! { "frame times" },
+                started: header.started,
+                index: "frame times",
+            }
         }
-        _ => Facts::Other,
+        _ => Facts {
+            index: "conformance",
+            ..Facts::default()
+        },
     })
+}
+
+fn scope(cases: u64, adapters: &[AdapterRecord]) -> String {
+    let cases = match cases {
+        1 => "1 case".to_owned(),
+        n => format!("{} cases", thousands(n)),
+    };
+    let names: Vec<&str> = adapters.iter().map(|a| a.name.as_str()).collect();
+    match names.len() {
+        0..=3 => format!("{cases} on {}", names.join(", ")),
+        many => format!("{cases} on {many} adapters"),
+    }
+}
+
+fn result(run: &Run) -> Markup {
+    let count_of =
+        |test: &dyn Fn(&Record) -> bool| run.records.iter().filter(|r| test(r)).count() as u64;
+    let undrawn = count_of(&|r| r.verdict == Verdict::NotSupported);
+    html! {
+        @if run.missing() > 0 {
+            span.chip.f { (count(run.missing(), "missing record")) } " "
+        }
+        @match count_of(&Record::unexpected) {
+            0 => span.chip.p { "✓ nothing unexpected" },
+            n => span.chip.f { "✗ " (thousands(n)) " unexpected" },
+        }
+        " " (thousands(count_of(&|r| r.verdict == Verdict::Pass))) " of " (thousands(run.records.len() as u64)) " pass"
+        @if undrawn > 0 { ", " (thousands(undrawn)) " not supported" }
+    }
 }
 
 fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
@@ -135,12 +154,8 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
         if !below.is_empty() && !path.is_dir() {
             continue;
         }
-        let unread = |source| ReportError::Unread {
-            path: path.clone(),
-            source,
-        };
-        for entry in fs::read_dir(&path).map_err(unread)? {
-            let entry = entry.map_err(unread)?;
+        for entry in fs::read_dir(&path).map_err(ReportError::unread(&path))? {
+            let entry = entry.map_err(ReportError::unread(&path))?;
             let name = PathBuf::from(entry.file_name());
             let ending = name.extension().and_then(|e| e.to_str());
             let takes = match below {
@@ -157,26 +172,12 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
 }
 
 /// Returns a folder's name in the site: in plain letters, and its own.
-fn name(folder: &Path, taken: &mut HashSet<String>) -> String {
+fn name(folder: &Path, taken: &mut BTreeSet<String>) -> String {
     let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let last = whole
         .file_name()
         .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    let plain = |c: char| {
-        let keeps = c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-        if keeps { c } else { '_' }
-    };
-    let word: String = last.trim_start_matches('.').chars().map(plain).collect();
-    let word = if word.is_empty() {
-        "run".to_owned()
-    } else {
-        word
-    };
-    let numbered = (2..).map(|n| format!("{word}-{n}"));
-    let mut names = std::iter::once(word.clone()).chain(numbered);
-    names
-        .find(|name| taken.insert(name.clone()))
-        .unwrap_or(word)
+    file_name(&last, "", taken)
 }
 
 #[cfg(test)]
@@ -185,12 +186,12 @@ mod tests {
 
     #[test]
     fn names_are_plain_and_differ() {
-        let mut taken = HashSet::new();
+        let mut taken = BTreeSet::new();
         let mut named = |path: &str| name(Path::new(path), &mut taken);
         assert_eq!(named("/a/nightly"), "nightly");
         assert_eq!(named("/b/nightly"), "nightly-2");
         assert_eq!(named("/b/<script> x"), "_script__x");
-        assert_eq!(named("/b/.hidden"), "hidden");
-        assert_eq!(named("/"), "run");
+        assert_eq!(named("/b/.hidden"), "_hidden");
+        assert_eq!(named("/"), "_");
     }
 }

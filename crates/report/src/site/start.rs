@@ -1,7 +1,6 @@
 //! The start page of a site.
 
-use super::runs::{Facts, Recorded, RunFacts};
-use crate::numbers::{count, thousands};
+use super::runs::{Facts, Recorded};
 use crate::page::Page;
 use crate::table::Table;
 use maud::{Markup, html};
@@ -34,21 +33,9 @@ fn reports(runs: &[Recorded]) -> Markup {
             let first = run.pages().first().map(|page| address(run, page));
             html! { @if let Some(first) = first { a href=(first) { (run.name) } } @else { (run.name) } }
         })
-        .text("Started", |run| match &run.facts {
-            Facts::Run(RunFacts { started, .. }) | Facts::Bench(started, ..) => started.clone(),
-            Facts::Other => String::new(),
-        })
-        .text("Drawn", |run| match &run.facts {
-            Facts::Run(RunFacts { cases, adapters, .. }) | Facts::Bench(_, cases, adapters) => {
-                scope(*cases, adapters)
-            }
-            Facts::Other => String::new(),
-        })
-        .text("Result", |run| match &run.facts {
-            Facts::Run(facts) => result(facts),
-            Facts::Bench(..) => html! { "frame times" },
-            Facts::Other => html! {},
-        })
+        .text("Started", |run| &*run.facts.started)
+        .text("Drawn", |run| &*run.facts.drawn)
+        .text("Result", |run| run.facts.result.clone())
         .text("Pages", |run| {
             html! { @for page in run.pages() { a href=(address(run, page)) { (title(page, &run.facts)) } " " } }
         })
@@ -63,41 +50,15 @@ fn reports(runs: &[Recorded]) -> Markup {
     }
 }
 
-fn scope(cases: u64, adapters: &[String]) -> String {
-    let cases = match cases {
-        1 => "1 case".to_owned(),
-        n => format!("{} cases", thousands(n)),
-    };
-    match adapters {
-        few if few.len() <= 3 => format!("{cases} on {}", few.join(", ")),
-        many => format!("{cases} on {} adapters", many.len()),
-    }
-}
-
-fn result(facts: &RunFacts) -> Markup {
-    html! {
-        @if facts.missing > 0 {
-            span.chip.f { (count(facts.missing, "missing record")) } " "
-        }
-        @match facts.unexpected {
-            0 => span.chip.p { "✓ nothing unexpected" },
-            n => span.chip.f { "✗ " (thousands(n)) " unexpected" },
-        }
-        " " (thousands(facts.passed)) " of " (thousands(facts.records)) " pass"
-        @if facts.undrawn > 0 { ", " (thousands(facts.undrawn)) " not supported" }
-    }
-}
-
 /// The words for a page, by its file's name.
-fn title(page: &str, facts: &Facts) -> String {
-    match (page, facts) {
-        ("index.html", Facts::Bench(..)) => "frame times".to_owned(),
-        ("index.html", _) => "conformance".to_owned(),
-        ("methods.html", _) => "accuracy against speed".to_owned(),
-        ("versions.html", _) => "releases".to_owned(),
-        ("mutants.html", _) => "planted bugs".to_owned(),
-        ("diff.html", _) => "difference".to_owned(),
-        (other, _) => other.trim_end_matches(".html").to_owned(),
+fn title<'a>(page: &'a str, facts: &Facts) -> &'a str {
+    match page {
+        "index.html" => facts.index,
+        "methods.html" => "accuracy against speed",
+        "versions.html" => "releases",
+        "mutants.html" => "planted bugs",
+        "diff.html" => "difference",
+        other => other.trim_end_matches(".html"),
     }
 }
 

@@ -5,7 +5,7 @@ use etalon_record::{CaseVersions, Standing, Versions};
 use std::collections::BTreeMap;
 
 /// The course of a case over the releases.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Course {
     /// Bad in some releases.
     Bad,
@@ -56,7 +56,7 @@ pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
             cases,
         })
         .collect();
-    groups.sort_by_key(|group| (group.course.clone(), std::cmp::Reverse(group.cases.len())));
+    groups.sort_by_key(|group| (group.course, std::cmp::Reverse(group.cases.len())));
     groups
 }
 

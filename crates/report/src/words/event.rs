@@ -7,34 +7,10 @@ use etalon_frame::{
     ResolveChoice, Step, ToldLine,
 };
 
-/// An event of a story in words.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EventLine {
-    /// The place in the scene: `pass 0, draw 2, primitive 1`.
-    pub at: String,
-    /// The operation: `depth test`, `blend`, `store color`.
-    pub operation: String,
-    /// The inputs and the outcome.
-    pub detail: String,
-    /// The section of the specification that permits or demands the outcome.
-    pub citation: Option<String>,
-}
-
-impl From<&ToldLine> for EventLine {
-    fn from(line: &ToldLine) -> Self {
-        Self {
-            at: line.at.clone(),
-            operation: line.operation.clone(),
-            detail: line.detail.clone(),
-            citation: line.citation.clone(),
-        }
-    }
-}
-
 /// Returns an event in words.
-pub(crate) fn event_line(event: &Event) -> EventLine {
+pub(super) fn event_line(event: &Event) -> ToldLine {
     let place_name = place(&event.origin);
-    EventLine {
+    ToldLine {
         at: match &event.scene {
             Some(scene) => format!("{}: {place_name}", scene_name(scene)),
             None => place_name,

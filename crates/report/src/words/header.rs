@@ -15,26 +15,19 @@ pub(crate) fn machine(machine: &Machine) -> String {
 
 /// The settings of a run that differ from the defaults, one text each.
 pub(crate) fn settings(settings: &Settings) -> Vec<String> {
-    let mut texts = Vec::new();
-    let mut add = |text: Option<String>| texts.extend(text);
-    add(settings.shard.map(|s| format!("shard {s}")));
-    add(settings.shuffle.map(|s| format!("shuffled with seed {s}")));
-    add(settings
-        .repeat
-        .map(|n| format!("each case drawn {}", count(u64::from(n), "time"))));
-    add(settings
-        .shader_cache
-        .map(|c| format!("shader cache {}", c.name())));
-    add(settings
-        .validate
-        .then(|| "validation layers enabled".to_owned()));
-    add(settings
-        .timeout
-        .map(|s| format!("at most {} per case", round_duration(s))));
-    add(settings
-        .memory
-        .map(|m| format!("at most {m} MiB per worker")));
-    texts
+    let s = settings;
+    let texts = [
+        s.shard.map(|s| format!("shard {s}")),
+        s.shuffle.map(|s| format!("shuffled with seed {s}")),
+        s.repeat
+            .map(|n| format!("each case drawn {}", count(u64::from(n), "time"))),
+        s.shader_cache.map(|c| format!("shader cache {}", c.name())),
+        s.validate.then(|| "validation layers enabled".to_owned()),
+        s.timeout
+            .map(|s| format!("at most {} per case", round_duration(s))),
+        s.memory.map(|m| format!("at most {m} MiB per worker")),
+    ];
+    texts.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

@@ -18,15 +18,15 @@ pub(crate) fn process_end(end: &ProcessEnd) -> String {
     };
     let mut text = what.to_owned();
     if let Some(signal) = end.signal {
-        text.push_str(&format!(", ended by signal {signal}"));
+        text += &format!(", ended by signal {signal}");
         if let Some(name) = signal_name(signal) {
-            text.push_str(&format!(" ({name})"));
+            text += &format!(" ({name})");
         }
     }
     if let Some(exit) = end.exit {
-        text.push_str(&format!(", exit status {exit}"));
+        text += &format!(", exit status {exit}");
     }
-    text.push_str(&format!(", after {}.", duration(end.seconds)));
+    text += &format!(", after {}.", duration(end.seconds));
     text
 }
 

@@ -1,6 +1,6 @@
 //! Stories in words: the ruling in one sentence, then the operations line by line.
 
-use super::event::{EventLine, detail_of, draw_name, event_line, rejection_predicate};
+use super::event::{detail_of, draw_name, event_line, rejection_predicate};
 use super::subject::{list, scene_name, side_name, texel_name};
 use super::value::{codes_list, color_name};
 use etalon_frame::{
@@ -27,33 +27,32 @@ pub fn judged_by(story: &Story) -> Option<String> {
 }
 
 /// Returns the operations of a story in words.
-pub fn operations(story: &Story) -> Vec<EventLine> {
-    let lines_told = &story.told[usize::from(told_verdict(story).is_some())..];
-    let mut lines: Vec<EventLine> = lines_told.iter().map(EventLine::from).collect();
+pub(crate) fn operations(story: &Story) -> Vec<ToldLine> {
+    let mut lines = story.told[usize::from(told_verdict(story).is_some())..].to_vec();
     let mut alone = story.alone.iter().peekable();
     for event in &story.events {
         // The ruling on a scene alone leads its events.
         if let Some((scene, ruling)) =
             alone.next_if(|(scene, _)| event.scene.as_ref() == Some(scene))
         {
-            lines.push(EventLine {
-                at: scene_name(scene),
-                operation: "alone".to_owned(),
-                detail: ruling_sentence(ruling),
-                citation: None,
-            });
+            lines.push(line(scene_name(scene), "alone", ruling_sentence(ruling)));
         }
         lines.push(event_line(event));
     }
     if story.cut {
-        lines.push(EventLine {
-            at: "end of the record".to_owned(),
-            operation: "cut".to_owned(),
-            detail: "the rest of the story did not fit".to_owned(),
-            citation: None,
-        });
+        let cut = "the rest of the story did not fit".to_owned();
+        lines.push(line("end of the record".to_owned(), "cut", cut));
     }
     lines
+}
+
+fn line(at: String, operation: &str, detail: String) -> ToldLine {
+    ToldLine {
+        at,
+        operation: operation.to_owned(),
+        detail,
+        citation: None,
+    }
 }
 
 /// Returns a whole story as text, each line with its newline.

@@ -1,26 +1,14 @@
 //! Codes and texels in words.
 
 use crate::numbers::{count, trimmed};
-use etalon_frame::{Aspect, Band, ChannelEncoding, ChannelMismatch, WrongTexel};
+use etalon_frame::{Band, ChannelEncoding, ChannelMismatch, WrongTexel};
 use etalon_record::Record;
-
-/// The channel's name in its aspect.
-fn channel_name(aspect: Aspect, channel: u8) -> String {
-    match (aspect, channel) {
-        (Aspect::Color, 0) => "red".to_owned(),
-        (Aspect::Color, 1) => "green".to_owned(),
-        (Aspect::Color, 2) => "blue".to_owned(),
-        (Aspect::Color, 3) => "alpha".to_owned(),
-        (Aspect::Color, n) => format!("channel {n}"),
-        (other, _) => other.name().to_owned(),
-    }
-}
 
 /// The attachment and the channel, or one word where they have the same name.
 pub(crate) fn channel_of(m: &ChannelMismatch) -> String {
-    let name = channel_name(m.aspect, m.channel);
+    let name = m.aspect.channel(m.channel.into());
     if m.attachment == name {
-        name
+        name.to_owned()
     } else {
         format!("{} {name}", m.attachment)
     }
@@ -120,6 +108,7 @@ pub(super) fn texel_line(texel: &WrongTexel, multisampled: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::Aspect;
 
     fn mismatch(encoding: ChannelEncoding, low: u32, high: u32, actual: u32) -> ChannelMismatch {
         ChannelMismatch {

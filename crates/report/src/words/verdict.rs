@@ -15,9 +15,13 @@ pub(crate) enum Tone {
 
 impl Tone {
     pub(crate) fn of(record: &Record) -> Self {
-        if record.verdict.is_bad() && !record.unexpected() {
+        Self::new(record.verdict, record.due_fail, record.unexpected())
+    }
+
+    pub(crate) fn new(verdict: Verdict, due_fail: bool, unexpected: bool) -> Self {
+        if verdict.is_bad() && !unexpected {
             Self::Excused
-        } else if record.due_fail && record.unexpected() && !record.verdict.is_bad() {
+        } else if due_fail && unexpected && !verdict.is_bad() {
             Self::Missed
         } else {
             Self::Plain
@@ -34,27 +38,33 @@ impl Tone {
     }
 }
 
-/// A sign that distinguishes verdicts without colour. The variation selector keeps browsers from
-/// drawing a coloured picture.
-pub(crate) fn symbol(verdict: Verdict) -> &'static str {
+/// A sign that distinguishes verdicts without colour, and the classes that colour it as it is and where it was
+/// expected: fixed letters, never taken from a record. The variation selector keeps browsers from drawing a coloured
+/// picture.
+pub(crate) fn signs(verdict: Verdict) -> (&'static str, [&'static str; 2]) {
     match verdict {
-        Verdict::Pass => "✓",
-        Verdict::Imprecise => "≈",
-        Verdict::Fail => "✗",
-        Verdict::RequiredByCts => "⊠",
-        Verdict::Disputed => "?",
-        Verdict::Blocked => "⊗",
-        Verdict::Open => "○",
-        Verdict::Measured => "◇",
-        Verdict::NotSupported => "–",
-        Verdict::Skipped => "↷",
-        Verdict::Flaky => "⇄",
-        Verdict::Crash => "⚡\u{fe0e}",
-        Verdict::Timeout => "◷",
-        Verdict::DeviceLost => "⊘",
-        Verdict::ResourceError => "□",
-        Verdict::InternalError => "!",
+        Verdict::Pass => ("✓", ["p", "b x"]),
+        Verdict::Imprecise => ("≈", ["i", "b x"]),
+        Verdict::Fail => ("✗", ["f", "f x"]),
+        Verdict::RequiredByCts => ("⊠", ["r", "r x"]),
+        Verdict::Disputed => ("?", ["q", "q x"]),
+        Verdict::Blocked => ("⊗", ["k", "k x"]),
+        Verdict::Open => ("○", ["o", "o x"]),
+        Verdict::Measured => ("◇", ["n", "b x"]),
+        Verdict::NotSupported => ("–", ["u", "b x"]),
+        Verdict::Skipped => ("↷", ["u", "b x"]),
+        Verdict::Flaky => ("⇄", ["b", "b x"]),
+        Verdict::Crash => ("⚡\u{fe0e}", ["b", "b x"]),
+        Verdict::Timeout => ("◷", ["b", "b x"]),
+        Verdict::DeviceLost => ("⊘", ["b", "b x"]),
+        Verdict::ResourceError => ("□", ["b", "b x"]),
+        Verdict::InternalError => ("!", ["b", "b x"]),
     }
+}
+
+/// The sign of a verdict.
+pub(crate) fn symbol(verdict: Verdict) -> &'static str {
+    signs(verdict).0
 }
 
 /// The verdict's name with spaces.

@@ -159,7 +159,7 @@ fn the_page_keeps_software_and_hardware_apart() {
         html.contains("2 pictures</b>") || html.contains("2 pictures wrong"),
         "counted"
     );
-    assert!(html.contains("<svg class=\"drift\"") && html.contains("<svg class=\"strip\""));
+    assert!(html.contains("<path class=\"band\"") && html.contains("<svg class=\"strip\""));
 }
 
 /// Bencher's schema: an object of objects of metrics, each with a value and two optional bounds.

@@ -120,11 +120,11 @@ fn an_earlier_page_is_replaced_and_nothing_else() {
     write().unwrap();
     let deep = to.join("data/case-99.js");
     fs::write(&deep, "mine").unwrap();
-    assert!(matches!(write(), Err(ReportError::NotOfTheHistory { .. })));
+    assert!(matches!(write(), Err(ReportError::Foreign { .. })));
     assert_eq!(fs::read_to_string(&deep).unwrap(), "mine");
     fs::remove_file(&deep).unwrap();
     fs::write(to.join("notes.txt"), "mine").unwrap();
-    assert!(matches!(write(), Err(ReportError::NotOfTheHistory { .. })));
+    assert!(matches!(write(), Err(ReportError::Foreign { .. })));
     fs::remove_file(to.join(HISTORY_PAGE_FILE)).unwrap();
     let error = write().unwrap_err().to_string();
     assert!(error.ends_with("name another folder"), "{error}");

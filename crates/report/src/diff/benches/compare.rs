@@ -3,7 +3,7 @@
 use crate::bench::figures::{self, software};
 use crate::numbers::count;
 use crate::words::machine;
-use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
+use etalon_record::{AdapterRecord, Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
 };
@@ -137,6 +137,15 @@ impl BenchDiff {
             .collect()
     }
 
+    /// The sign of the conclusion, its class on a page and its colour on a terminal.
+    pub(super) fn look(&self) -> [&'static str; 3] {
+        match (self.worse(), self.untold()) {
+            (true, _) => ["✗", "bad", "31"],
+            (false, [0, 0]) => ["✓", "good", "32"],
+            (false, _) => ["?", "o", "33"],
+        }
+    }
+
     /// The conclusion in one line.
     pub(super) fn conclusion(&self) -> String {
         let mut parts = Vec::new();
@@ -190,12 +199,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let samples_of = |record: &BenchRecord| samples(record, time, ruled);
         match (samples_of(old), new.and_then(samples_of)) {
-            (Some(b), Some(a)) => found.changes.push(TimeChange {
-                case: case.clone(),
-                adapter: adapter.clone(),
-                software: kind,
-                ..changed(&b, &a)
-            }),
+            (Some(b), Some(a)) => found.changes.push(changed(old, kind, &b, &a)),
             (Some(_), None) => {
                 let mut gone = gone(old, new, true, time);
                 gone.vanished = after.header.adapter(adapter).is_none();
@@ -227,14 +231,14 @@ fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     }
 }
 
-fn changed(before: &Samples, after: &Samples) -> TimeChange {
+fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Samples) -> TimeChange {
     let comparison = compare(before, after);
     let finite = |low: f64, high: f64| (low > 0.0 && high.is_finite()).then_some([low, high]);
     let ratio = comparison.ratio;
     TimeChange {
-        case: String::new(),
-        adapter: String::new(),
-        software: false,
+        case: record.picture.case.clone(),
+        adapter: record.picture.adapter.clone(),
+        software,
         outcome: comparison.outcome.name(),
         why: match comparison.outcome {
             Conclusion::CannotTell(why) => Some(Why::text(why)),
@@ -317,17 +321,11 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
         let Some(new) = a.adapter(&old.name) else {
             continue;
         };
-        differs(format!("{}: device", old.name), &old.device, &new.device);
-        differs(
-            format!("{}: driver", old.name),
-            &old.driver_text(),
-            &new.driver_text(),
-        );
-        differs(
-            format!("{}: API", old.name),
-            &old.api_version,
-            &new.api_version,
-        );
+        let facts = |a: &AdapterRecord| [a.device.clone(), a.driver_text(), a.api_version.clone()];
+        let names = ["device", "driver", "API"].into_iter();
+        for (name, (b, a)) in names.zip(facts(old).into_iter().zip(facts(new))) {
+            differs(format!("{}: {name}", old.name), &b, &a);
+        }
     }
     for (bench, name) in [(before, "first"), (after, "second")] {
         if bench.missing() > 0 || bench.truncated {

@@ -22,17 +22,12 @@ pub fn write_diff(path: &Path, diff: &BenchDiff) -> Result<PathBuf, ReportError>
 }
 
 fn page(diff: &BenchDiff) -> String {
+    let [sign, class, _] = diff.look();
     let main = html! {
         header {
             h1 { "etalon diff" }
             p.lead { "Changes of " (diff.time) " times between two benches." }
-            @if diff.worse() {
-                p.state.bad { b { "✗ " (diff.conclusion()) "." } }
-            } @else if diff.untold() != [0, 0] {
-                p.state.o { b { "? " (diff.conclusion()) "." } }
-            } @else {
-                p.state.good { b { "✓ " (diff.conclusion()) "." } }
-            }
+            p class={ "state " (class) } { b { (sign) " " (diff.conclusion()) "." } }
             dl.facts { (side("Before", &diff.before)) (side("After", &diff.after)) }
             @for note in &diff.notes { p.state.bad { "! " (note) } }
         }

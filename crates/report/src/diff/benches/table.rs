@@ -23,10 +23,10 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
             "{name}: {}, etalon {}{commit}, {}",
             side.started, side.etalon, side.machine
         );
-        text.push_str(&format!("{}\n", plain(&line, 300)));
+        text += &format!("{}\n", plain(&line, 300));
     }
     for note in &diff.notes {
-        text.push_str(&format!("! {}\n", plain(note, 300)));
+        text += &format!("! {}\n", plain(note, 300));
     }
     text.push('\n');
     for (kind, title) in KINDS {
@@ -34,7 +34,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
         if !changes.is_empty() {
             let optional = ["visible", "before", "after", "interval"];
             let (table, _) = changes_table().terminal(changes, options, &optional);
-            text.push_str(&format!("{title}, {} times\n{table}\n\n", diff.time));
+            text += &format!("{title}, {} times\n{table}\n\n", diff.time);
         }
     }
     if !diff.gone.is_empty() {
@@ -43,20 +43,16 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
             let side = if gone.from_after { "after" } else { "before" };
             let sign = if gone.worse { "✗" } else { " " };
             let line = format!("{}  {}  not {side}: {}", gone.case, gone.adapter, gone.why);
-            text.push_str(&format!("{sign} {}\n", plain(&line, 400)));
+            text += &format!("{sign} {}\n", plain(&line, 400));
         }
         text.push('\n');
     }
-    let (sign, color) = match (diff.worse(), diff.untold()) {
-        (true, _) => ("✗", "31"),
-        (false, [0, 0]) => ("✓", "32"),
-        (false, _) => ("?", "33"),
-    };
+    let [sign, _, color] = diff.look();
     let line = format!("{sign} {}.", diff.conclusion());
     text.push_str(&options.paint(&plain(&line, 400), color));
     text.push('\n');
     let n = diff.changes.len();
-    text.push_str(&format!(
+    text += &format!(
         "{} slower, {} faster, {} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
          are called a change on average ({} each).\n",
         diff.count("slower"),
@@ -64,7 +60,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
         diff.count("cannot tell"),
         n as f64 * diff.level,
         diff.level,
-    ));
+    );
     text
 }
 

@@ -4,6 +4,7 @@ use super::data::Fact;
 use super::pairs::Folder;
 use crate::numbers::count;
 use crate::words;
+use etalon_frame::Limits;
 use etalon_record::{AdapterRecord, Header};
 
 /// True if two runs were to draw the same cases. Runs without a digest of their selection count as the same
@@ -40,7 +41,7 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
     };
     let mut found = facts([before, after], |a: &AdapterRecord| {
         let l = &a.limits;
-        let positions = l.sample_positions.iter();
+        let counts = l.sample_positions.keys().map(u32::to_string);
         vec![
             ("device", a.device.clone()),
             ("driver", a.driver_text()),
@@ -50,54 +51,43 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
             ("sub-pixel bits", l.sub_pixel_bits.to_string()),
             ("largest attachment", l.max_size.to_string()),
             ("color attachments", l.max_color_attachments.to_string()),
-            (
-                "sample counts",
-                positions
-                    .map(|(samples, _)| samples.to_string())
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            ),
+            ("sample counts", joined(counts)),
         ]
     });
     let [b, a] = [&before.limits, &after.limits];
-    found.push(lacking(
-        "features that only one has",
-        b.features.difference(&a.features).map(|f| f.name()),
-        a.features.difference(&b.features).map(|f| f.name()),
-    ));
-    let only = |x: &etalon_frame::Limits, y: &etalon_frame::Limits| {
-        let alone = x.formats.iter().filter(|(f, _)| !y.formats.contains_key(f));
-        alone.map(|(f, _)| f.name()).collect::<Vec<_>>()
+    let features = |x: &Limits, y: &Limits| {
+        let alone = x.features.difference(&y.features);
+        joined(alone.map(|f| f.name().to_owned()))
     };
-    found.push(lacking("formats that only one has", only(b, a), only(a, b)));
+    let formats = |x: &Limits, y: &Limits| {
+        let alone = x.formats.keys().filter(|f| !y.formats.contains_key(f));
+        joined(alone.map(|f| f.name().to_owned()))
+    };
+    let mut only = |name, before, after| {
+        found.push(Fact {
+            name,
+            before,
+            after,
+        });
+    };
+    only("features that only one has", features(b, a), features(a, b));
+    only("formats that only one has", formats(b, a), formats(a, b));
     let unlike = b.formats.iter().filter(|(f, support)| {
         let other = a.formats.get(f);
         other.is_some_and(|other| other != *support)
     });
     let unlike = unlike.count() as u64;
     if unlike > 0 {
-        found.push(Fact {
-            name: "formats",
-            before: String::new(),
-            after: format!("{} with other support than before", count(unlike, "format")),
-        });
+        let other = format!("{} with other support than before", count(unlike, "format"));
+        only("formats", String::new(), other);
     }
     // What neither states says nothing.
     found.retain(|fact| !fact.before.is_empty() || !fact.after.is_empty());
     found
 }
 
-fn lacking<'a>(
-    name: &'static str,
-    before: impl IntoIterator<Item = &'a str>,
-    after: impl IntoIterator<Item = &'a str>,
-) -> Fact {
-    let join = |names: &mut dyn Iterator<Item = &'a str>| names.collect::<Vec<_>>().join(", ");
-    Fact {
-        name,
-        before: join(&mut before.into_iter()),
-        after: join(&mut after.into_iter()),
-    }
+fn joined(names: impl Iterator<Item = String>) -> String {
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn facts<T>(sides: [&T; 2], facts_of: impl Fn(&T) -> Vec<(&'static str, String)>) -> Vec<Fact> {

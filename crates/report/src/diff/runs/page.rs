@@ -93,7 +93,7 @@ fn head(diff: &RunDiff) -> Markup {
             nav {
                 @for direction in Direction::ALL {
                     @if diff.count(direction) > 0 {
-                        a href={ "#" (direction.name()) } { (title(direction)) } " "
+                        a href={ "#" (direction.name()) } { (phrases::look(direction)[2]) } " "
                     }
                 }
                 @if !diff.only.is_empty() { a href="#only" { "In one run only" } " " }
@@ -101,14 +101,6 @@ fn head(diff: &RunDiff) -> Markup {
                 @if !diff.methods.is_empty() { a href="#methods" { "Methods" } }
             }
         }
-    }
-}
-
-fn title(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Worse => "Worse",
-        Direction::Better => "Better",
-        Direction::Other => "Other changes",
     }
 }
 
@@ -187,7 +179,7 @@ fn section(
     let left = total - chosen.len() as u64;
     html! {
         section id=(direction.name()) {
-            h2 { (title(direction)) " (" (total) ")" }
+            h2 { (phrases::look(direction)[2]) " (" (total) ")" }
             @if left > 0 {
                 p.note { (left) " more are left out here; " code { "etalon diff --format json" } " has them all." }
             }
@@ -213,7 +205,7 @@ fn section(
 fn line(change: &Change) -> Markup {
     html! {
         span class={ "chip " (change.direction.name()) } {
-            (phrases::sign(change.direction)) " " (phrases::verdicts(change))
+            (phrases::look(change.direction)[0]) " " (phrases::verdicts(change))
         }
         " " code { (change.case) } " " small { (breakable(&both_names(&change.adapter))) }
     }

@@ -53,6 +53,7 @@ impl<'a> Folder<'a> {
 }
 
 /// The records of two adapters.
+#[derive(Default)]
 pub(super) struct Matched<'a> {
     /// Cases that both have a record of, by id.
     pub(super) both: Vec<[&'a Record; 2]>,
@@ -66,11 +67,7 @@ impl<'a> Matched<'a> {
     pub(super) fn new(folders: &[Folder<'a>; 2], adapter: [&str; 2]) -> Self {
         let none = HashMap::new();
         let [before, after] = [0, 1].map(|i| folders[i].records.get(adapter[i]).unwrap_or(&none));
-        let mut matched = Self {
-            both: Vec::new(),
-            before: Vec::new(),
-            after: Vec::new(),
-        };
+        let mut matched = Self::default();
         for (case, old) in before {
             match after.get(case) {
                 Some(new) => matched.both.push([old, new]),

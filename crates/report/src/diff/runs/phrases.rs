@@ -1,18 +1,19 @@
 //! Differences of runs in words, shared by terminal and page.
 
 use super::data::{Change, Detail, Direction, FrameChange, Only, Pair, RunDiff, Side};
+use crate::lists;
 use crate::numbers::{change, count, trimmed};
 use crate::words::{name, plain};
 use etalon_record::Verdict;
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
-/// A sign that distinguishes directions without colour.
-pub(super) fn sign(direction: Direction) -> &'static str {
+/// A sign that distinguishes directions without colour, the colour on a terminal, and the title on a page.
+pub(super) fn look(direction: Direction) -> [&'static str; 3] {
     match direction {
-        Direction::Worse => "✗",
-        Direction::Better => "✓",
-        Direction::Other => "≠",
+        Direction::Worse => ["✗", "31", "Worse"],
+        Direction::Better => ["✓", "32", "Better"],
+        Direction::Other => ["≠", "36", "Other changes"],
     }
 }
 
@@ -147,17 +148,10 @@ pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
 
 /// Changes of one direction, one of each kind before the second of any, and all else in their order.
 pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
-    let mut these: Vec<&Change> = changes
-        .iter()
-        .filter(|c| c.direction == direction)
-        .collect();
-    let mut seen: HashMap<_, usize> = HashMap::new();
-    these.sort_by_cached_key(|c| {
-        let rank = seen
-            .entry((&c.case_file, &c.adapter, c.verdict, &c.what))
-            .or_default();
-        *rank += 1;
-        *rank
+    let these = changes.iter().filter(|c| c.direction == direction);
+    let mut these: Vec<&Change> = these.collect();
+    lists::spread(&mut these, |c| {
+        (&c.case_file, &c.adapter, c.verdict, &c.what)
     });
     these
 }
@@ -191,14 +185,14 @@ pub(super) fn side(side: Side) -> &'static str {
 pub(super) fn beside(diff: &RunDiff) -> String {
     let mut text = String::new();
     if diff.lost() > 0 {
-        text.push_str(&format!(", {} lost", count(diff.lost(), "record")));
+        text += &format!(", {} lost", count(diff.lost(), "record"));
     }
     let vanished: Vec<String> = diff.vanished().map(|u| plain(&u.adapter, 60)).collect();
     if !vanished.is_empty() {
-        text.push_str(&format!("; vanished: {}", vanished.join(", ")));
+        text += &format!("; vanished: {}", vanished.join(", "));
     }
     if !diff.untold.is_empty() {
-        text.push_str(&format!("; cannot tell: {}", diff.untold.join("; ")));
+        text += &format!("; cannot tell: {}", diff.untold.join("; "));
     }
     text
 }

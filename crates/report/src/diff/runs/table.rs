@@ -46,7 +46,7 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
             phrases::side(unpaired.side),
             count(unpaired.records, "record")
         );
-        text.push_str(&format!("{}\n", plain(&line, 300)));
+        text += &format!("{}\n", plain(&line, 300));
     }
     if !text.is_empty() {
         text.push('\n');
@@ -59,7 +59,7 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
         return text;
     }
     let (table, _) = pair_table().terminal(&diff.pairs, options, &[]);
-    text.push_str(&format!("{table}\n\n"));
+    text += &format!("{table}\n\n");
     transitions(&mut text, &diff.pairs);
     for (direction, most) in LISTED {
         changes(&mut text, diff, direction, most, options);
@@ -105,7 +105,7 @@ pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
 fn transitions(text: &mut String, pairs: &[Pair]) {
     for pair in pairs.iter().filter(|p| !p.transitions.is_empty()) {
         let changes = phrases::transitions(pair);
-        text.push_str(&format!("{}: {changes}\n", plain(&pair.name(), 120)));
+        *text += &format!("{}: {changes}\n", plain(&pair.name(), 120));
     }
 }
 
@@ -120,21 +120,14 @@ fn changes(
     if these.is_empty() {
         return;
     }
-    let color = match direction {
-        Direction::Worse => "31",
-        Direction::Better => "32",
-        Direction::Other => "36",
-    };
-    text.push_str(&format!("\n{} {}\n", these.len(), direction.name()));
+    let [sign, color, _] = phrases::look(direction);
+    *text += &format!("\n{} {}\n", these.len(), direction.name());
     let room = options.room(4);
     for change in these.iter().take(most) {
-        let head = format!("{} {}", phrases::sign(direction), phrases::verdicts(change));
+        let head = format!("{sign} {}", phrases::verdicts(change));
         let adapter = plain(&both_names(&change.adapter), 120);
         let case = plain(&change.case, 300);
-        text.push_str(&format!(
-            "{}  {adapter}  {case}\n",
-            options.paint(&head, color)
-        ));
+        *text += &format!("{}  {adapter}  {case}\n", options.paint(&head, color));
         let mut lines: Vec<String> = Vec::new();
         if change.verdict[0] != change.verdict[1] {
             // The worse of the two says why.
@@ -154,11 +147,11 @@ fn changes(
             lines.push(figures.join("; "));
         }
         for line in lines {
-            text.push_str(&format!("    {}\n", plain(&line, room)));
+            *text += &format!("    {}\n", plain(&line, room));
         }
     }
     if these.len() > most {
-        text.push_str(&format!("and {} more\n", these.len() - most));
+        *text += &format!("and {} more\n", these.len() - most);
     }
 }
 
@@ -167,10 +160,10 @@ fn only(text: &mut String, diff: &RunDiff) {
     if files.is_empty() {
         return;
     }
-    text.push_str(&format!(
+    *text += &format!(
         "\n{} in one run only\n",
         count(diff.only.len() as u64, "record")
-    ));
+    );
     for (file, n) in files.iter().take(LINES) {
         let sign = if file.worse { "✗" } else { " " };
         let line = match n {
@@ -182,13 +175,13 @@ fn only(text: &mut String, diff: &RunDiff) {
             phrases::side(file.side),
             file.adapter
         );
-        text.push_str(&format!("{}\n", plain(&line, 400)));
+        *text += &format!("{}\n", plain(&line, 400));
     }
     if files.len() > LINES {
-        text.push_str(&format!(
+        *text += &format!(
             "and of {} more\n",
             count((files.len() - LINES) as u64, "case file")
-        ));
+        );
     }
 }
 
@@ -196,10 +189,10 @@ fn times(text: &mut String, diff: &RunDiff, options: TableOptions) {
     if diff.times.is_empty() && diff.methods.is_empty() {
         return;
     }
-    text.push_str(&format!("\nTimes. {STATEMENT}\n"));
+    *text += &format!("\nTimes. {STATEMENT}\n");
     if !diff.times.is_empty() {
         let (table, _) = area_table().terminal(&diff.times, options, &[]);
-        text.push_str(&format!("{table}\n"));
+        *text += &format!("{table}\n");
     }
     if !diff.methods.is_empty() {
         text.push_str(&methods(&diff.methods, options));

@@ -1,8 +1,8 @@
 //! Times of two runs.
 
 use super::data::{AreaTime, MethodTime};
+use crate::numbers::median;
 use etalon_record::{Record, Verdict};
-use etalon_stats::quantile;
 use std::collections::BTreeMap;
 
 /// The caveat on the times of runs.
@@ -23,15 +23,12 @@ pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> 
     }
     let areas = by_area.into_iter();
     areas
-        .map(|(area, mut seconds)| AreaTime {
+        .map(|(area, seconds)| AreaTime {
             adapter: adapter.map(str::to_owned),
             area: area.to_owned(),
             cases: seconds[0].len() as u64,
-            sum: [0, 1].map(|i| seconds[i].iter().sum()),
-            median: [0, 1].map(|i| {
-                seconds[i].sort_by(f64::total_cmp);
-                quantile(&seconds[i], 0.5).unwrap_or_default()
-            }),
+            sum: seconds.each_ref().map(|seconds| seconds.iter().sum()),
+            median: seconds.map(|seconds| median(seconds.into_iter()).unwrap_or_default()),
         })
         .collect()
 }

@@ -33,7 +33,7 @@ pub(super) enum Unit {
 }
 
 /// True, false, or neither because the figure's interval reaches over the limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Holds {
     Yes,
     No,
@@ -67,12 +67,11 @@ impl From<bool> for Holds {
 }
 
 impl Figure {
-    /// True if figures can be told as one range.
-    pub(super) fn texts_alike(&self, other: &Self) -> bool {
-        match (&self.unit, &other.unit) {
-            (Unit::Text(a), Unit::Text(b)) => a == b,
-            (Unit::Text(_), _) | (_, Unit::Text(_)) => false,
-            _ => true,
+    /// The text of a figure that is no number; figures with the same can be told as one range.
+    pub(super) fn text(&self) -> Option<&str> {
+        match &self.unit {
+            Unit::Text(text) => Some(text),
+            _ => None,
         }
     }
 
@@ -87,29 +86,22 @@ impl Figure {
             Unit::Count(_) => digits(v, 4),
             Unit::Text(text) => text.clone(),
         };
-        let least = |part: &dyn Fn(&Self) -> f64| {
-            figures
-                .iter()
-                .map(|f| part(f))
-                .fold(f64::INFINITY, f64::min)
+        let ends_of = |low: fn(&Self) -> f64, high: fn(&Self) -> f64| {
+            let lows = figures.iter().map(|f| low(f));
+            let highs = figures.iter().map(|f| high(f));
+            [
+                text(lows.fold(f64::INFINITY, f64::min)),
+                text(highs.fold(f64::NEG_INFINITY, f64::max)),
+            ]
         };
-        let most = |part: &dyn Fn(&Self) -> f64| {
-            figures
-                .iter()
-                .map(|f| part(f))
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        let ends = [text(least(&|f| f.value)), text(most(&|f| f.value))];
-        let outer = [
-            text(least(&|f| f.interval[0])),
-            text(most(&|f| f.interval[1])),
-        ];
+        let ends = ends_of(|f| f.value, |f| f.value);
+        let outer = ends_of(|f| f.interval[0], |f| f.interval[1]);
         let mut range = match &ends {
             [a, b] if a == b => a.clone(),
             [a, b] => format!("{a} to {b}"),
         };
         if outer != ends {
-            range.push_str(&format!(" (interval {} to {})", outer[0], outer[1]));
+            range += &format!(" (interval {} to {})", outer[0], outer[1]);
         }
         if let Unit::Count(what) = first.unit {
             range.push(' ');

@@ -1,5 +1,5 @@
 use super::*;
-use crate::methods::made::{Made, run};
+use crate::methods::tests::made::{Made, run};
 use etalon_methods::{Claim, Condition, Quantity, Test, Values};
 
 /// The claim whose title begins like this, checked against a run.

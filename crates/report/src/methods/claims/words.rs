@@ -12,7 +12,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             of,
             holds,
         } => {
-            let name = upper(quantity.name());
+            let name = title(quantity.name());
             format!(
                 "{name} of {of}. Holds {}",
                 condition(holds, share_of(quantity))
@@ -25,7 +25,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             holds,
         } => format!(
             "{} of {} over that of {}. Holds {}",
-            upper(quantity.name()),
+            title(quantity.name()),
             sum(of),
             sum(over),
             condition(holds, false)
@@ -39,7 +39,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             holds,
         } => format!(
             "{} of {of} at the largest value of the parameter over that at the smallest. Holds {}",
-            upper(quantity.name()),
+            title(quantity.name()),
             condition(holds, false)
         ),
         Test::Unlike { right, wrong } => format!(
@@ -72,20 +72,18 @@ pub(super) fn compared(claim: &Claim) -> String {
             names.join(", ")
         }
     };
-    text.push_str(&format!(". Cases: {families}"));
+    text += &format!(". Cases: {families}");
     match claim.values {
         Values::All => {}
         Values::Between(low, high) if high.is_infinite() => {
-            text.push_str(&format!(" from {} on", digits(low, 3)));
+            text += &format!(" from {} on", digits(low, 3));
         }
         Values::Between(low, high) => {
-            text.push_str(&format!(" from {} to {}", digits(low, 3), digits(high, 3)));
+            text += &format!(" from {} to {}", digits(low, 3), digits(high, 3));
         }
     }
     if let Some([less, more]) = claim.fewer {
-        text.push_str(&format!(
-            ", on adapters where {less} counts fewer fragments than {more}"
-        ));
+        text += &format!(", on adapters where {less} counts fewer fragments than {more}");
     }
     text.push('.');
     if !claim.note.is_empty() {
@@ -131,8 +129,4 @@ fn sum(terms: &[(&str, f64)]) -> String {
         text.push_str(method);
     }
     text
-}
-
-fn upper(name: &str) -> String {
-    title(name)
 }

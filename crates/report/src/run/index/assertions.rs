@@ -1,7 +1,8 @@
 //! The share that the legal sets and the yardstick asserted.
 
+use crate::lists::grouped;
 use crate::numbers::{percent, percent_of, thousands};
-use crate::run::grid::Grid;
+use crate::run::grid::{Area, Grid};
 use crate::table::{Cell, Table};
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
@@ -9,13 +10,7 @@ use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
-    let areas = (0..grid.areas.len()).flat_map(|area| {
-        let aspects = figures(grid, area).into_iter();
-        let rows =
-            aspects.flat_map(|(aspect, rows)| rows.into_iter().map(move |row| (aspect, row)));
-        rows.map(move |(aspect, row)| (grid.areas[area].name, aspect, row))
-    });
-    let rows: Vec<(&str, Aspect, Figures<'_>)> = areas.collect();
+    let rows: Vec<Figures<'_>> = grid.areas.iter().flat_map(|a| figures(grid, a)).collect();
     html! {
         section id="asserted" {
             h2 { "What was asserted" }
@@ -39,16 +34,13 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
 /// kind, over all adapters.
 fn counters(grid: &Grid<'_>) -> Markup {
     let mut rows: BTreeMap<(usize, CounterKind), [u64; 3]> = BTreeMap::new();
-    for area in 0..grid.areas.len() {
-        for column in 0..grid.adapters.len() {
-            for index in grid.areas[area].on(column) {
-                for counter in &grid.record(index).counters {
-                    let row = rows.entry((area, counter.kind)).or_default();
-                    row[0] += 1;
-                    row[1] += u64::from(counter.is_asserted());
-                    row[2] += u64::from(counter.range().is_exact());
-                }
-            }
+    for (number, area) in grid.areas.iter().enumerate() {
+        let records = (0..grid.adapters.len()).flat_map(|column| area.on(column));
+        for counter in records.flat_map(|index| &grid.record(index).counters) {
+            let row = rows.entry((number, counter.kind)).or_default();
+            row[0] += 1;
+            row[1] += u64::from(counter.is_asserted());
+            row[2] += u64::from(counter.range().is_exact());
         }
     }
     let table = Table::new("figures")
@@ -68,8 +60,10 @@ fn counters(grid: &Grid<'_>) -> Markup {
     html! { @if !rows.is_empty() { (table.page(rows)) } }
 }
 
-/// Adapters with the same figures.
+/// Adapters with the same figures of an area and aspect.
 struct Figures<'a> {
+    area: &'a str,
+    aspect: Aspect,
     adapters: Vec<&'a str>,
     /// The fewest and the most channels that were judged on one of them.
     channels: [u64; 2],
@@ -78,41 +72,31 @@ struct Figures<'a> {
 
 /// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
 /// apart for that.
-fn figures<'a>(grid: &Grid<'a>, area: usize) -> Vec<(Aspect, Vec<Figures<'a>>)> {
-    let mut sums: BTreeMap<Aspect, BTreeMap<usize, Assertion>> = BTreeMap::new();
+fn figures<'a>(grid: &Grid<'a>, area: &Area<'a>) -> Vec<Figures<'a>> {
+    let mut sums: BTreeMap<(Aspect, usize), Assertion> = BTreeMap::new();
     for column in 0..grid.adapters.len() {
-        for index in grid.areas[area].on(column) {
-            for assertion in &grid.record(index).assertions {
-                let of_aspect = sums.entry(assertion.aspect).or_default();
-                of_aspect
-                    .entry(column)
-                    .and_modify(|sum| sum.add(assertion))
-                    .or_insert(*assertion);
-            }
+        for assertion in area.on(column).flat_map(|i| &grid.record(i).assertions) {
+            sums.entry((assertion.aspect, column))
+                .and_modify(|sum| sum.add(assertion))
+                .or_insert(*assertion);
         }
     }
-    let group = |of_aspect: BTreeMap<usize, Assertion>| {
-        let mut groups: Vec<Figures<'a>> = Vec::new();
-        for (column, sum) in of_aspect {
-            let (adapter, shown) = (grid.adapters[column], shown(&sum));
-            match groups.iter_mut().find(|g| g.shown == shown) {
-                Some(group) => {
-                    group.adapters.push(adapter);
-                    let [least, most] = group.channels;
-                    group.channels = [least.min(sum.channels), most.max(sum.channels)];
-                }
-                None => groups.push(Figures {
-                    adapters: vec![adapter],
-                    channels: [sum.channels; 2],
-                    shown,
-                }),
-            }
+    let shown = sums.into_iter().map(|((aspect, column), sum)| {
+        let adapter = (grid.adapters[column], sum.channels);
+        ((aspect, shown(&sum)), adapter)
+    });
+    let groups = grouped(shown).into_iter();
+    let figures = groups.map(|((aspect, shown), adapters)| {
+        let channels = || adapters.iter().map(|(_, channels)| *channels);
+        Figures {
+            area: area.name,
+            aspect,
+            channels: [channels().min(), channels().max()].map(Option::unwrap_or_default),
+            adapters: adapters.iter().map(|(name, _)| *name).collect(),
+            shown,
         }
-        groups
-    };
-    sums.into_iter()
-        .map(|(aspect, of_aspect)| (aspect, group(of_aspect)))
-        .collect()
+    });
+    figures.collect()
 }
 
 fn shown(sum: &Assertion) -> [String; 6] {
@@ -127,17 +111,17 @@ fn shown(sum: &Assertion) -> [String; 6] {
     ]
 }
 
-fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, (&'a str, Aspect, Figures<'a>)> {
-    let mut table = Table::<(&str, Aspect, Figures<'_>)>::new("figures")
+fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, Figures<'a>> {
+    let mut table = Table::<Figures<'_>>::new("figures")
         .spoken("What was asserted of channels, by area and aspect")
-        .head("Area", |(area, ..)| *area)
-        .text("Aspect", |(_, aspect, _)| aspect.name())
-        .text("Adapters", |(.., f)| {
+        .head("Area", |f| f.area)
+        .text("Aspect", |f| f.aspect.name())
+        .text("Adapters", |f| {
             let everywhere = f.adapters.len() == grid.adapters.len() && f.adapters.len() > 1;
             let names = f.adapters.join(", ");
             Cell::from(if everywhere { "all".to_owned() } else { names }).class("names")
         })
-        .number("Channels", |(.., f)| {
+        .number("Channels", |f| {
             let [least, most] = f.channels;
             html! { (thousands(most)) @if least < most { small { " (" (thousands(least)) " at least)" } } }
         });
@@ -148,7 +132,7 @@ fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, (&'a str, Aspect, Figures<'a>)>
     for (i, (band, name)) in bands.enumerate() {
         let class = if i % 3 == 0 { "band" } else { "" };
         let head = html! { (band) ": " br; (name) };
-        table = table.number(head, move |(.., f)| Cell::from(&f.shown[i]).class(class));
+        table = table.number(head, move |f| Cell::from(&f.shown[i]).class(class));
     }
     table
 }

@@ -140,12 +140,7 @@ fn select(id: &str, label: &str, nothing: &str, options: Vec<(String, String)>) 
 fn odd(grid: &Grid<'_>) -> (Vec<u64>, u64) {
     let mut odd = vec![0; grid.adapters.len()];
     let mut apart = 0;
-    for case in grid
-        .areas
-        .iter()
-        .flat_map(|a| &a.files)
-        .flat_map(|f| &f.cases)
-    {
+    for case in grid.cases() {
         let consensus = Consensus::of(grid, case);
         apart += u64::from(matches!(consensus.votes, Votes::Odd | Votes::Split));
         if let Some(column) = consensus.only() {

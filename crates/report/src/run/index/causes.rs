@@ -83,7 +83,7 @@ fn entry(cause: &Cause<'_>) -> Markup {
 fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
     let mut found: BTreeMap<(usize, Symptom), BTreeMap<&'a str, Vec<&'a Record>>> = BTreeMap::new();
     let mut drawn: BTreeMap<(usize, &str), Vec<&str>> = BTreeMap::new();
-    for file in grid.areas.iter().flat_map(|a| &a.files) {
+    for file in grid.files() {
         for column in 0..grid.adapters.len() {
             for index in file.on(column) {
                 let record = grid.record(index);

@@ -101,7 +101,7 @@ impl Consensus {
                 let mut text = format!("only {odd} differs: {verdict}");
                 // Others that pass need no mention.
                 if others != words::name(Verdict::Pass) {
-                    text.push_str(&format!("; others {others}"));
+                    text += &format!("; others {others}");
                 }
                 (Votes::Odd, text)
             }
@@ -150,7 +150,7 @@ fn in_detail(side: &[(usize, Verdict)], names: &[&str]) -> String {
             (0, _, _) => text.push_str(word),
             (_, 1, Some((column, _))) => {
                 let name = names.get(*column).copied().unwrap_or_default();
-                text.push_str(&format!("; {word} only on {name}"));
+                text += &format!("; {word} only on {name}");
             }
             _ => text.push_str(&format!("; {n} {word}")),
         }

@@ -5,7 +5,7 @@
 //! none of them can end the block.
 
 use super::consensus::Consensus;
-use super::facts::{self, LABELS};
+use super::facts::{self, Label};
 use super::findings::{Plan, kind};
 use crate::lists::Interner;
 use crate::mark::class;
@@ -29,12 +29,12 @@ struct Data<'a> {
     /// The meaning of each sign, the gravest first.
     cells: Vec<Cell>,
     /// Text, how the votes lie, odd adapters.
-    consensus: Vec<(String, &'static str, Vec<usize>)>,
+    consensus: Interner<(String, &'static str, Vec<usize>)>,
     /// The labels of facts: words, form, and true if an entry under Findings has the same.
-    labels: Vec<(&'static str, &'static str, bool)>,
-    texts: Vec<String>,
+    labels: Interner<Label>,
+    texts: Interner<String>,
     /// The facts of a record: label, text, label, text, …; the first list is empty.
-    facts: Vec<Vec<usize>>,
+    facts: Interner<Vec<usize>>,
     files: Vec<File<'a>>,
     /// Case, adapter and record of what stands under Findings with everything known about it.
     bodies: Vec<[usize; 3]>,
@@ -79,9 +79,9 @@ pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) 
 }
 
 fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
-    let (facts, facts_of, texts) = facts_of_all(grid);
+    let (facts, facts_of, texts, labels) = facts_of_all(grid);
     let (cells, signs) = cells(grid);
-    let mut consensus: Interner<(String, &'static str, Vec<usize>)> = Interner::default();
+    let mut consensus = Interner::default();
     let mut bodies = Vec::new();
     let mut number = 0;
     let mut files = Vec::new();
@@ -91,13 +91,8 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
             for case in &file.cases {
                 let found = Consensus::of(grid, case);
                 let found = consensus.place((found.text, found.votes.name(), found.odd));
-                let mut row = Case(
-                    case.id.strip_prefix(file.name).unwrap_or(case.id),
-                    String::new(),
-                    found,
-                    Vec::new(),
-                    Vec::new(),
-                );
+                let id = case.id.strip_prefix(file.name).unwrap_or(case.id);
+                let mut row = Case(id, String::new(), found, Vec::new(), Vec::new());
                 for (column, index) in case.records.iter().enumerate() {
                     let Some(index) = *index else {
                         row.1.push(NO_RECORD);
@@ -117,19 +112,15 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
                 cases.push(row);
                 number += 1;
             }
-            let name = file.name;
-            files.push(File {
-                name,
-                area: a,
-                cases,
-            });
+            let (name, area) = (file.name, a);
+            files.push(File { name, area, cases });
         }
     }
     Data {
         adapters: &grid.adapters,
         cells,
-        consensus: consensus.values,
-        labels: LABELS.to_vec(),
+        consensus,
+        labels,
         texts,
         facts,
         files,
@@ -163,10 +154,18 @@ fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
     (cells.collect(), signs)
 }
 
-/// All lists of facts, the list of every record by its position in the run, and all texts.
-fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
+/// All lists of facts, the list of every record by its position in the run, all texts, and all labels.
+type Facts = (
+    Interner<Vec<usize>>,
+    Vec<usize>,
+    Interner<String>,
+    Interner<Label>,
+);
+
+fn facts_of_all(grid: &Grid<'_>) -> Facts {
     let records = &grid.run.records;
     let mut texts: Interner<String> = Interner::default();
+    let mut labels = Interner::default();
     let mut lists: Interner<Vec<usize>> = Interner::default();
     lists.place(Vec::new());
     let mut group_of = vec![0; records.len()];
@@ -183,13 +182,11 @@ fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
         } else {
             bytes += cost;
         }
-        let list = facts.into_iter().flat_map(|(label, text)| {
-            let text = texts.place(text);
-            [label as usize, text]
-        });
+        let facts = facts.into_iter();
+        let list = facts.flat_map(|(label, text)| [labels.place(label), texts.place(text)]);
         group_of[index] = lists.place(list.collect());
     }
-    (lists.values, group_of, texts.values)
+    (lists, group_of, texts, labels)
 }
 
 /// The bytes that a text takes in the block.

@@ -5,6 +5,7 @@ use crate::command;
 use crate::numbers::count;
 use crate::page::link;
 use crate::picture::{self, Strip};
+use crate::table::Table;
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, judged_by, multisampled, operations, place,
     sentence, value_text,
@@ -120,51 +121,40 @@ fn texels(record: &Record) -> Markup {
         n if n == shown => "Yardstick",
         _ => "Allowed (≈: yardstick)",
     };
+    let rows = record.wrong[..shown].iter();
+    let rows = rows.flat_map(|texel| texel.channels.iter().map(move |m| (texel, m)));
+    let table = Table::<(&WrongTexel, &ChannelMismatch)>::new("text codes stacked")
+        .caption("Wrong texels")
+        .head("Place", |(texel, _)| place(texel, multisampled(record)))
+        .text("Band", |(texel, _)| match texel.band {
+            Band::Fail => "✗ fail",
+            Band::RequiredByCts => "⊠ required by CTS",
+            Band::Disputed => "? disputed",
+            Band::Imprecise => "≈ imprecise",
+        })
+        .text("Channel", |(_, m)| channel_of(m))
+        .text("Encoding", |(_, m)| m.encoding.to_string())
+        .text(format!("{bound} code"), |(_, m)| allowed(m, code_text))
+        .text(format!("{bound} value"), |(_, m)| allowed(m, value_text))
+        .text(
+            "Actual",
+            |(_, m)| html! { b { (code_and_value(m.encoding, m.actual)) } },
+        )
+        .text("Off by", |(_, m)| off(m));
     html! {
-        div.wide { table.text.codes.stacked {
-            caption { "Wrong texels" }
-            thead { tr {
-                th scope="col" { "Place" } th scope="col" { "Band" } th scope="col" { "Channel" }
-                th scope="col" { "Encoding" } th scope="col" { (bound) " code" }
-                th scope="col" { (bound) " value" } th scope="col" { "Actual" } th scope="col" { "Off by" }
-            } }
-            tbody {
-                @for texel in &record.wrong[..shown] {
-                    @for (i, m) in texel.channels.iter().enumerate() { (texel_row(&place(texel, multisampled(record)), texel, i, m)) }
-                }
-            }
-        } }
+        (table.page(rows))
         @if outside > shown as u64 { p.note { "and " (outside - shown as u64) " more" } }
     }
 }
 
-fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> Markup {
-    let order = |code| m.encoding.order_of_code(code);
-    let off = (order(m.low) - order(m.actual)).max(order(m.actual) - order(m.high));
-    html! {
-        tr {
-            @if i == 0 {
-                th rowspan=(texel.channels.len()) { (place) }
-                td data-head="Band" rowspan=(texel.channels.len()) {
-                    (match texel.band {
-                        Band::Fail => "✗ fail",
-                        Band::RequiredByCts => "⊠ required by CTS",
-                        Band::Disputed => "? disputed",
-                        Band::Imprecise => "≈ imprecise",
-                    })
-                }
-            }
-            td data-head="Channel" { (channel_of(m)) }
-            td data-head="Encoding" { (m.encoding.to_string()) }
-            td data-head="Allowed code" { (allowed(m, code_text)) }
-            td data-head="Allowed value" { (allowed(m, value_text)) }
-            td data-head="Actual" { b { (code_and_value(m.encoding, m.actual)) } }
-            td data-head="Off by" {
-                @if m.encoding.is_nan(m.actual) { "not a number" }
-                @else { (count(off.max(0).unsigned_abs(), "code")) }
-            }
-        }
+/// The distance of a code from the allowed ones.
+fn off(m: &ChannelMismatch) -> String {
+    if m.encoding.is_nan(m.actual) {
+        return "not a number".to_owned();
     }
+    let order = |code| m.encoding.order_of_code(code);
+    let codes = (order(m.low) - order(m.actual)).max(order(m.actual) - order(m.high));
+    count(codes.max(0).unsigned_abs(), "code")
 }
 
 /// The ruling as a heading, the text that it follows from, and the operations.

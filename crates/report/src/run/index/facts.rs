@@ -10,124 +10,87 @@ use maud::{Markup, html};
 /// The most characters of a message that the page keeps; the end of it, where the reason usually stands.
 const LONGEST: usize = 4000;
 
-/// The label of a text, by its position in [`LABELS`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Label {
-    Headline,
-    Message,
-    Expected,
-    Improves,
-    Selftest,
-    Process,
-    StandardError,
-    Validation,
-    Repeats,
-    After,
-    BlockedBy,
-    Texels,
-    Asserted,
-    Counter,
-    Measured,
-    Frame,
-    Note,
-}
-
 /// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
 /// from a driver, `case` for an id that can be followed, `code`.
-pub(crate) const LABELS: [(&str, &str, bool); 17] = [
-    ("In short", "text", false),
-    ("Message", "pre", true),
-    ("Expected", "text", true),
-    ("Improvement", "text", false),
-    ("Selftest", "text", true),
-    ("Process", "text", true),
-    ("Standard error", "pre", true),
-    ("Validation", "pre", true),
-    ("Repeated", "text", true),
-    ("Drawn after", "case", true),
-    ("Blocked by", "case", true),
-    ("Samples", "text", true),
-    ("Asserted", "text", false),
-    ("Counter", "text", true),
-    ("Measured", "text", false),
-    ("Frame", "code", true),
-    ("Note", "text", false),
-];
+pub(crate) type Label = (&'static str, &'static str, bool);
 
 /// Stands for all facts of a record when there is no room for them.
 pub(crate) fn no_room() -> (Label, String) {
     let text = "The facts of this record were left out to keep the page small; run.jsonl has them.";
-    (Label::Note, text.to_owned())
+    (("Note", "text", false), text.to_owned())
 }
 
 /// Everything worth telling about a record that is not in its cell.
 pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     let mut facts = Vec::new();
-    let mut add = |label: Label, text: String| facts.push((label, text));
+    let mut add = |name, form, in_body, text: String| facts.push(((name, form, in_body), text));
     let headline = words::headline(record);
     if headline != words::meaning(record.verdict) && headline != record.message {
-        add(Label::Headline, headline);
+        add("In short", "text", false, headline);
     }
     if !record.message.is_empty() {
-        add(Label::Message, end(&record.message));
+        add("Message", "pre", true, end(&record.message));
     }
     if let Some(expected) = &record.expected {
-        add(Label::Expected, end(&expected.reason));
+        add("Expected", "text", true, end(&expected.reason));
     }
     if let Some(verdict) = record.improves {
         let text = format!("The expectations still name {}.", words::name(verdict));
-        add(Label::Improves, text);
+        add("Improvement", "text", false, text);
     }
     if record.due_fail {
         let text = "The judge sees another scene than the driver, so this is due to fail.";
-        add(Label::Selftest, text.to_owned());
+        add("Selftest", "text", true, text.to_owned());
     }
     if let Some(process) = &record.process {
-        add(Label::Process, words::process_end(process));
+        add("Process", "text", true, words::process_end(process));
         if !process.stderr.is_empty() {
-            add(Label::StandardError, end(&process.stderr));
+            add("Standard error", "pre", true, end(&process.stderr));
         }
     }
     for message in &record.validation {
-        add(Label::Validation, end(message));
+        add("Validation", "pre", true, end(message));
     }
     if !record.repeats.is_empty() {
-        add(Label::Repeats, words::repetitions(&record.repeats));
+        add(
+            "Repeated",
+            "text",
+            true,
+            words::repetitions(&record.repeats),
+        );
     }
     for case in &record.after {
-        add(Label::After, case.clone());
+        add("Drawn after", "case", true, case.clone());
     }
     for case in &record.blocked_by {
-        add(Label::BlockedBy, case.clone());
+        add("Blocked by", "case", true, case.clone());
     }
     if record.texels.wrong + record.texels.imprecise + record.texels.open > 0 {
-        add(Label::Texels, counts(record));
+        add("Samples", "text", true, counts(record));
     }
     for assertion in &record.assertions {
-        add(Label::Asserted, asserted(assertion));
+        add("Asserted", "text", false, asserted(assertion));
     }
     for counter in &record.counters {
-        add(Label::Counter, counted(counter));
+        add("Counter", "text", true, counted(counter));
     }
     if let Some(m) = &record.measured {
         let rmse = percent(m.distance.rmse, 1);
         let mut text = format!("{} of {}: RMSE {rmse}", m.method, m.scene);
         if let Some(time) = &m.time {
-            text.push_str(&format!(", {} per frame", duration(time.wall)));
+            text += &format!(", {} per frame", duration(time.wall));
         }
-        add(Label::Measured, text);
+        add("Measured", "text", false, text);
     }
     if let Some(frame) = &record.frame {
-        add(Label::Frame, frame.clone());
+        add("Frame", "code", true, frame.clone());
     }
     facts
 }
 
 /// The facts that an entry under Findings has, as a list.
 pub(crate) fn list(record: &Record) -> Markup {
-    let facts = of(record)
-        .into_iter()
-        .map(|(label, text)| (LABELS[label as usize], text));
+    let facts = of(record).into_iter();
     let facts: Vec<_> = facts.filter(|((.., in_body), _)| *in_body).collect();
     html! {
         @if !facts.is_empty() {
@@ -165,7 +128,7 @@ fn asserted(a: &Assertion) -> String {
         a.exact
     );
     if let Some(sharpness) = a.sharpness() {
-        text.push_str(&format!(", sharpness {sharpness:.2}"));
+        text += &format!(", sharpness {sharpness:.2}");
     }
     text
 }
@@ -205,13 +168,6 @@ mod tests {
     use etalon_record::{LossKind, ProcessEnd, Verdict};
 
     #[test]
-    fn labels_are_told_by_their_position() {
-        assert_eq!(LABELS[Label::Note as usize].0, "Note");
-        assert_eq!(LABELS[Label::After as usize].1, "case");
-        assert_eq!(LABELS[Label::Frame as usize].0, "Frame");
-    }
-
-    #[test]
     fn a_long_message_keeps_its_end() {
         let text = format!("ä{}z", "x".repeat(LONGEST));
         let cut = end(&text);
@@ -235,15 +191,15 @@ mod tests {
             stderr: "last words".to_owned(),
             seconds: 1.5,
         });
-        let labels: Vec<Label> = of(&record).into_iter().map(|(label, _)| label).collect();
-        use Label::*;
+        let facts = of(&record);
+        let labels: Vec<&str> = facts.iter().map(|((label, ..), _)| *label).collect();
         let expected = [
-            Process,
-            StandardError,
-            Validation,
-            Validation,
-            Repeats,
-            After,
+            "Process",
+            "Standard error",
+            "Validation",
+            "Validation",
+            "Repeated",
+            "Drawn after",
         ];
         assert_eq!(labels, expected);
     }

@@ -38,22 +38,20 @@ impl Plan {
         // unexpected before what is not.
         let mut lines = Vec::new();
         let mut whole = Vec::new();
-        for area in &grid.areas {
-            for file in &area.files {
-                for column in 0..grid.adapters.len() {
-                    let mut ranks = [0; 3];
-                    for index in listed(grid, file, column) {
-                        let kind = kind(grid.record(index));
-                        let rank = &mut ranks[kind];
-                        if *rank < LINES {
-                            lines.push((kind, *rank, index));
-                        }
-                        let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
-                        if *rank < most {
-                            whole.push((kind, *rank, index));
-                        }
-                        *rank += 1;
+        for file in grid.files() {
+            for column in 0..grid.adapters.len() {
+                let mut ranks = [0; 3];
+                for index in listed(grid, file, column) {
+                    let kind = kind(grid.record(index));
+                    let rank = &mut ranks[kind];
+                    if *rank < LINES {
+                        lines.push((kind, *rank, index));
                     }
+                    let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
+                    if *rank < most {
+                        whole.push((kind, *rank, index));
+                    }
+                    *rank += 1;
                 }
             }
         }
@@ -64,8 +62,7 @@ impl Plan {
         for (_, _, index) in whole.iter().take(BODIES) {
             bodies.insert(*index, true);
         }
-        let files = grid.areas.iter().flat_map(|a| &a.files);
-        let odd = files.flat_map(|f| &f.cases).filter_map(|case| {
+        let odd = grid.cases().filter_map(|case| {
             let column = Consensus::of(grid, case).only()?;
             case.records[column]
         });

@@ -2,13 +2,13 @@
 
 use crate::mark::{class, mark};
 use crate::numbers::count;
-use crate::page::adapter::{breakable, details};
+use crate::page::adapter::breakable;
 use crate::run::dead::meaning;
 use crate::run::grid::{Area, Grid, Tally};
 use crate::run::undrawn::{Undrawn, undrawn};
 use crate::table::{Cell, Table, some};
 use crate::words::{Tone, plain};
-use etalon_record::{AbsentAdapter, Dead, Header, Run, Verdict};
+use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
 
 /// Areas against adapters.
@@ -127,27 +127,4 @@ pub(crate) fn dead(dead: &[Dead]) -> Markup {
             }
         }
     }
-}
-
-/// The adapters of a run, and the remedies for absent ones.
-pub(crate) fn adapters(header: &Header) -> Markup {
-    html! {
-        section id="adapters" {
-            h2 { "Adapters" }
-            @if header.adapters.is_empty() { p { "None." } }
-            @for adapter in &header.adapters { (details(adapter)) }
-            @if !header.absent.is_empty() {
-                h3 { "Absent" }
-                (absent().page(&header.absent))
-            }
-        }
-    }
-}
-
-fn absent<'a>() -> Table<'a, &'a AbsentAdapter> {
-    Table::new("text")
-        .spoken("Adapters that are absent")
-        .head("Adapter", |absent: &&AbsentAdapter| &*absent.name)
-        .text("Reason", |absent| &*absent.reason)
-        .text("Remedy", |absent| &*absent.remedy)
 }

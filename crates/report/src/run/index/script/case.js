@@ -1,5 +1,4 @@
 // The view of one case: every adapter's verdict and all that is known about it.
-const REPORT_TITLE = document.title;
 // The id of the case that is shown, whether the run has it or not.
 let current = null;
 
@@ -17,17 +16,16 @@ function symbolAndWord(cell) {
   return [make("i", { "aria-hidden": "true" }, cell.symbol), " " + cell.word];
 }
 
-// Shows a view of cases, with the address that leads on from it.
-function show(id, one, title, heading, ...content) {
-  const view = $("case");
+// The start of a view of cases.
+function enter(id) {
+  fromReport = routed && $("case").hidden;
+  routed = true;
+  typed = false;
   current = id;
-  view.replaceChildren(neighbours(one), make("h1", { id: "case-title", tabindex: "-1" }, heading), ...content);
-  leave($("report"), view, title);
-  scrollTo(0, 0);
-  $("case-title").focus({ preventScroll: true });
 }
 
 function showCase(id) {
+  enter(id);
   const one = cases[numberOf.get(id)];
   const content = one ? [
     make("p", {}, make("b", {}, "Consensus: "), one.consensus.text + "."),
@@ -38,7 +36,7 @@ function showCase(id) {
     make("p", { class: "state bad", role: "alert" }, "This run has no case of this name."),
     make("p", {}, make("a", { href: "#q=" + encoded(id) }, "Search for it"), " among all cases."),
   ];
-  show(id, one, id, make("code", {}, id), ...content);
+  return { leads: () => [neighbours(one)], title: id, heading: make("code", {}, id), content };
 }
 
 // The way back, and to the cases before and after in what the filter left.

@@ -64,19 +64,15 @@ function change(part, typing) {
 }
 
 function showControls() {
-  for (const key of ["q", "verdict", "on", "area", "odd"]) {
-    if ($("f-" + key).value !== state[key]) $("f-" + key).value = state[key];
-  }
-  for (const key of ["messages", "unexpected", "disagree"]) $("f-" + key).checked = state[key];
+  for (const key of TEXTS) if ($("f-" + key).value !== state[key]) $("f-" + key).value = state[key];
+  for (const key of CHECKS) $("f-" + key).checked = state[key];
 }
 
 function listen() {
-  $("f-q").addEventListener("input", () => change({ q: $("f-q").value }, true));
-  for (const key of ["verdict", "on", "area", "odd"]) {
-    $("f-" + key).addEventListener("change", () => change({ [key]: $("f-" + key).value }, false));
-  }
-  for (const key of ["messages", "unexpected", "disagree"]) {
-    $("f-" + key).addEventListener("change", () => change({ [key]: $("f-" + key).checked }, false));
+  for (const key of [...TEXTS, ...CHECKS]) {
+    const control = $("f-" + key);
+    const isTyped = key === "q";
+    control.addEventListener(isTyped ? "input" : "change", () => change({ [key]: CHECKS.includes(key) ? control.checked : control.value }, isTyped));
   }
   $("filter").addEventListener("submit", event => event.preventDefault());
   $("f-clear").addEventListener("click", () => change({ ...INITIAL, sort: state.sort }, false));

@@ -3,36 +3,29 @@ let routed = false;
 let fromReport = false;
 let afterRoute = null;
 
-function route() {
+const route = router($("report"), $("case"), data ? { case: showCase, gallery: showGallery } : {}, () => {
   const found = data ? parameters() : new Map();
-  const view = data && viewOf({ case: showCase, gallery: showGallery });
+  const left = current;
+  current = null;
   typed = false;
-  if (view) {
-    fromReport = routed && $("case").hidden;
-    view[0](view[1]);
-  } else {
-    const left = current;
-    current = null;
-    comeBack($("report"), $("case"), REPORT_TITLE);
-    // The address of the section stands for the whole table.
-    if (data && (found.size || !location.hash || location.hash === "#cases")) {
-      const before = hashOf(state);
-      state = stateOf(found);
-      if (hashOf(state) !== before) {
-        toggled.clear();
-        showControls();
-        refresh();
-      }
+  // The address of the section stands for the whole table.
+  if (data && (found.size || !location.hash || location.hash === "#cases")) {
+    const before = hashOf(state);
+    state = stateOf(found);
+    if (hashOf(state) !== before) {
+      toggled.clear();
+      showControls();
+      refresh();
     }
-    const row = left === null ? -1 : placeOf(left);
-    if (row >= 0) moveTo(row);
-    else if (left !== null || found.size && !routed) $("cases").scrollIntoView();
-    else reveal(location.hash.slice(1));
   }
+  const row = left === null ? -1 : placeOf(left);
+  if (row >= 0) moveTo(row);
+  else if (left !== null || found.size && !routed) $("cases").scrollIntoView();
+  else reveal(location.hash.slice(1));
   routed = true;
   if (afterRoute) afterRoute();
   afterRoute = null;
-}
+});
 
 // The row of a case, or of the closed group that holds it; -1 where the filter leaves neither.
 function placeOf(id) {
@@ -61,7 +54,7 @@ route();
 // Elements behind the script exist later; then views and links use them.
 addEventListener("DOMContentLoaded", () => {
   if (current === null) reveal(location.hash.slice(1));
-  else if (data && cases[numberOf.get(current)] && data.bodies.some(([number]) => number === numberOf.get(current))) showCase(current);
+  else if (data && cases[numberOf.get(current)] && data.bodies.some(([number]) => number === numberOf.get(current))) route();
 });
 // When the table can be used, for those who measure.
 performance.mark("etalon-ready");

@@ -72,10 +72,9 @@ function meant(id) {
 const THUMBNAILS = 400;
 
 function showGallery(area) {
+  enter("");
   const grid = make("div", { class: "gallery" });
   const note = make("p", { class: "soft", role: "status" }, "Loading …");
-  const title = "Gallery: " + area;
-  show("", null, title, title, note, grid);
   withArea(area).then(held => {
     const found = held ? cases.filter(one => heldCase(held, one)) : [];
     note.textContent = held ? counted(found.length, "case") : "This folder has no pictures of this area.";
@@ -94,5 +93,6 @@ function showGallery(area) {
     };
     more(0);
   });
+  return { leads: () => [neighbours(null)], title: "Gallery: " + area, content: [note, grid] };
 }
 

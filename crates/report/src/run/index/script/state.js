@@ -3,6 +3,9 @@ const INITIAL = {
   q: "", messages: false, verdict: "", on: "", area: "", odd: "", unexpected: false, disagree: false,
   sort: "case", page: 1,
 };
+// The filters that are texts, and those that are set or not.
+const TEXTS = ["q", "verdict", "on", "area", "odd"];
+const CHECKS = ["messages", "unexpected", "disagree"];
 let state = { ...INITIAL };
 
 function stateOf(found) {
@@ -27,25 +30,16 @@ function stateOf(found) {
   };
 }
 
-function hashOf(state) {
-  const parts = [];
-  const add = (key, value) => parts.push(key + "=" + encoded(value));
-  if (state.q) add("q", state.q);
-  if (state.messages) add("messages", "1");
-  if (state.verdict) add("verdict", state.verdict);
-  if (state.on) add("on", data.adapters[state.on]);
-  if (state.area) add("area", $("f-area").options[Number(state.area) + 1].textContent);
-  if (state.odd) add("odd", state.odd === "any" ? "" : data.adapters[state.odd]);
-  if (state.unexpected) add("unexpected", "1");
-  if (state.disagree) add("disagree", "1");
-  if (state.sort !== "case") add("sort", state.sort);
-  if (state.page > 1) add("page", String(state.page));
-  return parts.length ? "#" + parts.join("&") : "#cases";
+function hashOf({ q, messages, verdict, on, area, odd, unexpected, disagree, sort, page }) {
+  const parts = [
+    ["q", q], ["messages", messages && "1"], ["verdict", verdict], ["on", on && data.adapters[on]],
+    ["area", area && $("f-area").options[Number(area) + 1].textContent], ["odd", odd && odd !== "any" && data.adapters[odd]],
+    ["unexpected", unexpected && "1"], ["disagree", disagree && "1"], ["sort", sort !== "case" && sort], ["page", page > 1 && String(page)],
+  ].filter(([key, value]) => value || key === "odd" && odd);
+  return parts.length ? "#" + parts.map(([key, value]) => key + "=" + encoded(value || "")).join("&") : "#cases";
 }
 
-function filtered(state) {
-  return ["q", "verdict", "on", "area", "odd", "unexpected", "disagree"].some(key => state[key]);
-}
+const filtered = state => [...TEXTS, "unexpected", "disagree"].some(key => state[key]);
 
 // True if a case's id, or its facts, contain all words of a search.
 function searcher(q, messages) {

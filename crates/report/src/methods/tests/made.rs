@@ -58,7 +58,7 @@ impl Made {
         let method = method.unwrap_or_default().to_owned();
         let mut id = format!("methods/{}", self.id);
         if let Some((name, value)) = self.parameter {
-            id.push_str(&format!("/{name}={value}"));
+            id += &format!("/{name}={value}");
         }
         let mut record = Record::new(id, self.adapter, Verdict::Measured);
         record.measured = Some(Measured {
