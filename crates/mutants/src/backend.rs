@@ -1,7 +1,7 @@
 //! The rasterizer with one bug in it.
 
 use super::mutant::Mutant;
-use super::plant::Plant;
+use super::plant::{Plant, all_draws};
 use crate::mutants;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::{CpuBackend, PreparedScene};
@@ -34,6 +34,7 @@ impl MutantBackend {
         let mut believed = scene.clone();
         match &self.mutant.plant {
             Plant::Scene(bug) | Plant::Again(_, bug) => bug(&mut believed),
+            Plant::Draws(bug) => all_draws(&mut believed).for_each(bug),
             Plant::Sticky(bug) => {
                 if let Some(before) = &*self.before.borrow() {
                     bug(before, &mut believed);
@@ -97,7 +98,7 @@ impl Backend for MutantBackend {
                 from: *from,
                 submissions: 0,
             }),
-            Plant::Scene(_) | Plant::Sticky(_) => {
+            Plant::Scene(_) | Plant::Draws(_) | Plant::Sticky(_) => {
                 Box::new(PreparedScene::new(believed, etalon_cpu::steps::Faithful))
             }
         })

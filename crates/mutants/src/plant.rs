@@ -1,5 +1,6 @@
 //! Planting a bug: in the scene, in a step, or in the frame.
 
+use crate::fields::Places;
 use crate::hooks::Hooks;
 use crate::memory::Memory;
 use etalon_cpu::steps::{Moment, Stored};
@@ -8,6 +9,7 @@ use etalon_scene::{Attachment, Draw, Pass, Scene};
 use std::fmt;
 
 type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
+type DrawBug = dyn Fn(&mut Draw) + Send + Sync;
 type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
 type MemoryBug = dyn Fn() -> Memory + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
@@ -16,6 +18,8 @@ type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 pub(super) enum Plant {
     /// The driver draws another scene.
     Scene(Box<SceneBug>),
+    /// Every draw is changed.
+    Draws(Box<DrawBug>),
     /// The driver draws another scene, with state of the previous one.
     Sticky(Box<StickyBug>),
     /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
@@ -31,13 +35,20 @@ pub(super) enum Plant {
 
 impl fmt::Debug for Plant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Scene(_) => "Scene",
-            Self::Sticky(_) => "Sticky",
-            Self::Again(..) => "Again",
-            Self::Steps(_) => "Steps",
-            Self::Memory(_) => "Memory",
-            Self::Frame(_) => "Frame",
+        f.write_str("Plant")
+    }
+}
+
+impl Plant {
+    /// Restricts a bug of draws to some of them.
+    pub(super) fn when(self, strikes: fn(&Draw) -> bool) -> Self {
+        let Self::Draws(bug) = self else {
+            return self;
+        };
+        draws(move |draw| {
+            if strikes(draw) {
+                bug(draw);
+            }
         })
     }
 }
@@ -80,9 +91,48 @@ pub(super) fn passes(bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'sta
     })
 }
 
+/// Changes the draws of every pass.
+pub(super) fn calls(bug: impl Fn(&mut Vec<Draw>) + Send + Sync + 'static) -> Plant {
+    passes(move |_, _, pass| bug(&mut pass.draws))
+}
+
 /// Changes every draw.
 pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| all_draws(scene).for_each(&bug))
+    Plant::Draws(Box::new(bug))
+}
+
+/// Changes a field of every draw, wherever the draw has it.
+pub(super) fn each<T: 'static>(
+    field: Places<T>,
+    bug: impl Fn(&mut T) + Send + Sync + 'static,
+) -> Plant {
+    draws(move |draw| field(draw).into_iter().for_each(&bug))
+}
+
+/// Gives a field of a draw a value.
+pub(super) fn put<T: Copy + Send + Sync + 'static>(
+    field: Places<T>,
+    value: T,
+) -> impl Fn(&mut Draw) + Copy + Send + Sync + 'static {
+    move |draw| field(draw).into_iter().for_each(|place| *place = value)
+}
+
+/// Gives a field of every draw a value.
+pub(super) fn set<T: Copy + Send + Sync + 'static>(field: Places<T>, value: T) -> Plant {
+    draws(put(field, value))
+}
+
+/// Lets one value of a field act as another.
+pub(super) fn swapped<T: Copy + PartialEq + Send + Sync + 'static>(
+    field: Places<T>,
+    right: T,
+    wrong: T,
+) -> Plant {
+    each(field, move |value| {
+        if *value == right {
+            *value = wrong;
+        }
+    })
 }
 
 /// Returns the draws of all passes.

@@ -21,14 +21,8 @@ pub(super) fn pairs<T: Copy + PartialEq>(values: &[T]) -> impl Iterator<Item = (
 /// Returns values and those declared before and after them, cyclically.
 pub(super) fn round<T: Copy>(values: &[T]) -> Vec<(T, T)> {
     let n = values.len();
-    (0..n)
-        .flat_map(|i| {
-            [
-                (values[i], values[(i + 1) % n]),
-                (values[i], values[(i + n - 1) % n]),
-            ]
-        })
-        .collect()
+    let both = |i: usize| [1, n - 1].map(|by| (values[i], values[(i + by) % n]));
+    (0..n).flat_map(both).collect()
 }
 
 /// Returns operations and those declared before and after them, cyclically; and those that differ in
@@ -127,3 +121,6 @@ pub(super) const ONE_TEXEL: [(&str, &str, [i32; 4]); 8] = [
     ("higher", "are one texel too high", [0, 0, 0, 1]),
     ("lower", "are one texel too low", [0, 0, 0, -1]),
 ];
+
+/// The names of channels.
+pub(super) const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];

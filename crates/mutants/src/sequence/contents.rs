@@ -1,7 +1,7 @@
 //! Contents that a pass change or a submission loses or keeps.
 
 use crate::aspects::{ASPECTS, word};
-use crate::list::List;
+use crate::list::bugs;
 use crate::memory::Memory;
 use crate::plant::{Plant, memory};
 use etalon_cpu::Surface;
@@ -59,67 +59,6 @@ fn at_end(moment: Moment, scene: &Scene) -> bool {
     matches!(moment, Moment::End { pass } if pass + 1 == scene.passes.len())
 }
 
-pub(super) fn add(list: &mut List) {
-    for aspect in ASPECTS {
-        let (name, word) = (aspect.name(), word(aspect));
-        list.bug(format!(
-            "{name}-not-stored-by-the-first-pass: The {word} that the first of several passes leaves is \
-             lost."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| moment == Moment::Begin { pass: 0 },
-            |moment, scene| moment == Moment::End { pass: 0 } && scene.passes.len() > 1,
-        ));
-        list.bug(format!(
-            "{name}-not-loaded: A pass after the first finds the {word} that attachments began with."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| moment == Moment::Initial,
-            |moment, _| matches!(moment, Moment::Begin { pass } if pass > 0),
-        ));
-        list.bug(format!(
-            "{name}-of-the-last-pass-lost: The {word} that the last of several passes leaves is lost."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| matches!(moment, Moment::Begin { .. }),
-            |moment, scene| scene.passes.len() > 1 && at_end(moment, scene),
-        ));
-        list.bug(format!(
-            "{name}-kept-from-the-submission-before: A submission begins with the {word} that the one \
-             before left."
-        ))
-        .plant(restored(aspect, at_end, |moment, _| moment == Moment::Initial));
-    }
-    list.bug("texture-as-it-began: A texture that earlier passes drew is read as it began.")
-        .plant(textures_as_they_began());
-    list.bug("later-submissions-draw-nothing: Only the first submission draws.")
-        .plant(later_submissions(|_| true));
-    list.bug(
-        "later-submissions-lose-their-first-draw: Submissions after the first lose their \
-         first draw.",
-    )
-    .plant(later_submissions(|moment| {
-        moment == Moment::Drawn { pass: 0, draw: 0 }
-    }));
-    list.bug("counts-added-over-submissions: Counters go on from the submission before.")
-        .plant(memory(|| {
-            let mut counts: Vec<u64> = Vec::new();
-            Memory::new(move |moment, scene, stored| {
-                if moment == Moment::Initial {
-                    for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) {
-                        *to = *from;
-                    }
-                }
-                if at_end(moment, scene) {
-                    counts = stored.counters.iter().map(|(_, count)| *count).collect();
-                }
-            })
-        }));
-}
-
 fn textures_as_they_began() -> Plant {
     memory(|| {
         let mut began: Vec<Surface> = Vec::new();
@@ -150,4 +89,44 @@ fn later_submissions(undone: fn(Moment) -> bool) -> Plant {
             _ => {}
         })
     })
+}
+
+bugs! {
+    for aspect in ASPECTS {
+        let (name, word) = (aspect.name(), word(aspect));
+        "{name}-not-stored-by-the-first-pass: The {word} that the first of several passes leaves is lost." =>
+            restored(
+                aspect,
+                |moment, _| moment == Moment::Begin { pass: 0 },
+                |moment, scene| moment == Moment::End { pass: 0 } && scene.passes.len() > 1,
+            );
+        "{name}-not-loaded: A pass after the first finds the {word} that attachments began with." =>
+            restored(
+                aspect,
+                |moment, _| moment == Moment::Initial,
+                |moment, _| matches!(moment, Moment::Begin { pass } if pass > 0),
+            );
+        "{name}-of-the-last-pass-lost: The {word} that the last of several passes leaves is lost." =>
+            restored(
+                aspect,
+                |moment, _| matches!(moment, Moment::Begin { .. }),
+                |moment, scene| scene.passes.len() > 1 && at_end(moment, scene),
+            );
+        "{name}-kept-from-the-submission-before: A submission begins with the {word} that the one before left." =>
+            restored(aspect, at_end, |moment, _| moment == Moment::Initial);
+    }
+    "texture-as-it-began: A texture that earlier passes drew is read as it began." => textures_as_they_began();
+    "later-submissions-draw-nothing: Only the first submission draws." => later_submissions(|_| true);
+    "later-submissions-lose-their-first-draw: Submissions after the first lose their first draw." =>
+        later_submissions(|moment| moment == Moment::Drawn { pass: 0, draw: 0 });
+    "counts-added-over-submissions: Counters go on from the submission before." =>
+        memory(|| {
+            let mut counts: Vec<u64> = Vec::new();
+            Memory::new(move |moment, scene, stored| {
+                if moment == Moment::Initial {
+                    for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) { *to = *from; }
+                }
+                if at_end(moment, scene) { counts = stored.counters.iter().map(|(_, count)| *count).collect(); }
+            })
+        });
 }
