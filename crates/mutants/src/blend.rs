@@ -9,7 +9,7 @@ use crate::fields::{
 use crate::hooks::{blending, faithful_blend};
 use crate::list::{CONFUSION, List, bugs, rows};
 use crate::plant::{Plant, each, set, swapped};
-use crate::tables::{factor_neighbours, round, same_for_alpha};
+use crate::tables::{factor_neighbours, place, round, same_for_alpha};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
@@ -163,13 +163,10 @@ bugs! {
     "color-factor-not-mapped-for-alpha: In the alpha equation, colour factors use red." =>
         after(|state, encodings, input, result| {
             let held = |v: [[f32; 1]; 4]| v[0][0].clamp(0.0, 1.0);
-            let factor = |f: BlendFactor| match f {
-                BlendFactor::Src => Some(held(input.src)),
-                BlendFactor::OneMinusSrc => Some(1.0 - held(input.src)),
-                BlendFactor::Dst => Some(input.dst[0][0]),
-                BlendFactor::OneMinusDst => Some(1.0 - input.dst[0][0]),
-                BlendFactor::Constant => Some(held(input.constant)),
-                BlendFactor::OneMinusConstant => Some(1.0 - held(input.constant)),
+            let reds = [held(input.src), input.dst[0][0], held(input.constant)];
+            let factor = |f| match place(f) {
+                Some([row @ 0..3, 0]) => Some(reds[row]),
+                Some([row @ 0..3, 1]) => Some(1.0 - reds[row]),
                 _ => None,
             };
             let mut s = side(state, encodings, input, true)[3];

@@ -6,7 +6,7 @@
 use crate::aspects::reaches;
 use crate::hooks::code;
 use crate::list::bugs;
-use crate::memory::{Area, Memory, copy, texel_rows};
+use crate::memory::{Area, copy, texel_rows};
 use crate::plant::{Plant, memory};
 use CompareFunction::{Always, Equal, Greater, GreaterEqual, Less, LessEqual};
 use etalon_cpu::Surface;
@@ -53,22 +53,28 @@ struct Unit {
     loses_stencil: bool,
 }
 
-const FAITHFUL: Unit = Unit {
-    side: 8,
-    missed: |_, _| false,
-    overrated: |_, _| false,
-    compare: |_, compare| compare,
-    trusts_vertices: false,
-    also: |_, _, _| false,
-    initial: None,
-    forgets: false,
-    columns: usize::MAX,
-    misses_edges: false,
-    misses_loads: false,
-    loses_stencil: false,
-};
+impl Default for Unit {
+    /// A coarse depth without a bug.
+    fn default() -> Self {
+        Self {
+            side: 8,
+            missed: |_, _| false,
+            overrated: |_, _| false,
+            compare: |_, compare| compare,
+            trusts_vertices: false,
+            also: |_, _, _| false,
+            initial: None,
+            forgets: false,
+            columns: usize::MAX,
+            misses_edges: false,
+            misses_loads: false,
+            loses_stencil: false,
+        }
+    }
+}
 
 /// The coarse depth of one prepared scene.
+#[derive(Default)]
 struct Coarse {
     unit: Unit,
     /// The ranges of each attachment's tiles, row by row; empty without depth.
@@ -299,16 +305,9 @@ impl Coarse {
 }
 
 fn coarse(unit: Unit) -> Plant {
-    memory(move || {
-        let mut coarse = Coarse {
-            unit,
-            maps: Vec::new(),
-            initial: Vec::new(),
-            before: None,
-            rejected: Vec::new(),
-            kept: Vec::new(),
-        };
-        Memory::new(move |moment, scene, stored| coarse.reached(moment, scene, stored))
+    memory(move |coarse: &mut Coarse, moment, scene, stored| {
+        coarse.unit = unit;
+        coarse.reached(moment, scene, stored);
     })
 }
 
@@ -339,13 +338,14 @@ bugs! {
         ("later-passes", "later passes", |pass, _| pass > 0),
         ("points", "points and lines", |_, draw| THIN.contains(&draw.topology)),
     ] {
-        "{name}-missed: The coarse depth misses what is written by {what}." => coarse(Unit { missed, ..FAITHFUL });
+        "{name}-missed: The coarse depth misses what is written by {what}." =>
+            coarse(Unit { missed, ..Unit::default() });
     }
     for side in [16, 32, 64] {
         "shader-depth-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses depths that shaders write." =>
-            coarse(Unit { side, missed: SHADER_DEPTH, ..FAITHFUL });
+            coarse(Unit { side, missed: SHADER_DEPTH, ..Unit::default() });
         "always-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses draws that always pass." =>
-            coarse(Unit { side, missed: ALWAYS, ..FAITHFUL });
+            coarse(Unit { side, missed: ALWAYS, ..Unit::default() });
     }
     for (name, what, overrated as Strikes) in [
         ("write-off", "writes no depth", |_, d| d.depth.is_some() && !writes(d)),
@@ -354,46 +354,46 @@ bugs! {
         ("stencil", "has a stencil test", |_, d| d.stencil.is_some()),
     ] {
         "{name}-noted-as-written: A draw that {what} counts as writing every texel it touches." =>
-            coarse(Unit { overrated, ..FAITHFUL });
+            coarse(Unit { overrated, ..Unit::default() });
     }
     "compare-kept: The coarse depth is tested with the comparison of the draw before." =>
-        coarse(Unit { compare: |before, compare| before.map_or(compare, |before| before.compare), ..FAITHFUL });
+        coarse(Unit { compare: |before, compare| before.map_or(compare, |before| before.compare), ..Unit::default() });
     "first-direction-kept: The coarse depth is tested with less behind a draw with less." =>
         coarse(Unit {
             compare: |before, compare| if before.is_some_and(|b| b.compare == Less) { Less } else { compare },
-            ..FAITHFUL
+            ..Unit::default()
         });
     "shader-depth-ignored: Draws whose shader writes depth are rejected by that of their vertices." =>
-        coarse(Unit { trusts_vertices: true, ..FAITHFUL });
+        coarse(Unit { trusts_vertices: true, ..Unit::default() });
     "greatest-used-for-greater: Greater is tested against the greatest depth of a tile." =>
-        coarse(Unit { also: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..FAITHFUL });
+        coarse(Unit { also: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..Unit::default() });
     "least-used-for-less: Less is tested against the least depth of a tile." =>
-        coarse(Unit { also: |c, [lo, _], [min, _]| c == Less && lo >= min, ..FAITHFUL });
+        coarse(Unit { also: |c, [lo, _], [min, _]| c == Less && lo >= min, ..Unit::default() });
     "less-equal-bound-rejected: Less-equal rejects what is equal to the greatest depth." =>
-        coarse(Unit { also: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..FAITHFUL });
+        coarse(Unit { also: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..Unit::default() });
     "greater-equal-bound-rejected: Greater-equal rejects what is equal to the least depth." =>
-        coarse(Unit { also: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..FAITHFUL });
+        coarse(Unit { also: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..Unit::default() });
     "equal-bound-rejected: Equal rejects a draw that meets a tile's depths at one end only." =>
-        coarse(Unit { also: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..FAITHFUL });
+        coarse(Unit { also: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..Unit::default() });
     for n in [0, 1] {
         "clear-missed-after-{n}: The coarse depth misses the first clear and holds {n}." =>
-            coarse(Unit { initial: Some(n as f32), ..FAITHFUL });
+            coarse(Unit { initial: Some(n as f32), ..Unit::default() });
     }
     "reset-between-passes: In the next pass, the coarse depth is that of the clear." =>
-        coarse(Unit { forgets: true, ..FAITHFUL });
+        coarse(Unit { forgets: true, ..Unit::default() });
     for columns in [4, 8, 16] {
         "columns-wrap-at-{columns}: A row of coarse depths begins anew after {columns} tiles." =>
-            coarse(Unit { columns, ..FAITHFUL });
+            coarse(Unit { columns, ..Unit::default() });
     }
     "load-missed: The coarse depth misses the clear of a load operation." =>
-        coarse(Unit { misses_loads: true, ..FAITHFUL });
+        coarse(Unit { misses_loads: true, ..Unit::default() });
     "edge-missed: Tiles that extend beyond the attachment keep the coarse depth of the clear." =>
-        coarse(Unit { misses_edges: true, ..FAITHFUL });
+        coarse(Unit { misses_edges: true, ..Unit::default() });
     "stencil-lost: Where tiles are rejected, fragments that fail the depth test leave stencil." =>
-        coarse(Unit { loses_stencil: true, ..FAITHFUL });
+        coarse(Unit { loses_stencil: true, ..Unit::default() });
 }
 
 #[cfg(test)]
 pub(super) fn faithful() -> Plant {
-    coarse(FAITHFUL)
+    coarse(Unit::default())
 }

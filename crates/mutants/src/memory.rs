@@ -7,7 +7,6 @@ use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Steps, Stored};
 use etalon_scene::Scene;
 use std::cell::RefCell;
-use std::fmt;
 use std::ops::Range;
 
 /// A bug of what one prepared scene stores.
@@ -19,12 +18,6 @@ impl Memory {
     /// Returns a bug that is told of every moment.
     pub(super) fn new(bug: impl FnMut(Moment, &Scene, Stored<'_>) + 'static) -> Self {
         Self(RefCell::new(Box::new(bug)))
-    }
-}
-
-impl fmt::Debug for Memory {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Memory")
     }
 }
 

@@ -8,20 +8,17 @@ use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 use etalon_scene::{Attachment, Draw, Pass, Scene};
 use std::fmt;
 
-type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
+type SceneBug = dyn Fn(Option<&Scene>, &mut Scene) + Send + Sync;
 type DrawBug = dyn Fn(&mut Draw) + Send + Sync;
-type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
 type MemoryBug = dyn Fn() -> Memory + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
-    /// The driver draws another scene.
+    /// The driver draws another scene, given the one that it has drawn before.
     Scene(Box<SceneBug>),
     /// Every draw is changed.
     Draws(Box<DrawBug>),
-    /// The driver draws another scene, with state of the previous one.
-    Sticky(Box<StickyBug>),
     /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
     Again(u32, Box<SceneBug>),
     /// A step of the rasterizer is replaced.
@@ -59,26 +56,24 @@ impl From<Hooks> for Plant {
     }
 }
 
-/// Plants a bug of which each prepared scene makes its own.
-pub(super) fn memory(bug: impl Fn() -> Memory + Send + Sync + 'static) -> Plant {
-    Plant::Memory(Box::new(bug))
-}
-
-/// Changes what is stored at some moments.
-pub(super) fn stored(
-    bug: impl Fn(Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
+/// Changes what is stored at some moments. Each prepared scene has a state of its own.
+pub(super) fn memory<S: Default + 'static>(
+    bug: impl Fn(&mut S, Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
 ) -> Plant {
-    memory(move || Memory::new(bug.clone()))
+    Plant::Memory(Box::new(move || {
+        let (bug, mut state) = (bug.clone(), S::default());
+        Memory::new(move |moment, scene, stored| bug(&mut state, moment, scene, stored))
+    }))
 }
 
 /// Changes the scene.
 pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
-    Plant::Scene(Box::new(bug))
+    Plant::Scene(Box::new(move |_, scene| bug(scene)))
 }
 
 /// Changes the scene from a submission on.
 pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
-    Plant::Again(from, Box::new(bug))
+    Plant::Again(from, Box::new(move |_, scene| bug(scene)))
 }
 
 /// Changes every pass, given the scene that is asked for and the number of the pass.
@@ -155,8 +150,8 @@ pub(super) fn contents(bug: impl Fn(&mut Attachment) + Send + Sync + 'static) ->
 
 /// Changes the first draw of a scene, given the last draw of the previous scene.
 pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
-    Plant::Sticky(Box::new(move |before, scene| {
-        let last = before.passes.iter().flat_map(|p| &p.draws).next_back();
+    Plant::Scene(Box::new(move |before, scene| {
+        let last = before.and_then(|before| before.passes.iter().flat_map(|p| &p.draws).last());
         if let (Some(last), Some(first)) = (last, all_draws(scene).next()) {
             bug(last, first);
         }

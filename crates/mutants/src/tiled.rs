@@ -5,7 +5,7 @@ use crate::aspects::{ASPECTS, word};
 use crate::hooks::{code, covered, fetch};
 use crate::list::bugs;
 use crate::memory::{Area, texel_rows};
-use crate::plant::{Plant, all_draws, calls, draws, moved, scene, sized, stored};
+use crate::plant::{Plant, all_draws, calls, draws, memory, moved, scene, sized};
 use PrimitiveTopology::{LineList, LineStrip, PointList};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::Moment;
@@ -84,7 +84,7 @@ fn uncleared(
     aspect: Aspect,
     area: impl Fn([usize; 2]) -> Option<Area> + Clone + Send + Sync + 'static,
 ) -> Plant {
-    stored(move |moment, scene, stored| {
+    memory(move |(), moment, scene, stored| {
         for (surface, attachment) in stored.surfaces.iter_mut().zip(&scene.attachments) {
             let cleared = !matches!(attachment.contents, Contents::Texels(_));
             let has = attachment.format.aspects().contains(&aspect);

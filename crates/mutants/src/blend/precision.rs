@@ -6,6 +6,7 @@ use crate::formats::store;
 use crate::hooks::{blending, code, color_code, faithful_blend};
 use crate::list::{CONFUSION, PRECISION, ROUNDED, SMALL, bugs};
 use crate::plant::{Plant, each, in_bits, set};
+use crate::tables::place;
 use etalon_frame::ChannelEncoding::{Float32, Unorm};
 use etalon_scene::{BlendFactor, BlendOperation};
 
@@ -32,29 +33,16 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
             return faithful_blend(state, encodings, input);
         }
         let codes = |v: Values| v.map(|[v]| code(Unorm(8), v));
-        let (src, dst) = (codes(input.src), codes(input.dst));
-        let (constant, src1) = (codes(input.constant), codes(input.src1));
-        let factor = |f: BlendFactor, c: usize| match f {
-            BlendFactor::Zero => 0,
-            BlendFactor::One => 255,
-            BlendFactor::Src => src[c],
-            BlendFactor::OneMinusSrc => 255 - src[c],
-            BlendFactor::SrcAlpha => src[3],
-            BlendFactor::OneMinusSrcAlpha => 255 - src[3],
-            BlendFactor::Dst => dst[c],
-            BlendFactor::OneMinusDst => 255 - dst[c],
-            BlendFactor::DstAlpha => dst[3],
-            BlendFactor::OneMinusDstAlpha => 255 - dst[3],
-            BlendFactor::SrcAlphaSaturated if c == 3 => 255,
-            BlendFactor::SrcAlphaSaturated => src[3].min(255 - dst[3]),
-            BlendFactor::Constant => constant[c],
-            BlendFactor::OneMinusConstant => 255 - constant[c],
-            BlendFactor::ConstantAlpha => constant[3],
-            BlendFactor::OneMinusConstantAlpha => 255 - constant[3],
-            BlendFactor::Src1 => src1[c],
-            BlendFactor::OneMinusSrc1 => 255 - src1[c],
-            BlendFactor::Src1Alpha => src1[3],
-            BlendFactor::OneMinusSrc1Alpha => 255 - src1[3],
+        let operands = [input.src, input.dst, input.constant, input.src1].map(codes);
+        let [src, dst, ..] = operands;
+        let factor = |f: BlendFactor, c: usize| match (place(f), f) {
+            (Some([row, column]), _) => {
+                let code = operands[row][if column < 2 { c } else { 3 }];
+                if column % 2 == 1 { 255 - code } else { code }
+            }
+            (None, BlendFactor::Zero) => 0,
+            (None, BlendFactor::SrcAlphaSaturated) if c < 3 => src[3].min(255 - dst[3]),
+            (None, _) => 255,
         };
         std::array::from_fn(|c| {
             let component = component(state, c);

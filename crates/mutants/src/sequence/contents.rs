@@ -2,7 +2,6 @@
 
 use crate::aspects::{ASPECTS, word};
 use crate::list::bugs;
-use crate::memory::Memory;
 use crate::plant::{Plant, memory};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::Moment;
@@ -28,29 +27,23 @@ fn restored(
     from: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
     to: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
 ) -> Plant {
-    memory(move || {
-        let mut kept: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, scene, stored| {
-            if to(moment, scene) && !kept.is_empty() {
-                let drawn: Vec<usize> = match moment {
-                    Moment::Begin { pass } | Moment::End { pass } => {
-                        let pass = &scene.passes[pass];
-                        pass.color
-                            .iter()
-                            .chain(&pass.depth_stencil)
-                            .copied()
-                            .collect()
-                    }
-                    _ => (0..kept.len()).collect(),
-                };
-                for index in drawn {
-                    restore(aspect, &kept[index], &mut stored.surfaces[index]);
+    memory(move |kept: &mut Vec<Surface>, moment, scene, stored| {
+        if to(moment, scene) && !kept.is_empty() {
+            let drawn: Vec<usize> = match moment {
+                Moment::Begin { pass } | Moment::End { pass } => {
+                    let pass = &scene.passes[pass];
+                    let color = pass.color.iter();
+                    color.chain(&pass.depth_stencil).copied().collect()
                 }
+                _ => (0..kept.len()).collect(),
+            };
+            for index in drawn {
+                restore(aspect, &kept[index], &mut stored.surfaces[index]);
             }
-            if from(moment, scene) {
-                kept = stored.surfaces.to_vec();
-            }
-        })
+        }
+        if from(moment, scene) {
+            *kept = stored.surfaces.to_vec();
+        }
     })
 }
 
@@ -59,36 +52,18 @@ fn at_end(moment: Moment, scene: &Scene) -> bool {
     matches!(moment, Moment::End { pass } if pass + 1 == scene.passes.len())
 }
 
-fn textures_as_they_began() -> Plant {
-    memory(|| {
-        let mut began: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, scene, stored| match moment {
-            Moment::Initial => began = stored.surfaces.to_vec(),
-            Moment::Draw { pass, draw } | Moment::Drawn { pass, draw } => {
-                let textures = scene.passes[pass].draws[draw].textures.iter().copied();
-                for texture in textures.collect::<HashSet<usize>>() {
-                    std::mem::swap(&mut began[texture], &mut stored.surfaces[texture]);
-                }
-            }
-            _ => {}
-        })
-    })
-}
-
 /// Undoes draws of submissions after the first.
 fn later_submissions(undone: fn(Moment) -> bool) -> Plant {
-    memory(move || {
-        let mut submissions = 0;
-        let mut kept: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, _, stored| match moment {
-            Moment::Initial => submissions += 1,
-            Moment::Draw { .. } if submissions > 1 => kept = stored.surfaces.to_vec(),
-            Moment::Drawn { .. } if submissions > 1 && undone(moment) => {
-                stored.surfaces.clone_from_slice(&kept);
+    memory(
+        move |(submissions, kept): &mut (u32, Vec<Surface>), moment, _, stored| match moment {
+            Moment::Initial => *submissions += 1,
+            Moment::Draw { .. } if *submissions > 1 => *kept = stored.surfaces.to_vec(),
+            Moment::Drawn { .. } if *submissions > 1 && undone(moment) => {
+                stored.surfaces.clone_from_slice(kept);
             }
             _ => {}
-        })
-    })
+        },
+    )
 }
 
 bugs! {
@@ -115,18 +90,25 @@ bugs! {
         "{name}-kept-from-the-submission-before: A submission begins with the {word} that the one before left." =>
             restored(aspect, at_end, |moment, _| moment == Moment::Initial);
     }
-    "texture-as-it-began: A texture that earlier passes drew is read as it began." => textures_as_they_began();
+    "texture-as-it-began: A texture that earlier passes drew is read as it began." =>
+        memory(|began: &mut Vec<Surface>, moment, scene, stored| match moment {
+            Moment::Initial => *began = stored.surfaces.to_vec(),
+            Moment::Draw { pass, draw } | Moment::Drawn { pass, draw } => {
+                let textures = scene.passes[pass].draws[draw].textures.iter().copied();
+                for texture in textures.collect::<HashSet<usize>>() {
+                    std::mem::swap(&mut began[texture], &mut stored.surfaces[texture]);
+                }
+            }
+            _ => {}
+        });
     "later-submissions-draw-nothing: Only the first submission draws." => later_submissions(|_| true);
     "later-submissions-lose-their-first-draw: Submissions after the first lose their first draw." =>
         later_submissions(|moment| moment == Moment::Drawn { pass: 0, draw: 0 });
     "counts-added-over-submissions: Counters go on from the submission before." =>
-        memory(|| {
-            let mut counts: Vec<u64> = Vec::new();
-            Memory::new(move |moment, scene, stored| {
-                if moment == Moment::Initial {
-                    for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) { *to = *from; }
-                }
-                if at_end(moment, scene) { counts = stored.counters.iter().map(|(_, count)| *count).collect(); }
-            })
+        memory(|counts: &mut Vec<u64>, moment, scene, stored| {
+            if moment == Moment::Initial {
+                for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) { *to = *from; }
+            }
+            if at_end(moment, scene) { *counts = stored.counters.iter().map(|(_, count)| *count).collect(); }
         });
 }
