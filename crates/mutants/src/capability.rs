@@ -33,8 +33,8 @@ fn repeated(image: &mut Image) {
 
 bugs! {
     class "capability", "capabilities";
-    let values = TextureFormat::ALL;
-    for format in values {
+    let formats = TextureFormat::ALL;
+    for format in formats {
         "{format}-not-cleared: Attachments of {format} start from 0." => uncleared(move |a| a.format == format);
         "{format}-read-one-texel-on: Texels of {format} are read one texel on." =>
             images_of(move |a| a.format == format, one_on);

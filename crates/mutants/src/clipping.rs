@@ -1,7 +1,8 @@
 //! Bugs of clipping: vertices behind the eye, near its plane, and far beyond the picture.
 
+use crate::fields::VERTICES;
 use crate::list::{CONFUSION, bugs};
-use crate::plant::{Plant, draws};
+use crate::plant::{Plant, draws, each};
 use etalon_scene::{Draw, PrimitiveTopology, Vertex};
 
 /// True if a vertex does not lie in front of the eye.
@@ -52,59 +53,50 @@ fn lose(vertices: &mut [Vertex]) {
 }
 
 /// Moves vertices in front of the eye, whose places are given in texels from the middle of the viewport.
-fn places(draw: &mut Draw, moved: fn(f32) -> f32) {
-    let [_, _, width, height] = draw.viewport.rect.map(|v| v / 2.0);
-    for vertex in &mut draw.mesh.vertices {
-        let [x, y, _, w] = &mut vertex.position;
-        if *w > 0.0 {
-            *x = moved(*x / *w * width) / width * *w;
-            *y = moved(*y / *w * height) / height * *w;
+fn places(moved: fn(f32) -> f32) -> Plant {
+    draws(move |draw| {
+        let [_, _, width, height] = draw.viewport.rect.map(|v| v / 2.0);
+        for [x, y, _, w] in draw.mesh.vertices.iter_mut().map(|v| &mut v.position) {
+            if *w > 0.0 {
+                *x = moved(*x / *w * width) / width * *w;
+                *y = moved(*y / *w * height) / height * *w;
+            }
         }
-    }
+    })
 }
 
-/// Divides vertices behind the eye by their w.
-fn mirrored(draw: &mut Draw) {
-    let all = draw.mesh.vertices.iter_mut();
-    let behind = all.filter(|v| v.position[3] < 0.0);
-    behind.for_each(|v| v.position = v.position.map(|p| p / v.position[3]));
+/// Divides a vertex behind the eye by its w.
+fn mirrored(vertex: &mut Vertex) {
+    let w = vertex.position[3];
+    if w < 0.0 {
+        vertex.position = vertex.position.map(|p| p / w);
+    }
 }
 
 bugs! {
     class "clipping", "cull";
-    "mirrored: Vertices behind the eye are drawn where the division by w puts them." => draws(mirrored);
+    "mirrored: Vertices behind the eye are drawn where the division by w puts them." => each(VERTICES, mirrored);
     "behind-lost: A triangle with a vertex behind the eye is lost whole." => triangles(is_behind, lose);
     "directions-lost: A triangle with a vertex of w 0 is lost." =>
         triangles(|v| v.position[3] == 0.0, lose), source "SwiftShader until 2021: triangles near w 0 culled";
     "tiny-lost: A triangle with a vertex of tiny w is lost." =>
         triangles(|v| v.position[3].abs() < 1e-3, lose), source "SwiftShader until 2021: triangles near w 0 culled";
     "huge-lost: A triangle with a vertex of huge w is lost." => triangles(|v| v.position[3].abs() > 1e3, lose);
-    "absolute-w: The sign of w is lost." =>
-        draws(|draw| {
-            let all = draw.mesh.vertices.iter_mut();
-            all.for_each(|v| v.position[3] = v.position[3].abs());
-        });
+    "absolute-w: The sign of w is lost." => each(VERTICES, |v| v.position[3] = v.position[3].abs());
     "behind-held: Vertices behind the eye are held to a small w." =>
-        draws(|draw| {
-            let behind = draw.mesh.vertices.iter_mut().filter(|v| is_behind(v));
-            behind.for_each(|v| v.position[3] = 1e-3);
-        });
+        each(VERTICES, |v| if is_behind(v) { v.position[3] = 1e-3 });
     "turned: A triangle that reaches behind the eye faces the other way." => triangles(is_behind, |t| t.swap(1, 2));
     "not-divided: x and y are not divided by w." =>
-        draws(|draw| {
-            for v in draw.mesh.vertices.iter_mut().filter(|v| !is_behind(v)) {
-                let [x, y, _, w] = v.position;
-                (v.position[0], v.position[1]) = (x * w, y * w);
-            }
+        each(VERTICES, |v| if !is_behind(v) {
+            let [x, y, z, w] = v.position;
+            v.position = [x * w, y * w, z, w];
         });
     "depth-not-divided: Depths are not divided by w." =>
-        draws(|draw| {
-            for v in draw.mesh.vertices.iter_mut().filter(|v| !is_behind(v)) { v.position[2] *= v.position[3]; }
-        });
+        each(VERTICES, |v| if !is_behind(v) { v.position[2] *= v.position[3] });
     "planes-ignored: Where w is not 1, the near and far planes clip nothing." =>
         draws(|draw| draw.depth_clamp = true), when |draw| draw.mesh.vertices.iter().any(|v| v.position[3] != 1.0);
     "behind-the-clamp: With depth clamped, nothing behind the eye is clipped." =>
-        draws(mirrored), when |draw| draw.depth_clamp;
+        each(VERTICES, mirrored), when |draw| draw.depth_clamp;
     "cut-lost: A triangle that the near or far plane cuts is lost whole." => triangles(is_beyond_planes, lose);
     "cut-turned: A triangle that the near or far plane cuts faces the other way." =>
         triangles(is_beyond_planes, |t| t.swap(1, 2));
@@ -127,8 +119,8 @@ bugs! {
         draws(|draw| draw.depth_clamp = true), when |draw| draw.topology == PrimitiveTopology::PointList;
     source "guard bands of 16-bit positions";
     "wraps: Places wrap around at 32,768 texels." =>
-        draws(|draw| places(draw, |v| (v + 32768.0).rem_euclid(65536.0) - 32768.0));
-    "held: Places are held to 32,767 texels." => draws(|draw| places(draw, |v| v.clamp(-32767.0, 32767.0)));
+        places(|v| (v + 32768.0).rem_euclid(65536.0) - 32768.0);
+    "held: Places are held to 32,767 texels." => places(|v| v.clamp(-32767.0, 32767.0));
     source CONFUSION;
     "far-lost: A triangle with a vertex beyond 60,000 texels is lost." => far(60_000.0, lose);
     "far-turned: A triangle with a vertex beyond 2,000 texels faces the other way." => far(2000.0, |t| t.reverse());

@@ -3,7 +3,7 @@
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, ColorTarget, CompareFunction, CullMode, DepthBias,
     DepthState, Draw, EarlyTests, FrontFace, LogicOperation, PrimitiveTopology, SampleCoverage,
-    Sampler, StencilFace, StencilOperation, StencilState,
+    Sampler, StencilFace, StencilOperation, StencilState, Vertex,
 };
 
 /// The places of a field in a draw: none where it is off, several where each face or target has its own.
@@ -45,6 +45,7 @@ places! {
         |d| ALPHA_EQUATION(d).into_iter().flat_map(|c| [&mut c.src_factor, &mut c.dst_factor]);
     WRITE_MASK: u8 = |d| d.targets.iter_mut().map(|t| &mut t.write_mask);
     SAMPLER: Sampler = |d| &mut d.sampler;
+    VERTICES: Vertex = |d| &mut d.mesh.vertices;
     CULL: CullMode = |d| [&mut d.cull];
     FRONT_FACE: FrontFace = |d| [&mut d.front_face];
     TOPOLOGY: PrimitiveTopology = |d| [&mut d.topology];

@@ -126,8 +126,8 @@ const NONLINEAR: &str = "SwiftShader: sRGB treated as linear";
 bugs! {
     class "format", "blend";
     for (name, encoding, most) in ENCODINGS {
-        let values = STEPS.into_iter().filter(|(_, steps)| steps.abs() <= most);
-        for (by, steps) in values {
+        let within = STEPS.into_iter().filter(|(_, steps)| steps.abs() <= most);
+        for (by, steps) in within {
             "{name}-stored-{by}: {encoding} is stored {steps} codes off." =>
                 store(encoding, move |v| nudge(encoding, code(encoding, v), steps)), source SMALL;
         }

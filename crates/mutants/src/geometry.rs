@@ -1,13 +1,10 @@
 //! Bugs of coverage, positions and whole draws.
 
-use crate::fields::Places;
+use crate::fields::VERTICES;
 use crate::hooks::covered;
 use crate::list::{CONFUSION, SMALL, bugs};
 use crate::plant::{calls, draws, each, in_bits, passes};
 use crate::tables::turned;
-use etalon_scene::Vertex;
-
-const VERTICES: Places<Vertex> = |d| d.mesh.vertices.iter_mut().collect();
 
 bugs! {
     class "geometry", "blend";

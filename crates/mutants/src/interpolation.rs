@@ -1,6 +1,6 @@
 //! Bugs of interpolation: the way in which attributes vary over a primitive, and where they are taken.
 
-use crate::fields::Places;
+use crate::fields::{Places, VERTICES};
 use crate::hooks::interpolation;
 use crate::list::bugs;
 use crate::plant::{draws, each};
@@ -9,7 +9,7 @@ use InterpolationSampling::{Center, Centroid, Sample};
 use etalon_scene::{Interpolation, InterpolationSampling, Shader, Vertex};
 
 /// The vertices of draws that read interpolated coordinates.
-const VERTICES: Places<Vertex> = |d| {
+const READ: Places<Vertex> = |d| {
     let reads = d.shader.uses_uv();
     d.mesh.vertices.iter_mut().filter(|_| reads).collect()
 };
@@ -38,21 +38,13 @@ bugs! {
             (shader.interpolation(), at)
         });
     "over-w: Attributes are divided by w, and not multiplied again." =>
-        each(VERTICES, |v| { let w = v.position[3]; if w > 0.0 { v.uv = v.uv.map(|c| c / w); } });
+        each(READ, |v| { let w = v.position[3]; if w > 0.0 { v.uv = v.uv.map(|c| c / w); } });
     "of-the-cut: A clipped triangle's attributes run over what is left of it." =>
-        draws(|draw| {
-            for v in draw
-                .mesh.vertices.iter_mut().filter(|v| v.position[3] < 0.0)
-            { v.uv = v.uv.map(|c| c * 0.5); }
-        });
+        each(VERTICES, |v| if v.position[3] < 0.0 { v.uv = v.uv.map(|c| c * 0.5) });
     "w-for-its-reciprocal: The fragment's coordinates hold w instead of 1 over w." =>
-        draws(|draw| {
-            for v in draw
-                .mesh.vertices.iter_mut().filter(|v| v.position[3] > 0.0)
-            {
-                let w = v.position[3];
-                v.position = v.position.map(|p| p / (w * w));
-            }
+        each(VERTICES, |v| {
+            let w = v.position[3];
+            if w > 0.0 { v.position = v.position.map(|p| p / (w * w)); }
         }), when |draw| draw.shader.reads_w();
     "either-is-the-middle: A flat value of either end is that of the second vertex." =>
         draws(|draw| {

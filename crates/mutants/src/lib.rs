@@ -5,8 +5,9 @@
 //! rasterizer free of test code. `tests/hunt` holds that cases catch each mutant or that a clause allows
 //! it; `etalon mutants` reports which cases do.
 //!
-//! Most follow from data: an operator (stale, swapped, always, never …) applied to a field of `fields`.
-//! To add one, call `List::bug` in the file of its class, or name the field in `fields`.
+//! Each file is a table: a row has the name, the effect and what it changes. Most follow from data: an operator
+//! (stale, swapped, always, never …) applied to a field of `fields`. To add one, add a row to the table of its class,
+//! or name the field in `fields`.
 
 mod aspects;
 mod backend;

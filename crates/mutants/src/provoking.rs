@@ -18,8 +18,8 @@ fn is_clipped(draw: &Draw) -> bool {
 
 bugs! {
     class "provoking", "cull";
-    let values = ProvokingVertex::ALL;
-    for vertex in values {
+    let conventions = ProvokingVertex::ALL;
+    for vertex in conventions {
         "always-the-{vertex}: The {vertex} vertex provokes, whatever is asked for." =>
             draws(|draw| draw.provoking = Some(*vertex)), when |draw| draw.provoking.is_some();
     }

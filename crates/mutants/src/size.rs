@@ -119,12 +119,14 @@ bugs! {
         from_draw(|before, draw| {
             if let (Some(before), Some(depth)) = (before.depth, &mut draw.depth)
                 && let (Some(a), Some(b)) = (nearer(before.compare), nearer(depth.compare)) && a != b
-            { depth.compare = before.compare; }
+            {
+                depth.compare = before.compare;
+            }
         });
     "not-equal-as-less: Bounds kept for smaller depths reject what is not equal." =>
         tests(|draw| {
-            if let Some(depth) = &mut draw.depth && depth.compare == CompareFunction::NotEqual
-            { depth.compare = CompareFunction::Less; }
+            let tests = draw.depth.iter_mut().filter(|d| d.compare == CompareFunction::NotEqual);
+            tests.for_each(|depth| depth.compare = CompareFunction::Less);
         });
     "single-texels-unwritten: A draw of points does not write their depths." =>
         tests(|draw| {

@@ -129,8 +129,7 @@ bugs! {
             let below = |[x, y, w, h]: [u32; 4]| [x, 16_u32.saturating_sub(y + h), w, h];
             command.rect = command.rect.map(below);
         }), source "OpenGL under another API: y from below";
-    let values = ["first", "second"].into_iter().enumerate();
-    for (number, word) in values {
+    for (number, word) in [(0, "first"), (1, "second")] {
         "{word}-clear-command-skipped: The {word} clear command of a pass is skipped." =>
             without(move |_, before, _| before.len() != number);
     }

@@ -102,7 +102,9 @@ bugs! {
         scene(|scene| {
             if let [first, second, ..] = &mut scene.passes[..]
                 && first.color == second.color && first.depth_stencil == second.depth_stencil
-            { std::mem::swap(&mut first.draws, &mut second.draws); }
+            {
+                std::mem::swap(&mut first.draws, &mut second.draws);
+            }
         });
     "equal-state-draw-skipped-in-the-next-pass: A draw like the last one before is skipped." =>
         after(|before, pass| {

@@ -80,8 +80,7 @@ bugs! {
     }
     "both-cleared-as-depth: A clear of depth and stencil clears depth alone." =>
         commands(|c, _| {
-            if let ClearTarget::DepthStencil { depth: Some(_), stencil, .. } = &mut c.target
-            { *stencil = None; }
+            if let ClearTarget::DepthStencil { depth: Some(_), stencil, .. } = &mut c.target { *stencil = None; }
         });
     "clear-depth-to-an-end: Depth is cleared to the nearer end of its range." =>
         commands(|c, _| {
@@ -96,7 +95,9 @@ bugs! {
             for operations in &mut pass.operations.color {
                 if let (Some(Contents::Color(first)), LoadOperation::Clear(value)) =
                     (first, operations.load) && *first == value
-                { operations.load = LoadOperation::Load; }
+                {
+                    operations.load = LoadOperation::Load;
+                }
             }
         });
     "load-clear-skipped: A clear on load of colour does nothing." => large(|pass, _, _| load(pass, Aspect::Color));
@@ -114,8 +115,8 @@ bugs! {
                 }
             }
         });
-    let values = ["load-clears-both", "load-clears-depth-with-stencil"].into_iter().zip(BOTH);
-    for (name, (cleared, other, value)) in values {
+    let named = ["load-clears-both", "load-clears-depth-with-stencil"].into_iter().zip(BOTH);
+    for (name, (cleared, other, value)) in named {
         let (a, b) = (cleared.name(), other.name());
         "{name}: A load operation that clears {a} alone clears {b} to {value}." =>
             large(move |pass, _, _| if is_cleared(pass, cleared) && !is_cleared(pass, other) { clear(pass, other) });
