@@ -20,33 +20,30 @@ pub(super) fn word(aspect: Aspect) -> &'static str {
     }
 }
 
-/// Returns the operations of all colour attachments.
-fn color_operations(pass: &mut Pass) -> &mut [Operations<[f32; 4]>] {
+/// Changes the operations of all colour attachments.
+fn each_color(pass: &mut Pass, change: impl FnMut(&mut Operations<[f32; 4]>)) {
     let operations = &mut pass.operations.color;
     operations.resize_with(pass.color.len(), Default::default);
-    operations
+    operations.iter_mut().for_each(change);
+}
+
+fn clears<T: PartialEq>(operations: &Operations<T>) -> bool {
+    operations.load != LoadOperation::Load
 }
 
 /// True if a pass begins with a clear.
 pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
-    let operations = &pass.operations;
     match aspect {
-        Aspect::Color => operations
-            .color
-            .iter()
-            .any(|o| o.load != LoadOperation::Load),
-        Aspect::Depth => operations.depth.load != LoadOperation::Load,
-        Aspect::Stencil => operations.stencil.load != LoadOperation::Load,
+        Aspect::Color => pass.operations.color.iter().any(clears),
+        Aspect::Depth => clears(&pass.operations.depth),
+        Aspect::Stencil => clears(&pass.operations.stencil),
     }
 }
 
 /// Lets a pass begin with a clear: to 0, or to a depth of 1.
 pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
     match aspect {
-        Aspect::Color => {
-            let operations = color_operations(pass).iter_mut();
-            operations.for_each(|o| o.load = LoadOperation::Clear([0.0; 4]));
-        }
+        Aspect::Color => each_color(pass, |o| o.load = LoadOperation::Clear([0.0; 4])),
         _ if pass.depth_stencil_read_only => {}
         Aspect::Depth => pass.operations.depth.load = LoadOperation::Clear(1.0),
         Aspect::Stencil => pass.operations.stencil.load = LoadOperation::Clear(0),
@@ -56,35 +53,29 @@ pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
 /// Lets a pass begin with what an aspect holds, and keep depth or stencil at its end.
 pub(super) fn load(pass: &mut Pass, aspect: Aspect) {
     match aspect {
-        Aspect::Color => {
-            let operations = color_operations(pass).iter_mut();
-            operations.for_each(|o| o.load = LoadOperation::Load);
-        }
+        Aspect::Color => each_color(pass, |o| o.load = LoadOperation::Load),
         Aspect::Depth => pass.operations.depth = Operations::default(),
         Aspect::Stencil => pass.operations.stencil = Operations::default(),
     }
 }
 
+fn discards<T>(operations: &Operations<T>) -> bool {
+    operations.store == StoreOperation::Discard
+}
+
 /// True if a pass ends with a discard.
 pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
-    let operations = &pass.operations;
     match aspect {
-        Aspect::Color => operations
-            .color
-            .iter()
-            .any(|o| o.store == StoreOperation::Discard),
-        Aspect::Depth => operations.depth.store == StoreOperation::Discard,
-        Aspect::Stencil => operations.stencil.store == StoreOperation::Discard,
+        Aspect::Color => pass.operations.color.iter().any(discards),
+        Aspect::Depth => discards(&pass.operations.depth),
+        Aspect::Stencil => discards(&pass.operations.stencil),
     }
 }
 
 /// Lets a pass end with a discard.
 pub(super) fn discard(pass: &mut Pass, aspect: Aspect) {
     match aspect {
-        Aspect::Color => {
-            let operations = color_operations(pass).iter_mut();
-            operations.for_each(|o| o.store = StoreOperation::Discard);
-        }
+        Aspect::Color => each_color(pass, |o| o.store = StoreOperation::Discard),
         _ if pass.depth_stencil.is_none() || pass.depth_stencil_read_only => {}
         Aspect::Depth => pass.operations.depth.store = StoreOperation::Discard,
         Aspect::Stencil => pass.operations.stencil.store = StoreOperation::Discard,

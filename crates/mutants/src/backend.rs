@@ -1,9 +1,10 @@
 //! The rasterizer with one bug in it.
 
 use super::mutant::Mutant;
-use super::plant::Plant;
+use super::plant::{Plant, all_draws};
 use crate::mutants;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_cpu::steps::Faithful;
 use etalon_cpu::{CpuBackend, PreparedScene};
 use etalon_frame::{Frame, Limits};
 use etalon_scene::{RESTART, Scene};
@@ -31,14 +32,11 @@ impl MutantBackend {
 
     /// Returns the scene that the bug turns a scene into.
     fn believed(&self, scene: &Scene) -> Scene {
+        let before = self.before.replace(Some(scene.clone()));
         let mut believed = scene.clone();
         match &self.mutant.plant {
-            Plant::Scene(bug) | Plant::Again(_, bug) => bug(&mut believed),
-            Plant::Sticky(bug) => {
-                if let Some(before) = &*self.before.borrow() {
-                    bug(before, &mut believed);
-                }
-            }
+            Plant::Scene(bug) | Plant::Again(_, bug) => bug(before.as_ref(), &mut believed),
+            Plant::Draws(bug) => all_draws(&mut believed).for_each(bug),
             Plant::Steps(_) | Plant::Memory(_) | Plant::Frame(_) => return believed,
         }
         keep_possible(scene, &mut believed);
@@ -80,9 +78,6 @@ impl Backend for MutantBackend {
             return Err(BackendError::NotSupported(missing));
         }
         let believed = self.believed(scene);
-        if matches!(self.mutant.plant, Plant::Sticky(_)) {
-            *self.before.borrow_mut() = Some(scene.clone());
-        }
         Ok(match &self.mutant.plant {
             Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
             Plant::Memory(bug) => Box::new(PreparedScene::new(believed, bug())),
@@ -92,14 +87,12 @@ impl Backend for MutantBackend {
                 bug,
             }),
             Plant::Again(from, _) => Box::new(PreparedAgain {
-                right: PreparedScene::new(scene.clone(), etalon_cpu::steps::Faithful),
-                wrong: PreparedScene::new(believed, etalon_cpu::steps::Faithful),
+                right: PreparedScene::new(scene.clone(), Faithful),
+                wrong: PreparedScene::new(believed, Faithful),
                 from: *from,
                 submissions: 0,
             }),
-            Plant::Scene(_) | Plant::Sticky(_) => {
-                Box::new(PreparedScene::new(believed, etalon_cpu::steps::Faithful))
-            }
+            Plant::Scene(_) | Plant::Draws(_) => Box::new(PreparedScene::new(believed, Faithful)),
         })
     }
 }

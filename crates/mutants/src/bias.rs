@@ -2,79 +2,11 @@
 
 use crate::fields::DEPTH_BIAS;
 use crate::hooks::{bias, bias_unit, biases_lines};
-use crate::list::{CONFUSION, List};
-use crate::plant::Plant;
+use crate::list::{CONFUSION, bugs};
+use crate::plant::{Plant, each, set};
 use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_scene::{DepthBias, PolygonMode};
-
-pub(super) fn add(list: &mut List) {
-    list.class("bias", "depth");
-    fields(list);
-    biases(list);
-    units(list);
-    constants(list);
-}
-
-fn fields(list: &mut List) {
-    list.source("dEQP sees none of 28; wgpu: arguments swapped");
-    for (name, about, factor) in [
-        ("doubled", "counts twice", 2.0),
-        ("halved", "counts half", 0.5),
-        ("negated", "changes its sign", -1.0),
-        ("ignored", "counts nothing", 0.0),
-    ] {
-        list.bug(format!("constant-{name}: The constant {about}."))
-            .each(DEPTH_BIAS, move |b| {
-                b.constant = (f64::from(b.constant) * factor) as i32
-            });
-        list.bug(format!("slope-{name}: The slope {about}."))
-            .each(DEPTH_BIAS, move |b| b.slope *= factor as f32);
-    }
-    list.bug("clamp-negated: The clamp changes its sign.")
-        .each(DEPTH_BIAS, |b| b.clamp = -b.clamp);
-    list.bug("clamp-ignored: The bias is not clamped.")
-        .each(DEPTH_BIAS, |b| b.clamp = 0.0);
-    list.bug("constant-and-slope-swapped: Constant and slope are exchanged.")
-        .each(DEPTH_BIAS, |b| {
-            (b.constant, b.slope) = (b.slope as i32, b.constant as f32)
-        });
-    list.bug("clamp-and-slope-swapped: Clamp and slope are exchanged.")
-        .each(DEPTH_BIAS, |b| (b.clamp, b.slope) = (b.slope, b.clamp));
-    list.bug("ignored: There is no bias.")
-        .set(DEPTH_BIAS, DepthBias::default());
-    list.source(CONFUSION);
-    list.bug("lost-on-outlines: Polygons of which only the edges are drawn are not biased.")
-        .when(|draw| draw.polygon_mode == PolygonMode::Line)
-        .set(DEPTH_BIAS, DepthBias::default());
-}
-
-fn biases(list: &mut List) {
-    list.bug("clamp-on-both-sides: The clamp's magnitude holds biases of either sign.")
-        .plant(bias(|state, unit, slope| {
-            let sum = f64::from(state.constant) * unit + f64::from(state.slope) * slope;
-            let most = f64::from(state.clamp.abs());
-            if most > 0.0 {
-                sum.clamp(-most, most)
-            } else {
-                sum
-            }
-        }));
-    list.bug("negative-lost: Biases below 0 count nothing.")
-        .plant(bias(|state, unit, slope| {
-            Faithful.bias(state, unit, slope).max(0.0)
-        }));
-    list.bug("sign-lost: Biases below 0 count upwards.")
-        .plant(bias(|state, unit, slope| {
-            Faithful.bias(state, unit, slope).abs()
-        }));
-    list.bug(
-        "constant-in-whole-depths: The constant counts in the depth's range, not in its steps.",
-    )
-    .plant(bias(|state, _, slope| Faithful.bias(state, 1.0, slope)));
-    list.bug("applied-to-lines: Points and lines are biased as polygons are.")
-        .plant(biases_lines(|| true));
-}
 
 /// Changes the step of one encoding, given the right one and the largest depth of a primitive.
 fn step(encoding: ChannelEncoding, bug: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Plant {
@@ -92,67 +24,6 @@ fn step(encoding: ChannelEncoding, bug: impl Fn(f64, f64) -> f64 + Send + Sync +
 const STEP: &str =
     "Vulkan: Depth Bias: r is one for the attachment and at most 2 * 2^-n for fixed point";
 
-fn units(list: &mut List) {
-    for (bits, others) in [(16, [15, 14, 17, 24].as_slice()), (24, &[23, 16, 25])] {
-        for other in others.iter().copied() {
-            let factor = 2_f64.powi(bits - other);
-            let text = format!(
-                "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}."
-            );
-            let mut mutant = list.bug(text).source("v3d: D16 units");
-            if factor == 2.0 {
-                mutant = mutant.legal(STEP);
-            }
-            mutant.plant(step(Unorm(bits as u8), move |r, _| r * factor));
-        }
-    }
-    list.source("SwiftShader: bias unscaled by exponent");
-    for (name, about, exponent) in [
-        ("24-bits", "that of 24 bits", -24),
-        ("1", "that of depth 1", -23),
-        ("16-bits", "that of 16 bits", -16),
-    ] {
-        list.bug(format!(
-            "float-step-of-{name}: On float depth, a step is {about}."
-        ))
-        .plant(step(Float32, move |_, _| 2_f64.powi(exponent)));
-    }
-    for (name, about, factor) in [
-        ("halved", "half as large", 0.5),
-        ("doubled", "twice as large", 2.0),
-        ("quartered", "a quarter as large", 0.25),
-        ("of-3-quarters", "three quarters as large", 0.75),
-        ("1-percent-less", "a hundredth smaller", 0.99),
-    ] {
-        list.bug(format!(
-            "float-step-{name}: On float depth, a step is {about}."
-        ))
-        .plant(step(Float32, move |r, _| r * factor));
-    }
-    // The text allows these steps one by one, but not beside each other in one attachment.
-    type Uneven = (&'static str, &'static str, fn(f64) -> f64);
-    let uneven: [Uneven; 3] = [
-        ("far-doubled", "twice as large beyond depth 0.5", |z| {
-            if z > 0.5 { 2.0 } else { 1.0 }
-        }),
-        ("near-doubled", "twice as large up to depth 0.5", |z| {
-            if z > 0.5 { 1.0 } else { 2.0 }
-        }),
-        ("growing", "larger with the depth, up to twice", |z| {
-            1.0 + z.clamp(0.0, 1.0)
-        }),
-    ];
-    for bits in [16, 24] {
-        for (name, about, factor) in uneven {
-            list.bug(format!(
-                "d{bits}-step-{name}: On fixed-point depth of {bits} bits, a step is {about}."
-            ))
-            .source("a step of floats on fixed-point depth")
-            .plant(step(Unorm(bits), move |r, largest| r * factor(largest)));
-        }
-    }
-}
-
 /// Changes the constant where nothing is clamped.
 fn constant(bug: fn(i32) -> f64) -> Plant {
     bias(move |state, unit, slope| {
@@ -167,18 +38,85 @@ fn constant(bug: fn(i32) -> f64) -> Plant {
     })
 }
 
-fn constants(list: &mut List) {
-    list.source(CONFUSION);
-    list.bug("large-constant-grows: Of a constant, what is above 8192 counts half more.")
-        .plant(constant(|c| {
+bugs! {
+    class "bias", "depth";
+    source "dEQP sees none of 28; wgpu: arguments swapped";
+    for (name, about, factor) in [
+        ("doubled", "counts twice", 2.0),
+        ("halved", "counts half", 0.5),
+        ("negated", "changes its sign", -1.0),
+        ("ignored", "counts nothing", 0.0),
+    ] {
+        "constant-{name}: The constant {about}." =>
+            each(DEPTH_BIAS, move |b| b.constant = (f64::from(b.constant) * factor) as i32);
+        "slope-{name}: The slope {about}." => each(DEPTH_BIAS, move |b| b.slope *= factor as f32);
+    }
+    "clamp-negated: The clamp changes its sign." => each(DEPTH_BIAS, |b| b.clamp = -b.clamp);
+    "clamp-ignored: The bias is not clamped." => each(DEPTH_BIAS, |b| b.clamp = 0.0);
+    "constant-and-slope-swapped: Constant and slope are exchanged." =>
+        each(DEPTH_BIAS, |b| (b.constant, b.slope) = (b.slope as i32, b.constant as f32));
+    "clamp-and-slope-swapped: Clamp and slope are exchanged." =>
+        each(DEPTH_BIAS, |b| (b.clamp, b.slope) = (b.slope, b.clamp));
+    "ignored: There is no bias." => set(DEPTH_BIAS, DepthBias::default());
+    source CONFUSION;
+    "lost-on-outlines: Polygons of which only the edges are drawn are not biased." =>
+        set(DEPTH_BIAS, DepthBias::default()), when |draw| draw.polygon_mode == PolygonMode::Line;
+    "clamp-on-both-sides: The clamp's magnitude holds biases of either sign." =>
+        bias(|state, unit, slope| {
+            let sum = f64::from(state.constant) * unit + f64::from(state.slope) * slope;
+            let most = f64::from(state.clamp.abs());
+            if most > 0.0 { sum.clamp(-most, most) } else { sum }
+        });
+    "negative-lost: Biases below 0 count nothing." =>
+        bias(|state, unit, slope| Faithful.bias(state, unit, slope).max(0.0));
+    "sign-lost: Biases below 0 count upwards." => bias(|state, unit, slope| Faithful.bias(state, unit, slope).abs());
+    "constant-in-whole-depths: The constant counts in the depth's range, not in its steps." =>
+        bias(|state, _, slope| Faithful.bias(state, 1.0, slope));
+    "applied-to-lines: Points and lines are biased as polygons are." => biases_lines(|| true);
+    source "v3d: D16 units";
+    for (bits, other) in [(16, 15), (24, 23)] {
+        "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}." =>
+            step(Unorm(bits), |r, _| r * 2.0), legal STEP;
+    }
+    for (bits, other) in [(16, 14), (16, 17), (16, 24), (24, 16), (24, 25)] {
+        "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}." =>
+            step(Unorm(bits), move |r, _| r * 2_f64.powi(i32::from(bits) - other));
+    }
+    source "SwiftShader: bias unscaled by exponent";
+    for (name, about, exponent) in [
+        ("24-bits", "that of 24 bits", -24), ("1", "that of depth 1", -23), ("16-bits", "that of 16 bits", -16),
+    ] {
+        "float-step-of-{name}: On float depth, a step is {about}." => step(Float32, move |_, _| 2_f64.powi(exponent));
+    }
+    for (name, about, factor) in [
+        ("halved", "half as large", 0.5), ("doubled", "twice as large", 2.0), ("quartered", "a quarter as large", 0.25),
+        ("of-3-quarters", "three quarters as large", 0.75), ("1-percent-less", "a hundredth smaller", 0.99),
+    ] {
+        "float-step-{name}: On float depth, a step is {about}." => step(Float32, move |r, _| r * factor);
+    }
+    // The text allows these steps one by one, but not beside each other in one attachment.
+    source "a step of floats on fixed-point depth";
+    for (name, about, factor as fn(f64) -> f64) in [
+        ("far-doubled", "twice as large beyond depth 0.5", |z| if z > 0.5 { 2.0 } else { 1.0 }),
+        ("near-doubled", "twice as large up to depth 0.5", |z| if z > 0.5 { 1.0 } else { 2.0 }),
+        ("growing", "larger with the depth, up to twice", |z| 1.0 + z.clamp(0.0, 1.0)),
+    ] {
+        for bits in [16, 24] {
+            "d{bits}-step-{name}: On fixed-point depth of {bits} bits, a step is {about}." =>
+                step(Unorm(bits), move |r, largest| r * factor(largest));
+        }
+    }
+    source CONFUSION;
+    "large-constant-grows: Of a constant, what is above 8192 counts half more." =>
+        constant(|c| {
             let above = f64::from((c.abs() - 8192).max(0));
             f64::from(c) + above * 0.5 * f64::from(c.signum())
-        }));
-    list.bug("negative-constant-grows: Constants below 0 count half more.")
-        .plant(constant(|c| f64::from(c) * if c < 0 { 1.5 } else { 1.0 }));
-    list.bug("constant-of-2-digits: A constant keeps two digits and grows by 4 percent.")
-        .plant(constant(|c| {
+        });
+    "negative-constant-grows: Constants below 0 count half more." =>
+        constant(|c| f64::from(c) * if c < 0 { 1.5 } else { 1.0 });
+    "constant-of-2-digits: A constant keeps two digits and grows by 4 percent." =>
+        constant(|c| {
             let size = 10_f64.powi((c.unsigned_abs().max(10).ilog10() as i32 - 1).max(0));
             (f64::from(c) / size * 1.04).round() * size
-        }));
+        });
 }

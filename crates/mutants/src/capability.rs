@@ -1,6 +1,6 @@
 //! Bugs of one format or of one number of samples, which no other format or number shows.
 
-use crate::list::List;
+use crate::list::bugs;
 use crate::plant::{Plant, contents, images_of};
 use etalon_frame::{Image, TextureFormat};
 use etalon_scene::{Attachment, Contents};
@@ -31,26 +31,18 @@ fn repeated(image: &mut Image) {
     }
 }
 
-pub(super) fn add(list: &mut List) {
-    list.class("capability", "capabilities");
-    for format in TextureFormat::ALL {
-        list.bug(format!(
-            "{format}-not-cleared: Attachments of {format} start from 0."
-        ))
-        .plant(uncleared(move |a| a.format == format));
-        list.bug(format!(
-            "{format}-read-one-texel-on: Texels of {format} are read one texel on."
-        ))
-        .plant(images_of(move |a| a.format == format, one_on));
+bugs! {
+    class "capability", "capabilities";
+    let formats = TextureFormat::ALL;
+    for format in formats {
+        "{format}-not-cleared: Attachments of {format} start from 0." => uncleared(move |a| a.format == format);
+        "{format}-read-one-texel-on: Texels of {format} are read one texel on." =>
+            images_of(move |a| a.format == format, one_on);
     }
     for count in [2, 4, 8, 16] {
-        list.bug(format!(
-            "{count}-samples-not-cleared: Attachments with {count} samples start from 0."
-        ))
-        .plant(uncleared(move |a| a.samples == count));
-        list.bug(format!(
-            "{count}-samples-second-reads-as-first: The second of {count} samples is read as the first."
-        ))
-        .plant(images_of(move |a| a.samples == count, repeated));
+        "{count}-samples-not-cleared: Attachments with {count} samples start from 0." =>
+            uncleared(move |a| a.samples == count);
+        "{count}-samples-second-reads-as-first: The second of {count} samples is read as the first." =>
+            images_of(move |a| a.samples == count, repeated);
     }
 }

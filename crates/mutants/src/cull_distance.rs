@@ -1,8 +1,8 @@
 //! Bugs of cull distances.
 
 use crate::fields::Places;
-use crate::list::List;
-use crate::plant::draws;
+use crate::list::bugs;
+use crate::plant::{draws, each};
 use etalon_scene::{Draw, PrimitiveTopology, Vertex};
 
 /// The vertices of draws that have cull distances.
@@ -23,24 +23,15 @@ fn cull_by_one(draw: &mut Draw) {
     }
 }
 
-pub(super) fn add(list: &mut List) {
-    list.class("cull-distance", "capabilities");
-    list.bug("ignored: Nothing is culled by distances.")
-        .each(VERTICES, |v| v.uv = [1.0; 2]);
-    list.bug("first-only: The second distance does not cull.")
-        .each(VERTICES, |v| v.uv[1] = 1.0);
-    list.bug("zero-is-outside: A distance of 0 is negative.")
-        .each(VERTICES, |v| {
-            v.uv = v.uv.map(|c| if c == 0.0 { -1.0 } else { c });
-        });
-    list.bug("small-is-zero: Distances near 0 are 0.")
-        .each(VERTICES, |v| {
-            v.uv = v.uv.map(|c| if c.abs() < 1e-6 { 0.0 } else { c });
-        });
-    list.bug(
-        "all-together: A primitive is culled if each of its vertices has a negative distance.",
-    )
-    .each(VERTICES, |v| v.uv = [v.uv[0].min(v.uv[1]); 2]);
-    list.bug("one-is-enough: A triangle is culled by one vertex.")
-        .plant(draws(cull_by_one));
+bugs! {
+    class "cull-distance", "capabilities";
+    "ignored: Nothing is culled by distances." => each(VERTICES, |v| v.uv = [1.0; 2]);
+    "first-only: The second distance does not cull." => each(VERTICES, |v| v.uv[1] = 1.0);
+    "zero-is-outside: A distance of 0 is negative." =>
+        each(VERTICES, |v| v.uv = v.uv.map(|c| if c == 0.0 { -1.0 } else { c }));
+    "small-is-zero: Distances near 0 are 0." =>
+        each(VERTICES, |v| v.uv = v.uv.map(|c| if c.abs() < 1e-6 { 0.0 } else { c }));
+    "all-together: A primitive is culled if each of its vertices has a negative distance." =>
+        each(VERTICES, |v| v.uv = [v.uv[0].min(v.uv[1]); 2]);
+    "one-is-enough: A triangle is culled by one vertex." => draws(cull_by_one);
 }

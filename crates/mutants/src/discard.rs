@@ -1,28 +1,16 @@
 //! Bugs of discarding fragments.
 
 use crate::hooks::kept;
-use crate::list::{CONFUSION, List};
-use crate::plant::Plant;
+use crate::list::bugs;
 
-pub(super) fn add(list: &mut List) {
-    list.class("discard", "texture");
-    type Keeps = fn(f32, f32) -> bool;
-
-    fn plant(bug: Keeps) -> Plant {
-        kept(bug)
-    }
-    list.source("a wrong discard condition");
-    list.bug("discard-off: No fragment is discarded.")
-        .plant(plant(|_, _| true));
-    list.bug("discard-at-threshold: A fragment whose alpha is the threshold is discarded.")
-        .plant(plant(|value, limit| value > limit));
-    list.bug("discard-inverted: Fragments are discarded from the threshold on.")
-        .plant(plant(|value, limit| value < limit));
-    list.bug("discard-in-8-bits: Alpha and threshold are compared as 8-bit codes.")
-        .plant(plant(|value, limit| {
-            (value * 255.0).round() >= (limit * 255.0).round()
-        }));
-    list.bug("discard-one-code-late: The threshold lies one 8-bit code too low.")
-        .plant(plant(|value, limit| value >= limit - 1.0 / 255.0));
-    list.source(CONFUSION);
+bugs! {
+    class "discard", "texture";
+    source "a wrong discard condition";
+    "discard-off: No fragment is discarded." => kept(|_, _| true);
+    "discard-at-threshold: A fragment whose alpha is the threshold is discarded." => kept(|value, limit| value > limit);
+    "discard-inverted: Fragments are discarded from the threshold on." => kept(|value, limit| value < limit);
+    "discard-in-8-bits: Alpha and threshold are compared as 8-bit codes." =>
+        kept(|value, limit| (value * 255.0).round() >= (limit * 255.0).round());
+    "discard-one-code-late: The threshold lies one 8-bit code too low." =>
+        kept(|value, limit| value >= limit - 1.0 / 255.0);
 }

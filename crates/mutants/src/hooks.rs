@@ -11,104 +11,190 @@ use etalon_scene::{
     AdvancedBlend, BlendState, CompareFunction, DepthBias, Interpolation, InterpolationSampling,
     LogicOperation, Multisample, Shader, StencilFace,
 };
+use std::array::from_fn;
 
 /// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
-/// function returns anything made from hooks, so that this file does not depend on `plant`.
+/// function returns anything made from hooks, so that this file does not depend on `plant`. A replacement
+/// has the arguments of its step, or works on single texels.
 macro_rules! hooks {
-    ($($(#[$doc:meta])* $name:ident($($argument:ty),*) -> $result:ty;)+) => {
+    (
+        whole { $($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)+ }
+        texels { $(
+            $(#[$texel_doc:meta])* $texel:ident($($texel_type:ty),*) -> $texel_result:ty:
+            $step:ident($($step_argument:ident: $step_type:ty),*) -> $step_result:ty = |$bug:ident| $replaced:expr;
+        )+ }
+    ) => {
         /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
         #[derive(Default)]
         pub(super) struct Hooks {
-            $($name: Option<Box<dyn Fn($($argument),*) -> $result + Send + Sync>>,)+
+            $($name: Option<Box<dyn Fn($($type),*) -> $result + Send + Sync>>,)+
+            $($texel: Option<Box<dyn Fn($($texel_type),*) -> $texel_result + Send + Sync>>,)+
         }
 
-        $($(#[$doc])*
+        $(hooks! { $(#[$doc])* $name($($type),*) -> $result })+
+        $(hooks! { $(#[$texel_doc])* $texel($($texel_type),*) -> $texel_result })+
+
+        impl Steps for &Hooks {
+            $(fn $name(&self, $($argument: $type),*) -> $result {
+                match &self.$name {
+                    None => Faithful.$name($($argument),*),
+                    Some(bug) => bug($($argument),*),
+                }
+            })+
+            $(fn $step(&self, $($step_argument: $step_type),*) -> $step_result {
+                match &self.$texel {
+                    None => Faithful.$step($($step_argument),*),
+                    Some($bug) => $replaced,
+                }
+            })+
+        }
+    };
+    ($(#[$doc:meta])* $name:ident($($type:ty),*) -> $result:ty) => {
+        $(#[$doc])*
         pub(super) fn $name<P: From<Hooks>>(
-            bug: impl Fn($($argument),*) -> $result + Send + Sync + 'static,
+            bug: impl Fn($($type),*) -> $result + Send + Sync + 'static,
         ) -> P {
-            P::from(Hooks {
-                $name: Some(Box::new(bug)),
-                ..Hooks::default()
-            })
-        })+
+            P::from(Hooks { $name: Some(Box::new(bug)), ..Hooks::default() })
+        }
     };
 }
 
 hooks! {
-    /// Coverage, restricted to texels of which `bug([x, y], [width, height])` is true.
-    covered([u32; 2], [u32; 2]) -> bool;
-    /// Texels are fetched from `bug([x, y], [width, height])`.
-    fetch([u32; 2], [u32; 2]) -> [u32; 2];
-    /// The stencil reference of a fragment whose shader writes one.
-    exported(&Exported) -> u8;
-    /// The stencil test.
-    stencil_passes(&StencilFace, u8) -> bool;
-    /// The stencil update, write mask and all.
-    stencil_write(&StencilFace, Path, u8) -> u8;
-    /// The conversion of depths in 0..1.
-    depth_code(ChannelEncoding, f32) -> u32;
-    /// The depth comparison of codes, incoming first.
-    depth_passes(CompareFunction, u32, u32) -> bool;
-    /// Returns which of colour and depth are written, given whether a texel is covered, passes the
-    /// stencil test and passes the depth test.
-    written([bool; 3]) -> [bool; 2];
-    /// Blending.
-    blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4];
-    /// Advanced blending of source and destination.
-    advanced_blending(AdvancedBlend, [ChannelEncoding; 4], [[f32; 4]; 2]) -> [f32; 4];
-    /// The conversion of colours at the store.
-    color_code(ChannelEncoding, f32) -> u32;
-    /// The conversion of clear values, colour and depth.
-    clear_code(ChannelEncoding, f32) -> u32;
-    /// The conversion of stored colours to blend operands.
-    color_value(ChannelEncoding, u32) -> f32;
-    /// The destination alpha of formats without alpha.
-    missing_alpha(&BlendState) -> f32;
-    /// The second source after alpha to one.
-    second_source(&Multisample, [f32; 4]) -> [f32; 4];
-    /// Logic operations, given whether they apply to the attachment, and the codes of source and
-    /// destination.
-    logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32;
-    /// The least step of a depth bias, given the largest depth of a primitive.
-    bias_unit(ChannelEncoding, f64) -> f64;
-    /// The depth bias, given the least step and the slope.
-    bias(&DepthBias, f64, f64) -> f64;
-    /// True if points and lines are biased.
-    biases_lines() -> bool;
-    /// True if points and lines face front.
-    lines_face_front() -> bool;
-    /// The clamping of a depth to the viewport's range.
-    held_to_range(f32, [f32; 2]) -> f32;
-    /// The depth bounds test, given the bounds, the stored and the incoming depth.
-    in_bounds([f32; 2], f32, f32) -> bool;
-    /// True if fragments outside the depth bounds count as failing the depth test.
-    bounds_fail_as_depth() -> bool;
-    /// The positions of samples, in 1/256 texel.
-    sample_positions(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-    /// True if a fragment's alpha covers a sample, given its index and the number of samples.
-    alpha_covers(f32, usize, usize) -> bool;
-    /// True if a sample is drawn, given its index and the number of samples.
-    sample_drawn(&Multisample, usize, usize) -> bool;
-    /// The number of runs of a shader that share a texel, given the number of samples.
-    shader_runs(Shader, &Multisample, usize) -> usize;
-    /// The sample at whose position a run takes its inputs, given its first sample and the number of
-    /// samples; `None` for the centre.
-    shaded_at(&Multisample, usize, usize) -> Option<usize>;
-    /// The sample whose stored value a sample's test or blend reads.
-    stored_sample(Aspect, usize) -> usize;
-    /// The sample at whose position a sample's depth is taken, given the number of samples.
-    depth_sample(usize, usize) -> usize;
-    /// True if a shader keeps a fragment, given the value and its limit.
-    kept(f32, f32) -> bool;
-    /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
-    /// index and the number of samples.
-    mask_keeps(u32, usize, usize) -> bool;
-    /// True if a bit of the sample mask that a shader reads is set.
-    input_bit(&InputBit) -> bool;
-    /// The interpolation of a shader's texture coordinates, and the points at which they are taken.
-    interpolation(Shader) -> (Interpolation, InterpolationSampling);
-    /// A channel of a resolved texel.
-    resolve(ChannelEncoding, &[u32]) -> u32;
+    whole {
+        /// The stencil reference of a fragment whose shader writes one.
+        exported(of: &Exported) -> u8;
+        /// True if a bit of the sample mask that a shader reads is set.
+        input_bit(of: &InputBit) -> bool;
+        /// The stencil test.
+        stencil_passes(face: &StencilFace, stored: u8) -> bool;
+        /// The stencil update, write mask and all.
+        stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
+        /// The depth comparison of codes, incoming first.
+        depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
+        /// The conversion of clear values, colour and depth.
+        clear_code(encoding: ChannelEncoding, value: f32) -> u32;
+        /// The destination alpha of formats without alpha.
+        missing_alpha(state: &BlendState) -> f32;
+        /// The least step of a depth bias, given the largest depth of a primitive.
+        bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
+        /// The depth bias, given the least step and the slope.
+        bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
+        /// True if points and lines are biased.
+        biases_lines() -> bool;
+        /// True if points and lines face front.
+        lines_face_front() -> bool;
+        /// The clamping of a depth to the viewport's range.
+        held_to_range(depth: f32, range: [f32; 2]) -> f32;
+        /// The depth bounds test, given the bounds, the stored and the incoming depth.
+        in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
+        /// True if fragments outside the depth bounds count as failing the depth test.
+        bounds_fail_as_depth() -> bool;
+        /// The positions of samples, in 1/256 texel.
+        sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
+        /// True if a sample is drawn, given its index and the number of samples.
+        sample_drawn(state: &Multisample, sample: usize, samples: usize) -> bool;
+        /// The sample at whose position a run takes its inputs, given its first sample and the number of
+        /// samples; `None` for the centre.
+        shaded_at(state: &Multisample, first: usize, samples: usize) -> Option<usize>;
+        /// The sample whose stored value a sample's test or blend reads.
+        stored_sample(aspect: Aspect, sample: usize) -> usize;
+        /// The sample at whose position a sample's depth is taken, given the number of samples.
+        depth_sample(sample: usize, samples: usize) -> usize;
+        /// The interpolation of a shader's texture coordinates, and the points at which they are taken.
+        interpolation(shader: Shader) -> (Interpolation, InterpolationSampling);
+        /// A channel of a resolved texel.
+        resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
+    }
+    texels {
+        /// Coverage, restricted to texels of which `bug([x, y], [width, height])` is true.
+        covered([u32; 2], [u32; 2]) -> bool:
+        covered(x: usize, y: usize, size: [u32; 2], mask: Mask) -> Mask =
+            |bug| from_fn(|i| mask[i] && bug([(x + i) as u32, y as u32], size));
+
+        /// Texels are fetched from `bug([x, y], [width, height])`.
+        fetch([u32; 2], [u32; 2]) -> [u32; 2]:
+        fetch(surface: &Surface, x: usize, y: usize) -> [Real; 4] = |bug| {
+            let size = [surface.width as u32, surface.height as u32];
+            planes(from_fn(|i| {
+                let [x, y] = bug([(x + i) as u32, y as u32], size);
+                let (x, y) = (x.min(size[0] - 1) as usize, y.min(size[1] - 1) as usize);
+                Faithful.fetch(surface, x - x % LANES, y).map(|plane| plane[x % LANES])
+            }))
+        };
+
+        /// The conversion of depths in 0..1.
+        depth_code(ChannelEncoding, f32) -> u32:
+        depth_codes(encoding: ChannelEncoding, depth: Real) -> Codes =
+            |bug| depth.map(|v| bug(encoding, v.clamp(0.0, 1.0)));
+
+        /// Returns which of colour and depth are written, given whether a texel is covered, passes the
+        /// stencil test and passes the depth test.
+        written([bool; 3]) -> [bool; 2]:
+        written(tests: &Tests) -> WrittenTexels = |bug| {
+            let both: [_; LANES] = from_fn(|i| bug([tests.covered[i], tests.stencil[i], tests.depth[i]]));
+            WrittenTexels { color: both.map(|[color, _]| color), depth: both.map(|[_, depth]| depth) }
+        };
+
+        /// Blending.
+        blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4]:
+        blend(state: &BlendState, encodings: [ChannelEncoding; 4], input: &BlendInput<Real>) -> [Real; 4] =
+            |bug| planes(from_fn(|i| {
+                let single = |color: [Real; 4]| color.map(|plane| [plane[i]]);
+                let (src, src1, dst) = (single(input.src), single(input.src1), single(input.dst));
+                bug(state, encodings, &BlendInput { src, src1, dst, constant: single(input.constant) })
+            }));
+
+        /// Advanced blending of source and destination.
+        advanced_blending(AdvancedBlend, [ChannelEncoding; 4], [[f32; 4]; 2]) -> [f32; 4]:
+        advanced_blend(
+            mode: AdvancedBlend, encodings: [ChannelEncoding; 4], src: [Real; 4], dst: [Real; 4]
+        ) -> [Real; 4] =
+            |bug| planes(from_fn(|i| bug(mode, encodings, [src, dst].map(|color| color.map(|plane| plane[i])))));
+
+        /// The conversion of colours at the store.
+        color_code(ChannelEncoding, f32) -> u32:
+        color_codes(encoding: ChannelEncoding, value: Real) -> Codes = |bug| value.map(|v| bug(encoding, v));
+
+        /// The conversion of stored colours to blend operands.
+        color_value(ChannelEncoding, u32) -> f32:
+        color_value(encoding: ChannelEncoding, codes: Codes) -> Real = |bug| codes.map(|c| bug(encoding, c));
+
+        /// The second source after alpha to one.
+        second_source(&Multisample, [f32; 4]) -> [f32; 4]:
+        second_source(state: &Multisample, second: [Real; 4]) -> [Real; 4] =
+            |bug| planes(from_fn(|i| bug(state, second.map(|plane| plane[i]))));
+
+        /// Logic operations, given whether they apply to the attachment, and the codes of source and
+        /// destination.
+        logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32:
+        logic(
+            obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, src: Codes, dst: Codes
+        ) -> Codes = |bug| from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i]));
+
+        /// True if a fragment's alpha covers a sample, given its index and the number of samples.
+        alpha_covers(f32, usize, usize) -> bool:
+        alpha_covers(alpha: Real, sample: usize, samples: usize) -> Mask = |bug| alpha.map(|a| bug(a, sample, samples));
+
+        /// The number of runs of a shader that share a texel, given the number of samples.
+        shader_runs(Shader, &Multisample, usize) -> usize:
+        shader_runs(shader: Shader, state: &Multisample, samples: usize) -> usize =
+            |bug| bug(shader, state, samples).clamp(1, samples);
+
+        /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
+        /// index and the number of samples.
+        mask_keeps(u32, usize, usize) -> bool:
+        mask_keeps(mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask =
+            |bug| mask.bits.map(|bits| bug(mask.written(bits as u32), sample, samples));
+
+        /// True if a shader keeps a fragment, given the value and its limit.
+        kept(f32, f32) -> bool:
+        kept(kept: &Kept<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
+    }
+}
+
+/// Returns the planes of the colours of texels.
+fn planes(texels: [[f32; 4]; LANES]) -> [Real; 4] {
+    from_fn(|c| texels.map(|texel| texel[c]))
 }
 
 /// Returns the correct code of a value.
@@ -134,198 +220,4 @@ pub(super) fn faithful_advanced(
 ) -> [f32; 4] {
     let lanes = |color: [f32; 4]| color.map(|v| [v]);
     advanced_blend(&mut Plain::<1>, mode, encodings, lanes(src), lanes(dst)).map(|[v]| v)
-}
-
-/// Declares the steps that take what their replacement does.
-macro_rules! replaced {
-    ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty;)+) => {
-        $(fn $name(&self, $($argument: $type),*) -> $result {
-            match &self.$name {
-                None => Faithful.$name($($argument),*),
-                Some(bug) => bug($($argument),*),
-            }
-        })+
-    };
-}
-
-impl Steps for &Hooks {
-    replaced! {
-        exported(of: &Exported) -> u8;
-        input_bit(of: &InputBit) -> bool;
-        stencil_passes(face: &StencilFace, stored: u8) -> bool;
-        stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
-        depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
-        clear_code(encoding: ChannelEncoding, value: f32) -> u32;
-        missing_alpha(state: &BlendState) -> f32;
-        bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
-        bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
-        biases_lines() -> bool;
-        lines_face_front() -> bool;
-        held_to_range(depth: f32, range: [f32; 2]) -> f32;
-        in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
-        bounds_fail_as_depth() -> bool;
-        sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-        sample_drawn(state: &Multisample, sample: usize, samples: usize) -> bool;
-        shaded_at(state: &Multisample, first: usize, samples: usize) -> Option<usize>;
-        stored_sample(aspect: Aspect, sample: usize) -> usize;
-        depth_sample(sample: usize, samples: usize) -> usize;
-        interpolation(shader: Shader) -> (Interpolation, InterpolationSampling);
-        resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
-    }
-
-    fn covered(&self, x: usize, y: usize, size: [u32; 2], mask: Mask) -> Mask {
-        match &self.covered {
-            None => mask,
-            Some(bug) => std::array::from_fn(|i| mask[i] && bug([(x + i) as u32, y as u32], size)),
-        }
-    }
-
-    fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
-        let Some(bug) = &self.fetch else {
-            return Faithful.fetch(surface, x, y);
-        };
-        let size = [surface.width as u32, surface.height as u32];
-        let from: [usize; LANES] = std::array::from_fn(|i| {
-            let [x, y] = bug([(x + i) as u32, y as u32], size);
-            let (x, y) = (x.min(size[0] - 1), y.min(size[1] - 1));
-            y as usize * surface.stride + x as usize
-        });
-        std::array::from_fn(|c| match surface.encodings.get(c) {
-            Some(encoding) => {
-                let plane = surface.plane(c, 0);
-                Plain::<LANES>.decode(*encoding, from.map(|texel| plane[texel]))
-            }
-            None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
-        })
-    }
-
-    fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
-        match &self.depth_code {
-            None => Faithful.depth_codes(encoding, depth),
-            Some(bug) => depth.map(|v| bug(encoding, v.clamp(0.0, 1.0))),
-        }
-    }
-
-    fn written(&self, tests: &Tests) -> WrittenTexels {
-        let Some(bug) = &self.written else {
-            return Faithful.written(tests);
-        };
-        let both: [[bool; 2]; LANES] =
-            std::array::from_fn(|i| bug([tests.covered[i], tests.stencil[i], tests.depth[i]]));
-        WrittenTexels {
-            color: both.map(|[color, _]| color),
-            depth: both.map(|[_, depth]| depth),
-        }
-    }
-
-    fn blend(
-        &self,
-        state: &BlendState,
-        encodings: [ChannelEncoding; 4],
-        input: &BlendInput<Real>,
-    ) -> [Real; 4] {
-        let Some(bug) = &self.blending else {
-            return Faithful.blend(state, encodings, input);
-        };
-        let mut result = [[0.0; LANES]; 4];
-        for lane in 0..LANES {
-            let single = BlendInput {
-                src: input.src.map(|v| [v[lane]]),
-                src1: input.src1.map(|v| [v[lane]]),
-                dst: input.dst.map(|v| [v[lane]]),
-                constant: input.constant.map(|v| [v[lane]]),
-            };
-            for (c, value) in bug(state, encodings, &single).into_iter().enumerate() {
-                result[c][lane] = value;
-            }
-        }
-        result
-    }
-
-    fn advanced_blend(
-        &self,
-        mode: AdvancedBlend,
-        encodings: [ChannelEncoding; 4],
-        src: [Real; 4],
-        dst: [Real; 4],
-    ) -> [Real; 4] {
-        let Some(bug) = &self.advanced_blending else {
-            return Faithful.advanced_blend(mode, encodings, src, dst);
-        };
-        let lanes: [[f32; 4]; LANES] = std::array::from_fn(|lane| {
-            bug(
-                mode,
-                encodings,
-                [src, dst].map(|color| color.map(|v| v[lane])),
-            )
-        });
-        std::array::from_fn(|c| lanes.map(|texel| texel[c]))
-    }
-
-    fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
-        match &self.color_code {
-            None => Faithful.color_codes(encoding, value),
-            Some(bug) => value.map(|v| bug(encoding, v)),
-        }
-    }
-
-    fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
-        match &self.color_value {
-            None => Faithful.color_value(encoding, codes),
-            Some(bug) => codes.map(|c| bug(encoding, c)),
-        }
-    }
-
-    fn second_source(&self, multisample: &Multisample, second: [Real; 4]) -> [Real; 4] {
-        let Some(bug) = &self.second_source else {
-            return Faithful.second_source(multisample, second);
-        };
-        let lanes: [[f32; 4]; LANES] =
-            std::array::from_fn(|lane| bug(multisample, second.map(|v| v[lane])));
-        std::array::from_fn(|c| lanes.map(|texel| texel[c]))
-    }
-
-    fn logic(
-        &self,
-        obeys: bool,
-        encoding: ChannelEncoding,
-        operation: LogicOperation,
-        src: Codes,
-        dst: Codes,
-    ) -> Codes {
-        match &self.logic {
-            None => Faithful.logic(obeys, encoding, operation, src, dst),
-            Some(bug) => std::array::from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i])),
-        }
-    }
-
-    fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
-        match &self.alpha_covers {
-            None => Faithful.alpha_covers(alpha, sample, samples),
-            Some(bug) => alpha.map(|a| bug(a, sample, samples)),
-        }
-    }
-
-    fn shader_runs(&self, shader: Shader, state: &Multisample, samples: usize) -> usize {
-        match &self.shader_runs {
-            None => Faithful.shader_runs(shader, state, samples),
-            Some(bug) => bug(shader, state, samples).clamp(1, samples),
-        }
-    }
-
-    fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask {
-        match &self.mask_keeps {
-            None => Faithful.mask_keeps(mask, sample, samples),
-            Some(bug) => mask
-                .bits
-                .map(|bits| bug(mask.written(bits as u32), sample, samples)),
-        }
-    }
-
-    fn kept(&self, kept: &Kept<Real>) -> Mask {
-        match &self.kept {
-            None => Faithful.kept(kept),
-            Some(bug) => std::array::from_fn(|i| bug(kept.value[i], kept.limit[i])),
-        }
-    }
 }

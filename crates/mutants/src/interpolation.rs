@@ -1,84 +1,56 @@
 //! Bugs of interpolation: the way in which attributes vary over a primitive, and where they are taken.
 
-use crate::fields::Places;
+use crate::fields::{Places, VERTICES};
 use crate::hooks::interpolation;
-use crate::list::List;
+use crate::list::bugs;
+use crate::plant::{draws, each};
+use Interpolation::{Linear, Perspective};
+use InterpolationSampling::{Center, Centroid, Sample};
 use etalon_scene::{Interpolation, InterpolationSampling, Shader, Vertex};
 
 /// The vertices of draws that read interpolated coordinates.
-const VERTICES: Places<Vertex> = |d| {
+const READ: Places<Vertex> = |d| {
     let reads = d.shader.uses_uv();
     d.mesh.vertices.iter_mut().filter(|_| reads).collect()
 };
 
-pub(super) fn add(list: &mut List) {
-    use Interpolation::{Linear, Perspective};
-    use InterpolationSampling::{Center, Centroid, Sample};
-    list.class("interpolation", "texture");
-    list.bug("always-linear: Attributes are linear in the window, whatever w is.")
-        .plant(interpolation(|shader: Shader| {
-            (Linear, shader.interpolation_sampling())
-        }));
-    list.bug("always-perspective: Attributes are linear in space, where the shader wants them in the window too.")
-        .source("a driver without `noperspective`")
-        .plant(interpolation(|shader: Shader| {
-            (Perspective, shader.interpolation_sampling())
-        }));
-    list.bug("samples-at-centre: What is interpolated at samples is that of the texel's centre.")
-        .plant(interpolation(|shader: Shader| {
+bugs! {
+    class "interpolation", "texture";
+    "always-linear: Attributes are linear in the window, whatever w is." =>
+        interpolation(|shader: Shader| (Linear, shader.interpolation_sampling()));
+    "always-perspective: Attributes are linear in space, where the shader wants them in the window too." =>
+        interpolation(|shader: Shader| (Perspective, shader.interpolation_sampling())),
+        source "a driver without `noperspective`";
+    "samples-at-centre: What is interpolated at samples is that of the texel's centre." =>
+        interpolation(|shader: Shader| {
             let at = match shader.interpolation_sampling() {
                 Sample => Center,
                 other => other,
             };
             (shader.interpolation(), at)
-        }));
-    list.bug(
-        "samples-at-centroid: What is interpolated at samples is that of the first covered one.",
-    )
-    .plant(interpolation(|shader: Shader| {
-        let at = match shader.interpolation_sampling() {
-            Sample => Centroid,
-            other => other,
-        };
-        (shader.interpolation(), at)
-    }));
-    list.bug("over-w: Attributes are divided by w, and not multiplied again.")
-        .each(VERTICES, |v| {
+        });
+    "samples-at-centroid: What is interpolated at samples is that of the first covered one." =>
+        interpolation(|shader: Shader| {
+            let at = match shader.interpolation_sampling() {
+                Sample => Centroid,
+                other => other,
+            };
+            (shader.interpolation(), at)
+        });
+    "over-w: Attributes are divided by w, and not multiplied again." =>
+        each(READ, |v| { let w = v.position[3]; if w > 0.0 { v.uv = v.uv.map(|c| c / w); } });
+    "of-the-cut: A clipped triangle's attributes run over what is left of it." =>
+        each(VERTICES, |v| if v.position[3] < 0.0 { v.uv = v.uv.map(|c| c * 0.5) });
+    "w-for-its-reciprocal: The fragment's coordinates hold w instead of 1 over w." =>
+        each(VERTICES, |v| {
             let w = v.position[3];
-            if w > 0.0 {
-                v.uv = v.uv.map(|c| c / w);
-            }
-        });
-    list.bug("of-the-cut: A clipped triangle's attributes run over what is left of it.")
-        .draws(|draw| {
-            for v in draw
-                .mesh
-                .vertices
-                .iter_mut()
-                .filter(|v| v.position[3] < 0.0)
-            {
-                v.uv = v.uv.map(|c| c * 0.5);
-            }
-        });
-    list.bug("w-for-its-reciprocal: The fragment's coordinates hold w instead of 1 over w.")
-        .when(|draw| draw.shader.reads_w())
-        .draws(|draw| {
-            for v in draw
-                .mesh
-                .vertices
-                .iter_mut()
-                .filter(|v| v.position[3] > 0.0)
-            {
-                let w = v.position[3];
-                v.position = v.position.map(|p| p / (w * w));
-            }
-        });
-    list.bug("either-is-the-middle: A flat value of either end is that of the second vertex.")
-        .when(|draw| draw.shader.flat_from_either())
-        .draws(|draw| {
+            if w > 0.0 { v.position = v.position.map(|p| p / (w * w)); }
+        }), when |draw| draw.shader.reads_w();
+    "either-is-the-middle: A flat value of either end is that of the second vertex." =>
+        draws(|draw| {
             for triangle in draw.mesh.vertices.chunks_mut(3) {
                 let color = triangle.get(1).map_or([0.0; 4], |v| v.color);
                 triangle.iter_mut().for_each(|v| v.color = color);
             }
-        });
+        }), when |draw| draw.shader.flat_from_either();
 }

@@ -1,6 +1,6 @@
 //! Bugs that leave each frame legal and make it differ from another one.
 
-use crate::list::{List, SMALL};
+use crate::list::{SMALL, bugs};
 use crate::plant::{Plant, frames, nudge};
 use etalon_frame::{Aspect, Image};
 use etalon_scene::{Contents, Draw, Scene};
@@ -36,43 +36,41 @@ fn draws(scene: &Scene) -> impl Iterator<Item = &Draw> {
     scene.passes.iter().flat_map(|pass| &pass.draws)
 }
 
-pub(super) fn add(list: &mut List) {
-    list.class("invariance", "order");
-    list.source(SMALL);
+bugs! {
+    class "invariance", "order";
+    source SMALL;
     let read = AtomicUsize::new(0);
-    list.bug("flickers: Every second frame is one step brighter or nearer.")
-        .plant(scenes(move |_| {
-            read.fetch_add(1, Ordering::Relaxed) % 2 == 1
-        }));
-    list.bug("scissor-moves-values: Under a small scissor rectangle, values are one step off.")
-        .plant(scenes(|scene| {
+    "flickers: Every second frame is one step brighter or nearer." =>
+        scenes(move |_| read.fetch_add(1, Ordering::Relaxed) % 2 == 1);
+    "scissor-moves-values: Under a small scissor rectangle, values are one step off." =>
+        scenes(|scene| {
             let small = |[_, _, w, h]: [u32; 4]| w < 16 || h < 16;
             draws(scene).any(|d| d.scissor.is_some_and(small))
-        }));
-    list.bug("write-mask-moves-values: Under a partial write mask, values are one step off.")
-        .plant(scenes(|scene| {
+        });
+    "write-mask-moves-values: Under a partial write mask, values are one step off." =>
+        scenes(|scene| {
             let mut targets = draws(scene).flat_map(|d| &d.targets);
             targets.any(|t| t.write_mask != 0xf)
-        }));
-    list.bug("contents-move-values: Over a background that is not black, values are one step off.")
-        .plant(scenes(|scene| {
+        });
+    "contents-move-values: Over a background that is not black, values are one step off." =>
+        scenes(|scene| {
             let light = |c: &Contents| matches!(c, Contents::Color(v) if *v != [0.0; 4]);
             scene.attachments.iter().any(|a| light(&a.contents))
-        }));
-    list.bug("second-attachment-differs: The second colour attachment is one step off.")
-        .plant(steps(
+        });
+    "second-attachment-differs: The second colour attachment is one step off." =>
+        steps(
             |_| true,
             |scene, image| {
                 let mut seconds = scene.passes.iter().filter_map(|pass| pass.color.get(1));
                 seconds.any(|index| scene.attachments[*index].name == image.attachment)
             },
-        ));
+        );
     let nearer = |scene: &Scene| {
         let depth = |d: &Draw| d.mesh.vertices.first().map_or(0.0, |v| v.position[2]);
         let mut depths = draws(scene).map(depth);
         let first = depths.next().unwrap_or(0.0);
         depths.any(|z| z < first)
     };
-    list.bug("order-moves-depth: Where the first draw is the farthest, depths are one step off.")
-        .plant(steps(nearer, |_, image| image.aspect == Aspect::Depth));
+    "order-moves-depth: Where the first draw is the farthest, depths are one step off." =>
+        steps(nearer, |_, image| image.aspect == Aspect::Depth);
 }

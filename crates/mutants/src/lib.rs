@@ -5,8 +5,9 @@
 //! rasterizer free of test code. `tests/hunt` holds that cases catch each mutant or that a clause allows
 //! it; `etalon mutants` reports which cases do.
 //!
-//! Most follow from data: an operator (stale, swapped, always, never …) applied to a field of `fields`.
-//! To add one, call `List::bug` in the file of its class, or name the field in `fields`.
+//! Each file is a table: a row has the name, the effect and what it changes. Most follow from data: an operator
+//! (stale, swapped, always, never …) applied to a field of `fields`. To add one, add a row to the table of its class,
+//! or name the field in `fields`.
 
 mod aspects;
 mod backend;
@@ -80,7 +81,8 @@ const CLASSES: &[Class] = &[
     blend::precision::add, blend::advanced::add, mask::add, formats::add, targets::add, dual_source::add,
     logic::add, cull::add, topology::add, tessellation::add, provoking::add, samples::add,
     sample_shading::add, sample_coverage::add, resolve::add, scissor::add, viewport::add,
-    clip_distance::add, cull_distance::add, clipping::add, interpolation::add, capability::add, clear::add, geometry::add, upload::add, fetch::add, early::add,
+    clip_distance::add, cull_distance::add, clipping::add, interpolation::add, capability::add,
+    clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
     hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add,
     combinations::add,

@@ -2,8 +2,8 @@
 
 use crate::fields::Places;
 use crate::mutant::Mutant;
-use crate::plant::{Plant, draws, passes, scene};
-use etalon_scene::{Draw, Pass, Scene};
+use crate::plant::{Plant, swapped};
+use etalon_scene::Draw;
 use std::fmt::Display;
 
 /// The source of a bug that no driver is known to have shipped.
@@ -46,18 +46,20 @@ impl List {
         self.source = source;
     }
 
-    /// Begins a mutant of the class: `name: The effect, in one sentence.`
-    pub(super) fn bug(&mut self, text: impl AsRef<str>) -> Named<'_> {
-        let (name, about) = text.as_ref().split_once(": ").unwrap_or_default();
-        Named {
+    /// Adds a mutant of the class: `name: The effect, in one sentence.`
+    pub(super) fn add(&mut self, text: &str, facts: Facts, plant: Plant) {
+        let (name, about) = text.split_once(": ").unwrap_or_default();
+        self.mutants.push(Mutant {
             name: format!("{}/{name}", self.class),
             about: about.to_owned(),
-            source: self.source,
-            area: self.area,
-            legal: None,
-            strikes: |_| true,
-            list: self,
-        }
+            source: facts.source.unwrap_or(self.source),
+            area: facts.area.unwrap_or(self.area),
+            legal: facts.legal,
+            plant: match facts.when {
+                Some(strikes) => plant.when(strikes),
+                None => plant,
+            },
+        });
     }
 
     /// Adds a mutant for each pair of values: a field that is the first acts as the second. `name` and
@@ -70,95 +72,97 @@ impl List {
         pairs: impl IntoIterator<Item = (T, T)>,
     ) {
         for (right, wrong) in pairs {
-            self.bug(format!(
-                "{name}{right}-as-{wrong}: {about}{right} acts as {wrong}."
-            ))
-            .each(field, move |value| {
-                if *value == right {
-                    *value = wrong;
-                }
-            });
+            let text = format!("{name}{right}-as-{wrong}: {about}{right} acts as {wrong}.");
+            self.add(&text, Facts::default(), swapped(field, right, wrong));
         }
     }
 }
 
-/// A mutant that lacks its bug yet. The functions that plant one end it.
-#[must_use]
-pub(super) struct Named<'a> {
-    list: &'a mut List,
-    name: String,
-    about: String,
-    source: &'static str,
-    area: &'static str,
-    legal: Option<&'static str>,
-    strikes: fn(&Draw) -> bool,
+/// What a mutant has of its own.
+#[derive(Default)]
+pub(super) struct Facts {
+    pub(super) source: Option<&'static str>,
+    pub(super) area: Option<&'static str>,
+    /// The clause that allows it.
+    pub(super) legal: Option<&'static str>,
+    /// True of the draws that it strikes.
+    pub(super) when: Option<fn(&Draw) -> bool>,
 }
 
-impl Named<'_> {
-    /// Gives it a source of its own.
-    pub(super) fn source(self, source: &'static str) -> Self {
-        Self { source, ..self }
-    }
-
-    /// Gives it an area of its own.
-    pub(super) fn area(self, area: &'static str) -> Self {
-        Self { area, ..self }
-    }
-
-    /// States the clause that allows it.
-    pub(super) fn legal(self, clause: &'static str) -> Self {
-        let legal = Some(clause);
-        Self { legal, ..self }
-    }
-
-    /// Restricts it to some draws.
-    pub(super) fn when(self, strikes: fn(&Draw) -> bool) -> Self {
-        Self { strikes, ..self }
-    }
-
-    /// Plants it.
-    pub(super) fn plant(self, plant: Plant) {
-        self.list.mutants.push(Mutant {
-            name: self.name,
-            about: self.about,
-            source: self.source,
-            area: self.area,
-            legal: self.legal,
-            plant,
-        });
-    }
-
-    /// Changes the draws that it strikes.
-    pub(super) fn draws(self, bug: impl Fn(&mut Draw) + Send + Sync + 'static) {
-        let strikes = self.strikes;
-        self.plant(draws(move |draw| {
-            if strikes(draw) {
-                bug(draw);
-            }
-        }));
-    }
-
-    /// Changes a field of the draws that it strikes, wherever they have it.
-    pub(super) fn each<T: 'static>(
-        self,
-        field: Places<T>,
-        bug: impl Fn(&mut T) + Send + Sync + 'static,
-    ) {
-        self.draws(move |draw| field(draw).into_iter().for_each(&bug));
-    }
-
-    /// Gives a field of the draws that it strikes a value.
-    pub(super) fn set<T: Copy + Send + Sync + 'static>(self, field: Places<T>, value: T) {
-        self.each(field, move |place| *place = value);
-    }
-
-    /// Changes every pass, given the scene that is asked for and the number of the pass.
-    pub(super) fn passes(self, bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'static) {
-        self.plant(passes(bug));
-    }
-
-    /// Changes the scene.
-    pub(super) fn scene(self, bug: impl Fn(&mut Scene) + Send + Sync + 'static) {
-        self.plant(scene(bug));
-    }
+/// Declares `add`, which adds the mutants of a file to the list. See [`rows`].
+macro_rules! bugs {
+    ($($row:tt)+) => {
+        /// Adds the mutants of this file.
+        pub(crate) fn add(list: &mut $crate::list::List) {
+            $crate::list::rows! { list; $($row)+ }
+        }
+    };
 }
+
+/// Adds rows of mutants to a list: `"name: The effect." => plant, fact value;`, where `{…}` in the text stands for a
+/// variable and facts are those of [`Facts`]. Between them stand the class and source of what follows, loops over rows
+/// (where an entry's function has a type, `for (name, bug as type)`), conditions, variables, functions that add more
+/// (`also`) and fields whose values act as others (`swaps`).
+macro_rules! rows {
+    ($list:ident;) => {};
+    ($list:ident; class $class:literal, $area:expr; $($rest:tt)*) => {
+        $list.class($class, $area);
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; source $source:expr; $($rest:tt)*) => {
+        $list.source($source);
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; also $add:expr; $($rest:tt)*) => {
+        $add($list);
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; swaps $($argument:expr),+; $($rest:tt)*) => {
+        $list.swaps($($argument),+);
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; let $variable:ident: $type:ty = $value:expr; $($rest:tt)*) => {
+        let $variable: $type = $value;
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; let $variable:pat = $value:expr; $($rest:tt)*) => {
+        let $variable = $value;
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; if ($condition:expr) { $($row:tt)+ } $($rest:tt)*) => {
+        if $condition {
+            $crate::list::rows! { $list; $($row)+ }
+        }
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; for ($name:ident, $bug:ident as $type:ty) in [$(($text:expr, $value:expr)),+ $(,)?]
+        { $($row:tt)+ } $($rest:tt)*) => {
+        for ($name, $bug) in [$(($text, $value as $type)),+] {
+            $crate::list::rows! { $list; $($row)+ }
+        }
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; for ($name:ident, $about:ident, $bug:ident as $type:ty)
+        in [$(($text:expr, $effect:expr, $value:expr)),+ $(,)?] { $($row:tt)+ } $($rest:tt)*) => {
+        for ($name, $about, $bug) in [$(($text, $effect, $value as $type)),+] {
+            $crate::list::rows! { $list; $($row)+ }
+        }
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; for $item:pat in $values:tt { $($row:tt)+ } $($rest:tt)*) => {
+        for $item in $values {
+            $crate::list::rows! { $list; $($row)+ }
+        }
+        $crate::list::rows! { $list; $($rest)* }
+    };
+    ($list:ident; $text:literal => $plant:expr $(, $fact:ident $value:expr)*; $($rest:tt)*) => {
+        let facts = $crate::list::Facts {
+            $($fact: Some($value),)*
+            ..$crate::list::Facts::default()
+        };
+        $list.add(&format!($text), facts, $plant);
+        $crate::list::rows! { $list; $($rest)* }
+    };
+}
+
+pub(super) use {bugs, rows};

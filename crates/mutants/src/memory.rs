@@ -7,7 +7,7 @@ use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Steps, Stored};
 use etalon_scene::Scene;
 use std::cell::RefCell;
-use std::fmt;
+use std::ops::Range;
 
 /// A bug of what one prepared scene stores.
 pub(super) struct Memory(RefCell<Box<Bug>>);
@@ -21,12 +21,6 @@ impl Memory {
     }
 }
 
-impl fmt::Debug for Memory {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Memory")
-    }
-}
-
 impl Steps for Memory {
     fn reached(&self, moment: Moment, scene: &Scene, stored: Stored<'_>) {
         (self.0.borrow_mut())(moment, scene, stored);
@@ -36,11 +30,19 @@ impl Steps for Memory {
 /// Left, top, right and bottom of texels; the last two are exclusive.
 pub(super) type Area = [usize; 4];
 
+/// Returns the texels of an area of a surface, row by row.
+pub(super) fn texel_rows(
+    surface: &Surface,
+    area: Area,
+) -> impl Iterator<Item = Range<usize>> + use<> {
+    let [left, top, right, bottom] = area;
+    let (stride, right) = (surface.stride, right.min(surface.width).max(left));
+    (top..bottom.min(surface.height)).map(move |y| y * stride + left..y * stride + right)
+}
+
 /// Copies the texels of an area, all aspects and samples.
-pub(super) fn copy(from: &Surface, to: &mut Surface, [left, top, right, bottom]: Area) {
-    for y in top..bottom.min(to.height) {
-        let row = y * to.stride;
-        let texels = row + left..row + right.min(to.width);
+pub(super) fn copy(from: &Surface, to: &mut Surface, area: Area) {
+    for texels in texel_rows(from, area) {
         for (to, from) in to.planes.iter_mut().zip(&from.planes) {
             to[texels.clone()].copy_from_slice(&from[texels.clone()]);
         }

@@ -1,5 +1,6 @@
 //! Planting a bug: in the scene, in a step, or in the frame.
 
+use crate::fields::Places;
 use crate::hooks::Hooks;
 use crate::memory::Memory;
 use etalon_cpu::steps::{Moment, Stored};
@@ -7,17 +8,17 @@ use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 use etalon_scene::{Attachment, Draw, Pass, Scene};
 use std::fmt;
 
-type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
-type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
+type SceneBug = dyn Fn(Option<&Scene>, &mut Scene) + Send + Sync;
+type DrawBug = dyn Fn(&mut Draw) + Send + Sync;
 type MemoryBug = dyn Fn() -> Memory + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
-    /// The driver draws another scene.
+    /// The driver draws another scene, given the one that it has drawn before.
     Scene(Box<SceneBug>),
-    /// The driver draws another scene, with state of the previous one.
-    Sticky(Box<StickyBug>),
+    /// Every draw is changed.
+    Draws(Box<DrawBug>),
     /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
     Again(u32, Box<SceneBug>),
     /// A step of the rasterizer is replaced.
@@ -31,13 +32,20 @@ pub(super) enum Plant {
 
 impl fmt::Debug for Plant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Scene(_) => "Scene",
-            Self::Sticky(_) => "Sticky",
-            Self::Again(..) => "Again",
-            Self::Steps(_) => "Steps",
-            Self::Memory(_) => "Memory",
-            Self::Frame(_) => "Frame",
+        f.write_str("Plant")
+    }
+}
+
+impl Plant {
+    /// Restricts a bug of draws to some of them.
+    pub(super) fn when(self, strikes: fn(&Draw) -> bool) -> Self {
+        let Self::Draws(bug) = self else {
+            return self;
+        };
+        draws(move |draw| {
+            if strikes(draw) {
+                bug(draw);
+            }
         })
     }
 }
@@ -48,26 +56,24 @@ impl From<Hooks> for Plant {
     }
 }
 
-/// Plants a bug of which each prepared scene makes its own.
-pub(super) fn memory(bug: impl Fn() -> Memory + Send + Sync + 'static) -> Plant {
-    Plant::Memory(Box::new(bug))
-}
-
-/// Changes what is stored at some moments.
-pub(super) fn stored(
-    bug: impl Fn(Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
+/// Changes what is stored at some moments. Each prepared scene has a state of its own.
+pub(super) fn memory<S: Default + 'static>(
+    bug: impl Fn(&mut S, Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
 ) -> Plant {
-    memory(move || Memory::new(bug.clone()))
+    Plant::Memory(Box::new(move || {
+        let (bug, mut state) = (bug.clone(), S::default());
+        Memory::new(move |moment, scene, stored| bug(&mut state, moment, scene, stored))
+    }))
 }
 
 /// Changes the scene.
 pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
-    Plant::Scene(Box::new(bug))
+    Plant::Scene(Box::new(move |_, scene| bug(scene)))
 }
 
 /// Changes the scene from a submission on.
 pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
-    Plant::Again(from, Box::new(bug))
+    Plant::Again(from, Box::new(move |_, scene| bug(scene)))
 }
 
 /// Changes every pass, given the scene that is asked for and the number of the pass.
@@ -80,9 +86,48 @@ pub(super) fn passes(bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'sta
     })
 }
 
+/// Changes the draws of every pass.
+pub(super) fn calls(bug: impl Fn(&mut Vec<Draw>) + Send + Sync + 'static) -> Plant {
+    passes(move |_, _, pass| bug(&mut pass.draws))
+}
+
 /// Changes every draw.
 pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| all_draws(scene).for_each(&bug))
+    Plant::Draws(Box::new(bug))
+}
+
+/// Changes a field of every draw, wherever the draw has it.
+pub(super) fn each<T: 'static>(
+    field: Places<T>,
+    bug: impl Fn(&mut T) + Send + Sync + 'static,
+) -> Plant {
+    draws(move |draw| field(draw).into_iter().for_each(&bug))
+}
+
+/// Gives a field of a draw a value.
+pub(super) fn put<T: Copy + Send + Sync + 'static>(
+    field: Places<T>,
+    value: T,
+) -> impl Fn(&mut Draw) + Copy + Send + Sync + 'static {
+    move |draw| field(draw).into_iter().for_each(|place| *place = value)
+}
+
+/// Gives a field of every draw a value.
+pub(super) fn set<T: Copy + Send + Sync + 'static>(field: Places<T>, value: T) -> Plant {
+    draws(put(field, value))
+}
+
+/// Lets one value of a field act as another.
+pub(super) fn swapped<T: Copy + PartialEq + Send + Sync + 'static>(
+    field: Places<T>,
+    right: T,
+    wrong: T,
+) -> Plant {
+    each(field, move |value| {
+        if *value == right {
+            *value = wrong;
+        }
+    })
 }
 
 /// Returns the draws of all passes.
@@ -105,8 +150,8 @@ pub(super) fn contents(bug: impl Fn(&mut Attachment) + Send + Sync + 'static) ->
 
 /// Changes the first draw of a scene, given the last draw of the previous scene.
 pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
-    Plant::Sticky(Box::new(move |before, scene| {
-        let last = before.passes.iter().flat_map(|p| &p.draws).next_back();
+    Plant::Scene(Box::new(move |before, scene| {
+        let last = before.and_then(|before| before.passes.iter().flat_map(|p| &p.draws).last());
         if let (Some(last), Some(first)) = (last, all_draws(scene).next()) {
             bug(last, first);
         }

@@ -1,43 +1,30 @@
 //! Bugs of read-only depth and stencil.
 
-use crate::fields::{DEPTH_WRITE, FACES};
-use crate::list::{CONFUSION, List};
-use crate::plant::{Plant, all_draws, passes};
+use crate::fields::{DEPTH, DEPTH_WRITE, PASS_OP, STENCIL_TEST};
+use crate::list::{CONFUSION, bugs};
+use crate::plant::{Plant, all_draws, passes, put, scene};
 use etalon_scene::{Draw, StencilOperation};
 
-/// Changes the draws of read-only passes.
-fn read_only(bug: fn(&mut Draw)) -> Plant {
-    passes(move |_, _, pass| {
-        if pass.depth_stencil_read_only {
-            pass.draws.iter_mut().for_each(bug);
+/// Changes the draws of passes that stand so many passes behind a read-only one.
+pub(super) fn read_only(behind: usize, bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
+    passes(move |scene, number, pass| {
+        let before = number.checked_sub(behind).map(|n| &scene.passes[n]);
+        if before.is_some_and(|before| before.depth_stencil_read_only) {
+            pass.draws.iter_mut().for_each(&bug);
         }
     })
 }
 
-pub(super) fn add(list: &mut List) {
-    list.class("read-only", "depth");
-    list.source("read-only attachments treated as writable");
-    list.bug("depth-still-written: Read-only depth is still written.")
-        .plant(read_only(|d| {
-            DEPTH_WRITE(d).into_iter().for_each(|write| *write = true)
-        }));
-    list.bug("depth-untested: Read-only depth is not tested.")
-        .plant(read_only(|d| d.depth = None));
-    list.bug("stencil-still-written: Read-only stencil is replaced.")
-        .plant(read_only(|d| {
-            FACES(d)
-                .into_iter()
-                .for_each(|f| f.pass_op = StencilOperation::Replace)
-        }));
-    list.bug("stencil-untested: Read-only stencil is not tested.")
-        .plant(read_only(|d| d.stencil = None));
-    list.source(CONFUSION);
-    list.bug("from-the-start: A read-only attachment is not written by earlier passes either.")
-        .scene(|scene| {
-            if scene.passes.iter().any(|p| p.depth_stencil_read_only) {
-                all_draws(scene)
-                    .flat_map(DEPTH_WRITE)
-                    .for_each(|write| *write = false);
-            }
+bugs! {
+    class "read-only", "depth";
+    source "read-only attachments treated as writable";
+    "depth-still-written: Read-only depth is still written." => read_only(0, put(DEPTH_WRITE, true));
+    "depth-untested: Read-only depth is not tested." => read_only(0, put(DEPTH, None));
+    "stencil-still-written: Read-only stencil is replaced." => read_only(0, put(PASS_OP, StencilOperation::Replace));
+    "stencil-untested: Read-only stencil is not tested." => read_only(0, put(STENCIL_TEST, None));
+    source CONFUSION;
+    "from-the-start: A read-only attachment is not written by earlier passes either." =>
+        scene(|scene| if scene.passes.iter().any(|p| p.depth_stencil_read_only) {
+            all_draws(scene).for_each(put(DEPTH_WRITE, false));
         });
 }

@@ -1,71 +1,16 @@
 //! Bugs of scissor rectangles.
 
-use crate::fields::FACES;
-use crate::list::{CONFUSION, List, SMALL};
-use crate::plant::{Plant, all_draws, passes, sized};
+use crate::fields::{FACES, SCISSOR};
+use crate::list::{CONFUSION, SMALL, bugs};
+use crate::plant::{Plant, all_draws, draws, passes, scene, set, sized};
 use crate::tables::ONE_TEXEL;
 use etalon_scene::{
     CompareFunction, Contents, DepthState, Draw, Scene, StencilFace, StencilOperation,
 };
 
-pub(super) fn add(list: &mut List) {
-    list.class("scissor", "scissor");
-    rects(list);
-    kinds(list);
-    clears(list);
-}
-
 /// Changes scissor rectangles, given the size of the attachments.
 fn scissors(bug: fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>) -> Plant {
     sized(move |draw, size| draw.scissor = draw.scissor.and_then(|rect| bug(rect, size)))
-}
-
-fn rects(list: &mut List) {
-    list.source(SMALL);
-    for (name, about, by) in ONE_TEXEL {
-        list.bug(format!("one-texel-{name}: Rectangles {about}."))
-            .draws(move |draw| {
-                for (value, by) in draw.scissor.iter_mut().flatten().zip(by) {
-                    *value = value.saturating_add_signed(by);
-                }
-            });
-    }
-    list.source("ANGLE: y flip; misread rectangles");
-    list.bug("ignored: There is no scissor test.")
-        .draws(|draw| draw.scissor = None);
-    list.bug("empty-as-all: An empty rectangle counts as no scissor test.")
-        .draws(|draw| draw.scissor = draw.scissor.filter(|[_, _, w, h]| *w > 0 && *h > 0));
-    list.bug("empty-as-one-texel: An empty rectangle holds one texel.")
-        .plant(scissors(|[x, y, w, h], _| Some([x, y, w.max(1), h.max(1)])));
-    list.bug("upside-down: Rectangles are counted from the bottom.")
-        .plant(scissors(|[x, y, w, h], [_, height]| {
-            Some([x, before(height, y, h), w, h])
-        }));
-    list.bug("mirrored: Rectangles are counted from the right.")
-        .plant(scissors(|[x, y, w, h], [width, _]| {
-            Some([before(width, x, w), y, w, h])
-        }));
-    list.bug("transposed: Columns and rows are exchanged.")
-        .plant(scissors(|[x, y, w, h], _| Some([y, x, h, w])));
-    list.bug("size-as-end: Width and height are read as the last column and row.")
-        .plant(scissors(|[x, y, w, h], _| {
-            Some([x, y, before(w, x, 0), before(h, y, 0)])
-        }));
-    list.bug("from-the-origin: Rectangles begin at the origin.")
-        .plant(scissors(|[_, _, w, h], _| Some([0, 0, w, h])));
-    list.bug("lost-when-partly-outside: Rectangles that reach outside count as no scissor test.")
-        .plant(scissors(|[x, y, w, h], [all_w, all_h]| {
-            (x + w <= all_w && y + h <= all_h).then_some([x, y, w, h])
-        }));
-    list.source(CONFUSION);
-    list.bug("kept-where-none-is-set: Without a rectangle, the last one stays.")
-        .scene(|scene| {
-            let mut last = None;
-            for draw in all_draws(scene) {
-                draw.scissor = draw.scissor.or(last);
-                last = draw.scissor;
-            }
-        });
 }
 
 /// What an attachment has on the other side of a rectangle.
@@ -114,57 +59,11 @@ fn beyond(others: [Mask; 2]) -> Plant {
     })
 }
 
-fn kinds(list: &mut List) {
-    list.bug("ignored-for-color: Colour is written outside the rectangle.")
-        .plant(beyond([DEPTH, STENCIL]));
-    list.bug("ignored-for-depth: Depth is written outside the rectangle.")
-        .plant(beyond([COLOR, STENCIL]));
-    list.bug("ignored-for-stencil: Stencil is written outside the rectangle.")
-        .plant(beyond([COLOR, DEPTH]));
-}
-
 /// The first draw's rectangle, and the size of its attachments.
 fn first_rect(scene: &Scene) -> Option<([u32; 4], [u32; 2])> {
     let pass = scene.passes.first()?;
     let rect = pass.draws.first()?.scissor?;
     Some((rect, scene.pass_size(pass)))
-}
-
-/// The first draw's rectangle applies to the clears before it: outside of it, attachments start from 0.
-fn clears(list: &mut List) {
-    list.source("clears that obey the scissor test");
-    list.bug("clears-color: The first draw's rectangle also holds back the clear of colour.")
-        .scene(|scene| {
-            let Some(([left, top, w, h], [width, height])) = first_rect(scene) else {
-                return;
-            };
-            for index in scene.passes[0].color.clone() {
-                let attachment = &mut scene.attachments[index];
-                if let (Contents::Color(color), 1) = (&attachment.contents, attachment.samples) {
-                    let channels = attachment.format.color_channels().iter().zip(color);
-                    let codes = channels.map(|(e, v)| e.nearest_code(f64::from(*v)));
-                    let codes: Vec<u32> = codes.collect();
-                    let texels = (0..width * height).flat_map(|texel| {
-                        let (x, y) = (texel % width, texel / width);
-                        let inside = (left..left + w).contains(&x) && (top..top + h).contains(&y);
-                        codes.iter().map(move |c| c * u32::from(inside))
-                    });
-                    attachment.contents = Contents::Texels(texels.collect());
-                }
-            }
-        });
-    list.bug(
-        "clears-depth-and-stencil: The first draw's rectangle holds back clears of depth and \
-         stencil.",
-    )
-    .scene(|scene| {
-        if let Some((rect, size)) = first_rect(scene) {
-            let draws = &mut scene.passes[0].draws;
-            let rects = around(rect, size).into_iter();
-            let fillers: Vec<Draw> = rects.map(|rect| filler(&draws[0], rect)).collect();
-            draws.splice(0..0, fillers);
-        }
-    });
 }
 
 /// A draw that fills a rectangle with depth 0 and stencil 0.
@@ -185,4 +84,75 @@ fn filler(first: &Draw, rect: [u32; 4]) -> Draw {
     let (compare, write) = (CompareFunction::Always, true);
     draw.depth = Some(DepthState { compare, write });
     draw
+}
+
+bugs! {
+    class "scissor", "scissor";
+    source SMALL;
+    for (name, about, by) in ONE_TEXEL {
+        "one-texel-{name}: Rectangles {about}." =>
+            draws(move |draw| {
+                for (value, by) in draw.scissor.iter_mut().flatten().zip(by) {
+                    *value = value.saturating_add_signed(by);
+                }
+            });
+    }
+    source "ANGLE: y flip; misread rectangles";
+    "ignored: There is no scissor test." => set(SCISSOR, None);
+    "empty-as-all: An empty rectangle counts as no scissor test." =>
+        draws(|draw| draw.scissor = draw.scissor.filter(|[_, _, w, h]| *w > 0 && *h > 0));
+    "empty-as-one-texel: An empty rectangle holds one texel." =>
+        scissors(|[x, y, w, h], _| Some([x, y, w.max(1), h.max(1)]));
+    "upside-down: Rectangles are counted from the bottom." =>
+        scissors(|[x, y, w, h], [_, height]| Some([x, before(height, y, h), w, h]));
+    "mirrored: Rectangles are counted from the right." =>
+        scissors(|[x, y, w, h], [width, _]| Some([before(width, x, w), y, w, h]));
+    "transposed: Columns and rows are exchanged." => scissors(|[x, y, w, h], _| Some([y, x, h, w]));
+    "size-as-end: Width and height are read as the last column and row." =>
+        scissors(|[x, y, w, h], _| Some([x, y, before(w, x, 0), before(h, y, 0)]));
+    "from-the-origin: Rectangles begin at the origin." => scissors(|[_, _, w, h], _| Some([0, 0, w, h]));
+    "lost-when-partly-outside: Rectangles that reach outside count as no scissor test." =>
+        scissors(|[x, y, w, h], [all_w, all_h]| (x + w <= all_w && y + h <= all_h).then_some([x, y, w, h]));
+    source CONFUSION;
+    "kept-where-none-is-set: Without a rectangle, the last one stays." =>
+        scene(|scene| {
+            let mut last = None;
+            for draw in all_draws(scene) {
+                draw.scissor = draw.scissor.or(last);
+                last = draw.scissor;
+            }
+        });
+    "ignored-for-color: Colour is written outside the rectangle." => beyond([DEPTH, STENCIL]);
+    "ignored-for-depth: Depth is written outside the rectangle." => beyond([COLOR, STENCIL]);
+    "ignored-for-stencil: Stencil is written outside the rectangle." => beyond([COLOR, DEPTH]);
+
+    // The first draw's rectangle applies to the clears before it: outside of it, attachments start from 0.
+    source "clears that obey the scissor test";
+    "clears-color: The first draw's rectangle also holds back the clear of colour." =>
+        scene(|scene| {
+            let Some(([left, top, w, h], [width, height])) = first_rect(scene) else { return; };
+            for index in scene.passes[0].color.clone() {
+                let attachment = &mut scene.attachments[index];
+                if let (Contents::Color(color), 1) = (&attachment.contents, attachment.samples) {
+                    let channels = attachment.format.color_channels().iter().zip(color);
+                    let codes = channels.map(|(e, v)| e.nearest_code(f64::from(*v)));
+                    let codes: Vec<u32> = codes.collect();
+                    let texels = (0..width * height).flat_map(|texel| {
+                        let (x, y) = (texel % width, texel / width);
+                        let inside = (left..left + w).contains(&x) && (top..top + h).contains(&y);
+                        codes.iter().map(move |c| c * u32::from(inside))
+                    });
+                    attachment.contents = Contents::Texels(texels.collect());
+                }
+            }
+        });
+    "clears-depth-and-stencil: The first draw's rectangle holds back clears of depth and stencil." =>
+        scene(|scene| {
+            if let Some((rect, size)) = first_rect(scene) {
+                let draws = &mut scene.passes[0].draws;
+                let rects = around(rect, size).into_iter();
+                let fillers: Vec<Draw> = rects.map(|rect| filler(&draws[0], rect)).collect();
+                draws.splice(0..0, fillers);
+            }
+        });
 }

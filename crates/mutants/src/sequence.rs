@@ -6,16 +6,16 @@ mod contents;
 mod counts;
 mod passes;
 
-use crate::list::List;
+use crate::list::bugs;
 use crate::stale;
 
-pub(super) fn add(list: &mut List) {
-    list.class("sequence", "sequence");
-    stale::reset(list);
-    passes::add(list);
-    contents::add(list);
-    clears::add(list);
-    counts::add(list);
-    list.source("lavapipe, ANGLE, wgpu: a change that is not tracked");
-    stale::stays(list);
+bugs! {
+    class "sequence", "sequence";
+    also stale::reset;
+    also passes::add;
+    also contents::add;
+    also clears::add;
+    also counts::add;
+    source "lavapipe, ANGLE, wgpu: a change that is not tracked";
+    also stale::stays;
 }

@@ -21,14 +21,8 @@ pub(super) fn pairs<T: Copy + PartialEq>(values: &[T]) -> impl Iterator<Item = (
 /// Returns values and those declared before and after them, cyclically.
 pub(super) fn round<T: Copy>(values: &[T]) -> Vec<(T, T)> {
     let n = values.len();
-    (0..n)
-        .flat_map(|i| {
-            [
-                (values[i], values[(i + 1) % n]),
-                (values[i], values[(i + n - 1) % n]),
-            ]
-        })
-        .collect()
+    let both = |i: usize| [1, n - 1].map(|by| (values[i], values[(i + by) % n]));
+    (0..n).flat_map(both).collect()
 }
 
 /// Returns operations and those declared before and after them, cyclically; and those that differ in
@@ -47,22 +41,10 @@ pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
     pairs
 }
 
-/// Returns factors of the second source and those that differ in one thing: complement, channel or
-/// alpha, which source.
-pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+/// The factors: rows by whose value they take, columns by channel or alpha, each with its complement.
+const FACTORS: [[BlendFactor; 4]; 4] = {
     use BlendFactor as F;
-    let first = [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha];
-    let second = [F::Src1, F::OneMinusSrc1, F::Src1Alpha, F::OneMinusSrc1Alpha];
-    (0..4)
-        .flat_map(|c| [second[c ^ 1], second[c ^ 2], first[c]].map(|wrong| (second[c], wrong)))
-        .collect()
-}
-
-/// Returns factors and those that differ in one thing: complement, channel or alpha, whose value.
-pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
-    use BlendFactor as F;
-    // Rows: whose value. Columns: channel or alpha, each with its complement.
-    let grid = [
+    [
         [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha],
         [F::Dst, F::OneMinusDst, F::DstAlpha, F::OneMinusDstAlpha],
         [
@@ -71,7 +53,31 @@ pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
             F::ConstantAlpha,
             F::OneMinusConstantAlpha,
         ],
-    ];
+        [F::Src1, F::OneMinusSrc1, F::Src1Alpha, F::OneMinusSrc1Alpha],
+    ]
+};
+
+/// Returns whose value a factor takes, counted from source, destination, constant and second source; and
+/// 0 for the channel, 2 for alpha, one more for the complement. `None` if it takes no single value.
+pub(super) fn place(factor: BlendFactor) -> Option<[usize; 2]> {
+    let mut places = (0..4).flat_map(|row| (0..4).map(move |column| [row, column]));
+    places.find(|[row, column]| FACTORS[*row][*column] == factor)
+}
+
+/// Returns factors and those that differ in one thing: complement, channel or alpha, whose value.
+fn neighbours(row: usize, other: usize) -> impl Iterator<Item = (BlendFactor, BlendFactor)> {
+    let (row, other) = (FACTORS[row], FACTORS[other]);
+    (0..4).flat_map(move |c| [row[c ^ 1], row[c ^ 2], other[c]].map(|wrong| (row[c], wrong)))
+}
+
+/// Returns the neighbours of factors of the second source.
+pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+    neighbours(3, 0).collect()
+}
+
+/// Returns the neighbours of the other factors.
+pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+    use BlendFactor as F;
     let mut pairs = vec![
         (F::Zero, F::One),
         (F::One, F::Zero),
@@ -80,30 +86,18 @@ pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
         (F::SrcAlphaSaturated, F::OneMinusDstAlpha),
         (F::SrcAlphaSaturated, F::One),
     ];
-    for (r, row) in grid.iter().enumerate() {
-        for (c, factor) in row.iter().enumerate() {
-            pairs.push((*factor, row[c ^ 1]));
-            pairs.push((*factor, row[c ^ 2]));
-            pairs.push((*factor, grid[(r + 1) % 3][c]));
-        }
+    for row in 0..3 {
+        pairs.extend(neighbours(row, (row + 1) % 3));
     }
     pairs
 }
 
 /// True if two factors are equal in the alpha equation.
 pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
-    use BlendFactor as F;
-    let meaning = |factor| match factor {
-        F::Src => F::SrcAlpha,
-        F::OneMinusSrc => F::OneMinusSrcAlpha,
-        F::Dst => F::DstAlpha,
-        F::OneMinusDst => F::OneMinusDstAlpha,
-        F::Constant => F::ConstantAlpha,
-        F::OneMinusConstant => F::OneMinusConstantAlpha,
-        F::Src1 => F::Src1Alpha,
-        F::OneMinusSrc1 => F::OneMinusSrc1Alpha,
-        F::SrcAlphaSaturated => F::One,
-        other => other,
+    let meaning = |factor| match place(factor) {
+        Some([row, column]) => FACTORS[row][column | 2],
+        None if factor == BlendFactor::SrcAlphaSaturated => BlendFactor::One,
+        None => factor,
     };
     meaning(a) == meaning(b)
 }
@@ -127,3 +121,6 @@ pub(super) const ONE_TEXEL: [(&str, &str, [i32; 4]); 8] = [
     ("higher", "are one texel too high", [0, 0, 0, 1]),
     ("lower", "are one texel too low", [0, 0, 0, -1]),
 ];
+
+/// The names of channels.
+pub(super) const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];

@@ -1,15 +1,9 @@
 //! Bugs of several attachments in one pass.
 
 use crate::blend::OVER;
-use crate::list::{CONFUSION, List};
+use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, draws, scene};
 use etalon_scene::{BlendFactor, ColorTarget};
-
-pub(super) fn add(list: &mut List) {
-    list.class("targets", "blend");
-    independent(list);
-    mixed_alpha(list);
-}
 
 /// Changes the targets of draws to several attachments.
 fn targets(bug: fn(&mut [ColorTarget])) -> Plant {
@@ -18,79 +12,6 @@ fn targets(bug: fn(&mut [ColorTarget])) -> Plant {
             bug(&mut draw.targets);
         }
     })
-}
-
-fn independent(list: &mut List) {
-    list.source("lavapipe, v3d: one attachment's state for another");
-    list.bug("all-from-the-first: All take the first's state.")
-        .plant(targets(|t| t.fill(t[0])));
-    list.bug("all-from-the-last: All take the last's state.")
-        .plant(targets(|t| t.fill(t[t.len() - 1])));
-    list.bug("second-from-the-first: The second takes the first's state.")
-        .plant(targets(|t| t[1] = t[0]));
-    list.bug("last-from-the-one-before: The last takes the state of the one before.")
-        .plant(targets(|t| t[t.len() - 1] = t[t.len() - 2]));
-    list.bug("rotated: Each takes the state of the next.")
-        .plant(targets(|t| t.rotate_left(1)));
-    list.bug("reversed: The first takes the last's state, and so on.")
-        .plant(targets(<[_]>::reverse));
-    list.bug("blend-from-the-first: All are blended as the first.")
-        .plant(targets(|t| {
-            let blend = t[0].blend;
-            t.iter_mut().for_each(|t| t.blend = blend);
-        }));
-    list.bug("write-mask-from-the-first: All have the first's write mask.")
-        .plant(targets(|t| {
-            let mask = t[0].write_mask;
-            t.iter_mut().for_each(|t| t.write_mask = mask);
-        }));
-    list.bug("write-masks-joined: A channel written to one attachment is written to all.")
-        .plant(targets(|t| {
-            let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
-            t.iter_mut().for_each(|t| t.write_mask = mask);
-        }));
-    list.bug("alpha-equation-from-the-first: All have the first's equation for alpha.")
-        .plant(targets(|t| {
-            if let Some(first) = t[0].blend {
-                let others = t.iter_mut().filter_map(|t| t.blend.as_mut());
-                others.for_each(|b| b.alpha = first.alpha);
-            }
-        }));
-    list.bug("on-where-the-first-is-off: Blending is on or off for all as for the first.")
-        .plant(targets(|t| {
-            let on = t.iter().find_map(|t| t.blend);
-            let first = t[0].blend.is_some();
-            for target in t {
-                target.blend = if first { target.blend.or(on) } else { None };
-            }
-        }));
-    list.bug("operations-from-the-first: All have the first's operations.")
-        .plant(targets(|t| {
-            if let Some(first) = t[0].blend {
-                for blend in t.iter_mut().filter_map(|t| t.blend.as_mut()) {
-                    blend.color.operation = first.color.operation;
-                    blend.alpha.operation = first.alpha.operation;
-                }
-            }
-        }));
-    list.bug("first-alone-is-written: Only the first is written.")
-        .plant(targets(|t| {
-            t[1..].iter_mut().for_each(|t| t.write_mask = 0)
-        }));
-    list.source(CONFUSION);
-    list.bug(
-        "enables-inverted: Where some attachments are blended and others are not, the two \
-         are exchanged.",
-    )
-    .source("wgpu: per-target enable arguments flipped")
-    .draws(|draw| {
-        let on = draw.targets.iter().filter(|t| t.blend.is_some()).count();
-        if on > 0 && on < draw.targets.len() {
-            for target in &mut draw.targets {
-                target.blend = target.blend.is_none().then_some(OVER);
-            }
-        }
-    });
 }
 
 /// Returns the equivalent of a factor for a destination alpha of 1.
@@ -102,26 +23,71 @@ fn with_alpha_one(factor: &mut BlendFactor) {
     };
 }
 
-/// Formats without alpha beside formats with it.
-fn mixed_alpha(list: &mut List) {
-    list.bug(
-        "alpha-missing-on-one-is-missing-on-all: Where one attachment has no alpha, all \
-         count as without.",
-    )
-    .source("v3d: mixed-alpha targets changing the wrong one")
-    .plant(scene(|scene| {
-        for pass in &mut scene.passes {
-            let channels = |i: &usize| scene.attachments[*i].format.color_channels().len();
-            if !pass.color.iter().any(|i| channels(i) < 4) {
-                continue;
+bugs! {
+    class "targets", "blend";
+    source "lavapipe, v3d: one attachment's state for another";
+    "all-from-the-first: All take the first's state." => targets(|t| t.fill(t[0]));
+    "all-from-the-last: All take the last's state." => targets(|t| t.fill(t[t.len() - 1]));
+    "second-from-the-first: The second takes the first's state." => targets(|t| t[1] = t[0]);
+    "last-from-the-one-before: The last takes the state of the one before." =>
+        targets(|t| t[t.len() - 1] = t[t.len() - 2]);
+    "rotated: Each takes the state of the next." => targets(|t| t.rotate_left(1));
+    "reversed: The first takes the last's state, and so on." => targets(<[_]>::reverse);
+    "blend-from-the-first: All are blended as the first." =>
+        targets(|t| { let blend = t[0].blend; t.iter_mut().for_each(|t| t.blend = blend); });
+    "write-mask-from-the-first: All have the first's write mask." =>
+        targets(|t| { let mask = t[0].write_mask; t.iter_mut().for_each(|t| t.write_mask = mask); });
+    "write-masks-joined: A channel written to one attachment is written to all." =>
+        targets(|t| {
+            let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
+            t.iter_mut().for_each(|t| t.write_mask = mask);
+        });
+    "alpha-equation-from-the-first: All have the first's equation for alpha." =>
+        targets(|t| {
+            if let Some(first) = t[0].blend {
+                let others = t.iter_mut().filter_map(|t| t.blend.as_mut());
+                others.for_each(|b| b.alpha = first.alpha);
             }
-            let targets = pass.draws.iter_mut().flat_map(|d| &mut d.targets);
-            for blend in targets.filter_map(|t| t.blend.as_mut()) {
-                for component in [&mut blend.color, &mut blend.alpha] {
-                    with_alpha_one(&mut component.src_factor);
-                    with_alpha_one(&mut component.dst_factor);
+        });
+    "on-where-the-first-is-off: Blending is on or off for all as for the first." =>
+        targets(|t| {
+            let on = t.iter().find_map(|t| t.blend);
+            let first = t[0].blend.is_some();
+            for target in t { target.blend = if first { target.blend.or(on) } else { None }; }
+        });
+    "operations-from-the-first: All have the first's operations." =>
+        targets(|t| {
+            if let Some(first) = t[0].blend {
+                for blend in t.iter_mut().filter_map(|t| t.blend.as_mut()) {
+                    blend.color.operation = first.color.operation;
+                    blend.alpha.operation = first.alpha.operation;
                 }
             }
-        }
-    }));
+        });
+    "first-alone-is-written: Only the first is written." =>
+        targets(|t| t[1..].iter_mut().for_each(|t| t.write_mask = 0));
+    source CONFUSION;
+    "enables-inverted: Where some attachments are blended and others are not, the two are exchanged." =>
+        draws(|draw| {
+            let on = draw.targets.iter().filter(|t| t.blend.is_some()).count();
+            if on > 0 && on < draw.targets.len() {
+                for target in &mut draw.targets { target.blend = target.blend.is_none().then_some(OVER); }
+            }
+        }), source "wgpu: per-target enable arguments flipped";
+
+    // Formats without alpha beside formats with it.
+    "alpha-missing-on-one-is-missing-on-all: Where one attachment has no alpha, all count as without." =>
+        scene(|scene| {
+            for pass in &mut scene.passes {
+                let channels = |i: &usize| scene.attachments[*i].format.color_channels().len();
+                if !pass.color.iter().any(|i| channels(i) < 4) { continue; }
+                let targets = pass.draws.iter_mut().flat_map(|d| &mut d.targets);
+                for blend in targets.filter_map(|t| t.blend.as_mut()) {
+                    for component in [&mut blend.color, &mut blend.alpha] {
+                        with_alpha_one(&mut component.src_factor);
+                        with_alpha_one(&mut component.dst_factor);
+                    }
+                }
+            }
+        }), source "v3d: mixed-alpha targets changing the wrong one";
 }

@@ -50,7 +50,7 @@ fn a_right_coarse_depth_changes_no_frame() {
         .filter(|case| areas.iter().any(|area| case.id().starts_with(area)))
         .map(|case| case.build().unwrap())
         .collect();
-    let Plant::Memory(coarse) = faithful(8) else {
+    let Plant::Memory(coarse) = faithful() else {
         panic!("a coarse depth is a bug of memory");
     };
     let draw = |mut prepared: Box<dyn Prepared>| {

@@ -1,7 +1,7 @@
 //! Bugs of viewports.
 
-use crate::list::{CONFUSION, List, SMALL};
-use crate::plant::{Plant, sized};
+use crate::list::{CONFUSION, SMALL, bugs};
+use crate::plant::{Plant, draws, sized};
 use crate::tables::ONE_TEXEL;
 use etalon_scene::{Draw, PrimitiveTopology};
 
@@ -19,63 +19,43 @@ fn unclipped(draw: &mut Draw, size: [u32; 2]) {
     }
 }
 
-pub(super) fn add(list: &mut List) {
-    list.class("viewport", "scissor");
-    type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
-    fn rects(bug: Bug) -> Plant {
-        sized(move |draw, size| {
-            draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32))
-        })
-    }
+type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
 
+fn rects(bug: Bug) -> Plant {
+    sized(move |draw, size| draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32)))
+}
+
+bugs! {
+    class "viewport", "scissor";
     for (name, about, by) in ONE_TEXEL {
-        list.bug(format!("one-texel-{name}: Viewports {about}."))
-            .source(SMALL)
-            .draws(move |draw| {
-                for (value, by) in draw.viewport.rect.iter_mut().zip(by) {
-                    *value += by as f32;
-                }
-            });
+        "one-texel-{name}: Viewports {about}." =>
+            draws(move |draw| { for (value, by) in draw.viewport.rect.iter_mut().zip(by) { *value += by as f32; } }),
+            source SMALL;
     }
-    list.source("ANGLE: y flip; misread rectangles");
-    list.bug("ignored: Viewports are the whole attachment.")
-        .plant(rects(|_, [w, h]| [0.0, 0.0, w, h]));
-    list.bug("counted-from-the-bottom: Viewports are counted from the bottom.")
-        .plant(rects(|[x, y, w, h], [_, height]| [x, height - y - h, w, h]));
-    list.bug("counted-from-the-right: Viewports are counted from the right.")
-        .plant(rects(|[x, y, w, h], [width, _]| [width - x - w, y, w, h]));
-    list.bug("transposed: Columns and rows are exchanged.")
-        .plant(rects(|[x, y, w, h], _| [y, x, h, w]));
-    list.bug("from-the-origin: Viewports begin at the origin.")
-        .plant(rects(|[_, _, w, h], _| [0.0, 0.0, w, h]));
-    list.bug("held-inside: Viewports are moved to begin inside.")
-        .plant(rects(|[x, y, w, h], _| [x.max(0.0), y.max(0.0), w, h]));
-    list.bug("cut-to-the-attachment: Viewports are cut to the attachment.")
-        .plant(rects(|r, size| {
+    source "ANGLE: y flip; misread rectangles";
+    "ignored: Viewports are the whole attachment." => rects(|_, [w, h]| [0.0, 0.0, w, h]);
+    "counted-from-the-bottom: Viewports are counted from the bottom." =>
+        rects(|[x, y, w, h], [_, height]| [x, height - y - h, w, h]);
+    "counted-from-the-right: Viewports are counted from the right." =>
+        rects(|[x, y, w, h], [width, _]| [width - x - w, y, w, h]);
+    "transposed: Columns and rows are exchanged." => rects(|[x, y, w, h], _| [y, x, h, w]);
+    "from-the-origin: Viewports begin at the origin." => rects(|[_, _, w, h], _| [0.0, 0.0, w, h]);
+    "held-inside: Viewports are moved to begin inside." => rects(|[x, y, w, h], _| [x.max(0.0), y.max(0.0), w, h]);
+    "cut-to-the-attachment: Viewports are cut to the attachment." =>
+        rects(|r, size| {
             let [x, y, w, h] = r;
             let (left, top) = (x.max(0.0), y.max(0.0));
-            [
-                left,
-                top,
-                (x + w).min(size[0]) - left,
-                (y + h).min(size[1]) - top,
-            ]
-        }));
-    list.source(CONFUSION);
-    list.bug("not-clipping: Primitives are not clipped to the viewport.")
-        .source("a guard band without clipping")
-        .plant(sized(unclipped));
-    list.bug("points-not-clipped: Points beside the viewport are drawn.")
-        .source("a guard band without clipping")
-        .plant(sized(|draw, size| {
-            if draw.topology == PrimitiveTopology::PointList {
-                unclipped(draw, size);
-            }
-        }));
-    list.bug("as-scissor: The scissor rectangle is the viewport's.")
-        .when(|draw| draw.scissor.is_some())
-        .draws(|draw| {
+            [left, top, (x + w).min(size[0]) - left, (y + h).min(size[1]) - top]
+        });
+    source CONFUSION;
+    "not-clipping: Primitives are not clipped to the viewport." =>
+        sized(unclipped), source "a guard band without clipping";
+    "points-not-clipped: Points beside the viewport are drawn." =>
+        sized(|draw, size| if draw.topology == PrimitiveTopology::PointList { unclipped(draw, size) }),
+        source "a guard band without clipping";
+    "as-scissor: The scissor rectangle is the viewport's." =>
+        draws(|draw| {
             let [x, y, w, h] = draw.viewport.rect.map(|v| v.max(0.0) as u32);
             draw.scissor = Some([x, y, w, h]);
-        });
+        }), when |draw| draw.scissor.is_some();
 }

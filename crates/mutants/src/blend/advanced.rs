@@ -3,8 +3,8 @@
 
 use crate::fields::Places;
 use crate::hooks::{advanced_blending, faithful_advanced};
-use crate::list::{List, SMALL};
-use crate::plant::Plant;
+use crate::list::{SMALL, bugs};
+use crate::plant::{Plant, draws};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::AdvancedBlend;
 
@@ -12,33 +12,6 @@ use etalon_scene::AdvancedBlend;
 type Colors = [[f32; 4]; 2];
 /// The weights of both, of the source alone and of the destination alone, of two alphas.
 type Weights = fn(f32, f32) -> [f32; 3];
-
-pub(crate) fn add(list: &mut List) {
-    list.class("blend", "blend");
-    neighbours(list);
-    functions(list);
-    weights(list);
-    colors(list);
-    list.bug("advanced-never: Advanced blending is off.")
-        .draws(|draw| draw.targets.iter_mut().for_each(|t| t.advanced = None));
-    list.bug("advanced-tenth-lighter: Advanced blends are a tenth too light.")
-        .source(SMALL)
-        .plant(advanced_blending(|mode, encodings, colors: Colors| {
-            faithful_advanced(mode, encodings, colors).map(|v| v * 1.1)
-        }));
-}
-
-fn neighbours(list: &mut List) {
-    let modes = AdvancedBlend::ALL.iter().copied();
-    let next = modes.clone().cycle().skip(1);
-    let mode: Places<AdvancedBlend> = |d| {
-        d.targets
-            .iter_mut()
-            .filter_map(|t| t.advanced.as_mut())
-            .collect()
-    };
-    list.swaps("advanced-", "The mode ", mode, modes.zip(next));
-}
 
 /// The function of a mode, by what it makes of opaque colours.
 fn mix(mode: AdvancedBlend, s: f32, d: f32) -> f32 {
@@ -82,113 +55,73 @@ fn weighed(weights: Weights) -> Plant {
     })
 }
 
-fn functions(list: &mut List) {
-    list.bug("advanced-dodge-onto-black: Colour dodge by white makes black white.")
-        .plant(mixes(AdvancedBlend::ColorDodge, |right, s, _d| {
-            if s >= 1.0 { 1.0 } else { right }
-        }));
-    list.bug("advanced-dodge-by-white: Colour dodge by white leaves the destination.")
-        .plant(mixes(AdvancedBlend::ColorDodge, |right, s, d| {
-            if s >= 1.0 { d } else { right }
-        }));
-    list.bug("advanced-dodge-beyond-one: Colour dodge is not held to 1.")
-        .plant(mixes(AdvancedBlend::ColorDodge, |right, s, d| {
-            if s < 1.0 { d / (1.0 - s) } else { right }
-        }));
-    list.bug("advanced-burn-onto-white: Colour burn makes white black where the source is black.")
-        .plant(mixes(AdvancedBlend::ColorBurn, |right, s, _d| {
-            if s <= 0.0 { 0.0 } else { right }
-        }));
-    list.bug("advanced-burn-by-black: Colour burn by black leaves the destination.")
-        .plant(mixes(AdvancedBlend::ColorBurn, |right, s, d| {
-            if s <= 0.0 { d } else { right }
-        }));
-    list.bug("advanced-burn-below-zero: Colour burn is not held to 0.")
-        .plant(mixes(AdvancedBlend::ColorBurn, |right, s, d| {
-            if s > 0.0 { 1.0 - (1.0 - d) / s } else { right }
-        }));
-    list.bug("advanced-overlay-never-screens: Overlay multiplies whatever the destination.")
-        .plant(mixes(AdvancedBlend::Overlay, |_, s, d| 2.0 * s * d));
-    list.bug("advanced-overlay-never-multiplies: Overlay screens whatever the destination.")
-        .plant(mixes(AdvancedBlend::Overlay, |_, s, d| {
-            1.0 - 2.0 * (1.0 - s) * (1.0 - d)
-        }));
-    list.bug("advanced-hard-light-never-screens: Hard light multiplies whatever the source.")
-        .plant(mixes(AdvancedBlend::HardLight, |_, s, d| 2.0 * s * d));
-    list.bug("advanced-hard-light-never-multiplies: Hard light screens whatever the source.")
-        .plant(mixes(AdvancedBlend::HardLight, |_, s, d| {
-            1.0 - 2.0 * (1.0 - s) * (1.0 - d)
-        }));
-    list.bug("advanced-hard-light-once: Hard light multiplies and screens once instead of twice.")
-        .plant(mixes(AdvancedBlend::HardLight, |_, s, d| {
-            if s <= 0.5 {
-                s * d
-            } else {
-                1.0 - (1.0 - s) * (1.0 - d)
-            }
-        }));
-    list.bug("advanced-soft-light-never-darkens: Soft light lightens whatever the source.")
-        .plant(mixes(AdvancedBlend::SoftLight, |_, s, d| {
-            let root = d.sqrt() - d;
-            d + (2.0 * s - 1.0) * root
-        }));
-    list.bug(
-        "advanced-soft-light-root-of-the-dark: Soft light takes the root of dark destinations too.",
-    )
-    .plant(mixes(AdvancedBlend::SoftLight, |right, s, d| {
-        let light = d + (2.0 * s - 1.0) * (d.sqrt() - d);
-        if s > 0.5 { light } else { right }
-    }));
-    list.bug(
-        "advanced-soft-light-polynomial-of-the-light: Light destinations take the polynomial.",
-    )
-    .plant(mixes(AdvancedBlend::SoftLight, |right, s, d| {
-        let dark = d + (2.0 * s - 1.0) * d * ((16.0 * d - 12.0) * d + 3.0);
-        if s > 0.5 { dark } else { right }
-    }));
-    list.bug("advanced-soft-light-plus-four: Soft light has the constant 4 of another polynomial.")
-        .plant(mixes(AdvancedBlend::SoftLight, |right, s, d| {
+bugs! {
+    class "blend", "blend";
+    let modes = AdvancedBlend::ALL.iter().copied();
+    let next = modes.clone().cycle().skip(1);
+    let mode: Places<AdvancedBlend> = |d| d.targets.iter_mut().filter_map(|t| t.advanced.as_mut()).collect();
+    swaps "advanced-", "The mode ", mode, modes.zip(next);
+    "advanced-dodge-onto-black: Colour dodge by white makes black white." =>
+        mixes(AdvancedBlend::ColorDodge, |right, s, _d| if s >= 1.0 { 1.0 } else { right });
+    "advanced-dodge-by-white: Colour dodge by white leaves the destination." =>
+        mixes(AdvancedBlend::ColorDodge, |right, s, d| if s >= 1.0 { d } else { right });
+    "advanced-dodge-beyond-one: Colour dodge is not held to 1." =>
+        mixes(AdvancedBlend::ColorDodge, |right, s, d| if s < 1.0 { d / (1.0 - s) } else { right });
+    "advanced-burn-onto-white: Colour burn makes white black where the source is black." =>
+        mixes(AdvancedBlend::ColorBurn, |right, s, _d| if s <= 0.0 { 0.0 } else { right });
+    "advanced-burn-by-black: Colour burn by black leaves the destination." =>
+        mixes(AdvancedBlend::ColorBurn, |right, s, d| if s <= 0.0 { d } else { right });
+    "advanced-burn-below-zero: Colour burn is not held to 0." =>
+        mixes(AdvancedBlend::ColorBurn, |right, s, d| if s > 0.0 { 1.0 - (1.0 - d) / s } else { right });
+    "advanced-overlay-never-screens: Overlay multiplies whatever the destination." =>
+        mixes(AdvancedBlend::Overlay, |_, s, d| 2.0 * s * d);
+    "advanced-overlay-never-multiplies: Overlay screens whatever the destination." =>
+        mixes(AdvancedBlend::Overlay, |_, s, d| 1.0 - 2.0 * (1.0 - s) * (1.0 - d));
+    "advanced-hard-light-never-screens: Hard light multiplies whatever the source." =>
+        mixes(AdvancedBlend::HardLight, |_, s, d| 2.0 * s * d);
+    "advanced-hard-light-never-multiplies: Hard light screens whatever the source." =>
+        mixes(AdvancedBlend::HardLight, |_, s, d| 1.0 - 2.0 * (1.0 - s) * (1.0 - d));
+    "advanced-hard-light-once: Hard light multiplies and screens once instead of twice." =>
+        mixes(AdvancedBlend::HardLight, |_, s, d| if s <= 0.5 { s * d } else { 1.0 - (1.0 - s) * (1.0 - d) });
+    "advanced-soft-light-never-darkens: Soft light lightens whatever the source." =>
+        mixes(AdvancedBlend::SoftLight, |_, s, d| { let root = d.sqrt() - d; d + (2.0 * s - 1.0) * root });
+    "advanced-soft-light-root-of-the-dark: Soft light takes the root of dark destinations too." =>
+        mixes(AdvancedBlend::SoftLight, |right, s, d| {
+            let light = d + (2.0 * s - 1.0) * (d.sqrt() - d);
+            if s > 0.5 { light } else { right }
+        });
+    "advanced-soft-light-polynomial-of-the-light: Light destinations take the polynomial." =>
+        mixes(AdvancedBlend::SoftLight, |right, s, d| {
+            let dark = d + (2.0 * s - 1.0) * d * ((16.0 * d - 12.0) * d + 3.0);
+            if s > 0.5 { dark } else { right }
+        });
+    "advanced-soft-light-plus-four: Soft light has the constant 4 of another polynomial." =>
+        mixes(AdvancedBlend::SoftLight, |right, s, d| {
             let dark = d + (2.0 * s - 1.0) * d * ((16.0 * d - 12.0) * d + 4.0);
             if s > 0.5 && d <= 0.25 { dark } else { right }
-        }));
-    list.bug("advanced-soft-light-continuous: Soft light is the older formula without thresholds.")
-        .plant(mixes(AdvancedBlend::SoftLight, |_, s, d| {
-            (1.0 - 2.0 * s) * d * d + 2.0 * s * d
-        }));
-    list.bug("advanced-difference-signed: The difference is negative where the source is lighter.")
-        .plant(mixes(AdvancedBlend::Difference, |_, s, d| d - s));
-    list.bug("advanced-exclusion-once: Exclusion takes the product away once.")
-        .plant(mixes(AdvancedBlend::Exclusion, |_, s, d| s + d - s * d));
-    list.bug("advanced-screen-adds: Screen takes no product away.")
-        .plant(mixes(AdvancedBlend::Screen, |_, s, d| s + d));
-}
-
-fn weights(list: &mut List) {
-    list.bug("advanced-both-dropped: Where source and destination lie together, nothing is left.")
-        .plant(weighed(|s, d| [0.0, s * (1.0 - d), d * (1.0 - s)]));
-    list.bug("advanced-source-alone-dropped: Where the source lies alone, nothing is left.")
-        .plant(weighed(|s, d| [s * d, 0.0, d * (1.0 - s)]));
-    list.bug(
-        "advanced-destination-alone-dropped: Where the destination lies alone, nothing is left.",
-    )
-    .plant(weighed(|s, d| [s * d, s * (1.0 - d), 0.0]));
-    list.bug("advanced-alone-exchanged: Source and destination have each other's weights.")
-        .plant(weighed(|s, d| [s * d, d * (1.0 - s), s * (1.0 - d)]));
-    list.bug("advanced-conjoint: Source and destination cover the same part, as far as they can.")
-        .plant(weighed(|s, d| {
-            [s.min(d), (s - d).max(0.0), (d - s).max(0.0)]
-        }));
-    list.bug("advanced-disjoint: Source and destination cover different parts, if they can.")
-        .plant(weighed(|s, d| {
-            [(s + d - 1.0).max(0.0), s.min(1.0 - d), d.min(1.0 - s)]
-        }));
-    list.bug("advanced-opaque-destination: The destination counts as opaque.")
-        .plant(weighed(|s, _| [s, 0.0, 1.0 - s]));
-}
-
-fn colors(list: &mut List) {
-    list.bug("advanced-source-not-divided: The source is not divided by its alpha.")
-        .plant(advanced_blending(|mode, _, [src, dst]| {
+        });
+    "advanced-soft-light-continuous: Soft light is the older formula without thresholds." =>
+        mixes(AdvancedBlend::SoftLight, |_, s, d| (1.0 - 2.0 * s) * d * d + 2.0 * s * d);
+    "advanced-difference-signed: The difference is negative where the source is lighter." =>
+        mixes(AdvancedBlend::Difference, |_, s, d| d - s);
+    "advanced-exclusion-once: Exclusion takes the product away once." =>
+        mixes(AdvancedBlend::Exclusion, |_, s, d| s + d - s * d);
+    "advanced-screen-adds: Screen takes no product away." => mixes(AdvancedBlend::Screen, |_, s, d| s + d);
+    "advanced-both-dropped: Where source and destination lie together, nothing is left." =>
+        weighed(|s, d| [0.0, s * (1.0 - d), d * (1.0 - s)]);
+    "advanced-source-alone-dropped: Where the source lies alone, nothing is left." =>
+        weighed(|s, d| [s * d, 0.0, d * (1.0 - s)]);
+    "advanced-destination-alone-dropped: Where the destination lies alone, nothing is left." =>
+        weighed(|s, d| [s * d, s * (1.0 - d), 0.0]);
+    "advanced-alone-exchanged: Source and destination have each other's weights." =>
+        weighed(|s, d| [s * d, d * (1.0 - s), s * (1.0 - d)]);
+    "advanced-conjoint: Source and destination cover the same part, as far as they can." =>
+        weighed(|s, d| [s.min(d), (s - d).max(0.0), (d - s).max(0.0)]);
+    "advanced-disjoint: Source and destination cover different parts, if they can." =>
+        weighed(|s, d| [(s + d - 1.0).max(0.0), s.min(1.0 - d), d.min(1.0 - s)]);
+    "advanced-opaque-destination: The destination counts as opaque." => weighed(|s, _| [s, 0.0, 1.0 - s]);
+    "advanced-source-not-divided: The source is not divided by its alpha." =>
+        advanced_blending(|mode, _, [src, dst]| {
             let [both, source, destination] = parts(src[3], dst[3]);
             let mut result = [both + source + destination; 4];
             for c in 0..3 {
@@ -196,9 +129,9 @@ fn colors(list: &mut List) {
                 result[c] = mix(mode, src[c], d) * both + src[c] * source + d * destination;
             }
             result
-        }));
-    list.bug("advanced-destination-not-divided: The destination is not divided by its alpha.")
-        .plant(advanced_blending(|mode, _, [src, dst]| {
+        });
+    "advanced-destination-not-divided: The destination is not divided by its alpha." =>
+        advanced_blending(|mode, _, [src, dst]| {
             let [both, source, destination] = parts(src[3], dst[3]);
             let mut result = [both + source + destination; 4];
             for c in 0..3 {
@@ -206,37 +139,37 @@ fn colors(list: &mut List) {
                 result[c] = mix(mode, s, dst[c]) * both + s * source + dst[c] * destination;
             }
             result
-        }));
-    list.bug("advanced-result-divided: The result is divided by its alpha.")
-        .plant(advanced_blending(|mode, encodings, colors| {
+        });
+    "advanced-result-divided: The result is divided by its alpha." =>
+        advanced_blending(|mode, encodings, colors| {
             let mut result = faithful_advanced(mode, encodings, colors);
-            for c in 0..3 {
-                result[c] = over_alpha(result[c], result[3]);
-            }
+            for c in 0..3 { result[c] = over_alpha(result[c], result[3]); }
             result
-        }));
-    list.bug("advanced-nothing-from-nothing: What is divided by an alpha of 0 is no number.")
-        .plant(advanced_blending(|mode, encodings, colors| {
+        });
+    "advanced-nothing-from-nothing: What is divided by an alpha of 0 is no number." =>
+        advanced_blending(|mode, encodings, colors| {
             let mut result = faithful_advanced(mode, encodings, colors);
-            if colors.iter().any(|color| color[3] == 0.0) {
-                result[..3].fill(f32::NAN);
-            }
+            if colors.iter().any(|color| color[3] == 0.0) { result[..3].fill(f32::NAN); }
             result
-        }));
-    list.bug("advanced-alpha-of-the-mode: Alpha is mixed by the mode's function.")
-        .plant(advanced_blending(|mode, encodings, colors| {
+        });
+    "advanced-alpha-of-the-mode: Alpha is mixed by the mode's function." =>
+        advanced_blending(|mode, encodings, colors| {
             let mut result = faithful_advanced(mode, encodings, colors);
             result[3] = mix(mode, colors[0][3], colors[1][3]);
             result
-        }));
-    list.bug("advanced-alpha-of-the-source: Alpha is the source's.")
-        .plant(advanced_blending(|mode, encodings, colors| {
+        });
+    "advanced-alpha-of-the-source: Alpha is the source's." =>
+        advanced_blending(|mode, encodings, colors| {
             let mut result = faithful_advanced(mode, encodings, colors);
             result[3] = colors[0][3];
             result
-        }));
-    list.bug("advanced-sides-exchanged: Source and destination are exchanged.")
-        .plant(advanced_blending(|mode, encodings, [src, dst]| {
-            faithful_advanced(mode, encodings, [dst, src])
-        }));
+        });
+    "advanced-sides-exchanged: Source and destination are exchanged." =>
+        advanced_blending(|mode, encodings, [src, dst]| faithful_advanced(mode, encodings, [dst, src]));
+    "advanced-never: Advanced blending is off." =>
+        draws(|draw| draw.targets.iter_mut().for_each(|t| t.advanced = None));
+    "advanced-tenth-lighter: Advanced blends are a tenth too light." =>
+        advanced_blending(|mode, encodings, colors: Colors| {
+            faithful_advanced(mode, encodings, colors).map(|v| v * 1.1)
+        }), source SMALL;
 }

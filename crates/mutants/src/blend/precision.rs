@@ -1,89 +1,29 @@
 //! Bugs of the blend constant, of precision and of the colour store.
 
-use super::{after, component, is_extreme, joined};
+use super::{Input, after, before, component, is_extreme, joined};
 use crate::fields::Places;
+use crate::formats::store;
 use crate::hooks::{blending, code, color_code, faithful_blend};
-use crate::list::{CONFUSION, List, PRECISION, ROUNDED, SMALL};
-use crate::plant::{Plant, in_bits};
+use crate::list::{CONFUSION, PRECISION, ROUNDED, SMALL, bugs};
+use crate::plant::{Plant, each, in_bits, set};
+use crate::tables::place;
 use etalon_frame::ChannelEncoding::{Float32, Unorm};
-use etalon_pipeline::BlendInput;
-use etalon_scene::BlendFactor;
+use etalon_scene::{BlendFactor, BlendOperation};
 
 const CONSTANT: Places<[f32; 4]> = |d| vec![&mut d.blend_constant];
-
-pub(crate) fn add(list: &mut List) {
-    list.class("blend", "blend");
-    constants(list);
-    clamps(list);
-    integers(list);
-    precision(list);
-    stores(list);
-}
-
-fn constants(list: &mut List) {
-    list.source("a wrong blend constant, which dEQP's groups do not see");
-    for bits in [5, 6, 7] {
-        list.bug(format!(
-            "constant-in-{bits}-bits: The constant keeps {bits} bits."
-        ))
-        .each(CONSTANT, move |c| *c = c.map(|v| in_bits(v, bits)));
-    }
-    for codes in [1, 3] {
-        let by = codes as f32 / 255.0;
-        list.bug(format!(
-            "constant-plus-{codes}-lsb: The constant is {codes}/255 too large."
-        ))
-        .each(CONSTANT, move |c| *c = c.map(|v| v + by));
-        list.bug(format!(
-            "constant-minus-{codes}-lsb: The constant is {codes}/255 too small."
-        ))
-        .each(CONSTANT, move |c| *c = c.map(|v| v - by));
-    }
-    list.source(CONFUSION);
-    list.bug("constant-unset: The constant is 0.")
-        .source("radv: constant colour untranslated")
-        .set(CONSTANT, [0.0; 4]);
-    list.bug("constant-one: The constant is 1.")
-        .set(CONSTANT, [1.0; 4]);
-    list.bug("constant-red-for-all: The constant's red is used for all channels.")
-        .each(CONSTANT, |c| *c = [c[0]; 4]);
-    list.bug("constant-red-blue-swapped: The constant's red and blue are exchanged.")
-        .each(CONSTANT, |c| c.swap(0, 2));
-    list.bug("constant-reversed: The constant's channels are reversed.")
-        .each(CONSTANT, |c| c.reverse());
-    list.bug("constant-opaque: The constant's alpha is 1.")
-        .each(CONSTANT, |c| c[3] = 1.0);
-}
 
 type Values = [[f32; 1]; 4];
 
 /// Blends without any clamp of its own after `held` has clamped source, second source and constant.
-fn held(held: fn(&mut BlendInput<[f32; 1]>)) -> Plant {
-    blending(move |state, _, input| {
-        let mut input = *input;
-        held(&mut input);
-        faithful_blend(state, [Float32; 4], &input)
+fn held(held: fn(&mut Input)) -> Plant {
+    before(move |_, encodings, input| {
+        *encodings = [Float32; 4];
+        held(input);
     })
 }
 
 fn clamped(values: Values) -> Values {
     values.map(|[v]| [v.clamp(0.0, 1.0)])
-}
-
-fn clamps(list: &mut List) {
-    list.bug("constant-not-clamped: A constant outside 0 to 1 is not clamped.")
-        .source("freedreno: blend constant not clamped")
-        .plant(held(|i| {
-            (i.src, i.src1) = (clamped(i.src), clamped(i.src1))
-        }));
-    list.bug("source-not-clamped: A source outside 0 to 1 is not clamped before it is blended.")
-        .source("SwiftShader: clamping of blend inputs")
-        .plant(held(|i| i.constant = clamped(i.constant)));
-    list.bug("constant-clamped-below-only: A constant above 1 is not clamped.")
-        .plant(held(|i| {
-            (i.src, i.src1) = (clamped(i.src), clamped(i.src1));
-            i.constant = i.constant.map(|[v]| [v.max(0.0)]);
-        }));
 }
 
 /// Blending in codes of 8 bits: operands are rounded to codes, each side by `product(code, factor)`.
@@ -93,39 +33,22 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
             return faithful_blend(state, encodings, input);
         }
         let codes = |v: Values| v.map(|[v]| code(Unorm(8), v));
-        let (src, dst) = (codes(input.src), codes(input.dst));
-        let (constant, src1) = (codes(input.constant), codes(input.src1));
-        let factor = |f: BlendFactor, c: usize| match f {
-            BlendFactor::Zero => 0,
-            BlendFactor::One => 255,
-            BlendFactor::Src => src[c],
-            BlendFactor::OneMinusSrc => 255 - src[c],
-            BlendFactor::SrcAlpha => src[3],
-            BlendFactor::OneMinusSrcAlpha => 255 - src[3],
-            BlendFactor::Dst => dst[c],
-            BlendFactor::OneMinusDst => 255 - dst[c],
-            BlendFactor::DstAlpha => dst[3],
-            BlendFactor::OneMinusDstAlpha => 255 - dst[3],
-            BlendFactor::SrcAlphaSaturated if c == 3 => 255,
-            BlendFactor::SrcAlphaSaturated => src[3].min(255 - dst[3]),
-            BlendFactor::Constant => constant[c],
-            BlendFactor::OneMinusConstant => 255 - constant[c],
-            BlendFactor::ConstantAlpha => constant[3],
-            BlendFactor::OneMinusConstantAlpha => 255 - constant[3],
-            BlendFactor::Src1 => src1[c],
-            BlendFactor::OneMinusSrc1 => 255 - src1[c],
-            BlendFactor::Src1Alpha => src1[3],
-            BlendFactor::OneMinusSrc1Alpha => 255 - src1[3],
+        let operands = [input.src, input.dst, input.constant, input.src1].map(codes);
+        let [src, dst, ..] = operands;
+        let factor = |f: BlendFactor, c: usize| match (place(f), f) {
+            (Some([row, column]), _) => {
+                let code = operands[row][if column < 2 { c } else { 3 }];
+                if column % 2 == 1 { 255 - code } else { code }
+            }
+            (None, BlendFactor::Zero) => 0,
+            (None, BlendFactor::SrcAlphaSaturated) if c < 3 => src[3].min(255 - dst[3]),
+            (None, _) => 255,
         };
         std::array::from_fn(|c| {
             let component = component(state, c);
-            let extreme = is_extreme(component.operation);
-            let side = |operand, f| {
-                if extreme {
-                    operand
-                } else {
-                    product(operand, factor(f, c))
-                }
+            let side = |operand, f| match component.operation {
+                BlendOperation::Min | BlendOperation::Max => operand,
+                _ => product(operand, factor(f, c)),
             };
             let s = side(src[c], component.src_factor) as f32;
             let d = side(dst[c], component.dst_factor) as f32;
@@ -134,31 +57,55 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
     })
 }
 
-fn integers(list: &mut List) {
-    list.source("integer blending, as mobile GPUs do it");
-    list.bug("in-8-bits-nearest: Operands and products are rounded to the nearest of 8-bit codes.")
-        .legal(PRECISION)
-        .plant(integer(|a, b| (a * b + 127) / 255));
-    list.bug("in-8-bits-truncated: Products are rounded down to 8-bit codes.")
-        .legal(PRECISION)
-        .plant(integer(|a, b| a * b / 255));
-    list.bug("in-8-bits-times-plus-one: Products are a × (b + 1) / 256, rounded down.")
-        .legal(PRECISION)
-        .plant(integer(|a, b| (a * (b + 1)) >> 8));
-    list.bug("in-8-bits-by-256: Products are divided by 256, so that 1 times 1 is less than 1.")
-        .source("SwiftShader: blending on truncated bits")
-        .plant(integer(|a, b| (a * b) >> 8));
-    list.source("SwiftShader: 565/5551 blended on truncated bits");
-    list.bug("in-7-bits: Operands lose their lowest bit.")
-        .plant(integer(|a, b| ((a & 0xfe) * (b & 0xfe) + 127) / 255));
-    list.bug("in-5-bits: Operands lose their lowest three bits.")
-        .plant(integer(|a, b| ((a & 0xf8) * (b & 0xf8) + 127) / 255));
+/// A value as an exact code.
+fn exact(v: f32) -> f64 {
+    f64::from(v.clamp(0.0, 1.0)) * 255.0
 }
 
-fn precision(list: &mut List) {
-    list.source(SMALL);
-    list.bug("complement-by-256: Factors 1 - x are computed as 256/255 - x.")
-        .plant(after(|state, _, input, result| {
+bugs! {
+    class "blend", "blend";
+    source "a wrong blend constant, which dEQP's groups do not see";
+    for bits in [5, 6, 7] {
+        "constant-in-{bits}-bits: The constant keeps {bits} bits." =>
+            each(CONSTANT, move |c| *c = c.map(|v| in_bits(v, bits)));
+    }
+    for codes in [1, 3] {
+        let by = codes as f32 / 255.0;
+        "constant-plus-{codes}-lsb: The constant is {codes}/255 too large." =>
+            each(CONSTANT, move |c| *c = c.map(|v| v + by));
+        "constant-minus-{codes}-lsb: The constant is {codes}/255 too small." =>
+            each(CONSTANT, move |c| *c = c.map(|v| v - by));
+    }
+    source CONFUSION;
+    "constant-unset: The constant is 0." => set(CONSTANT, [0.0; 4]), source "radv: constant colour untranslated";
+    "constant-one: The constant is 1." => set(CONSTANT, [1.0; 4]);
+    "constant-red-for-all: The constant's red is used for all channels." => each(CONSTANT, |c| *c = [c[0]; 4]);
+    "constant-red-blue-swapped: The constant's red and blue are exchanged." => each(CONSTANT, |c| c.swap(0, 2));
+    "constant-reversed: The constant's channels are reversed." => each(CONSTANT, |c| c.reverse());
+    "constant-opaque: The constant's alpha is 1." => each(CONSTANT, |c| c[3] = 1.0);
+    "constant-not-clamped: A constant outside 0 to 1 is not clamped." =>
+        held(|i| (i.src, i.src1) = (clamped(i.src), clamped(i.src1))), source "freedreno: blend constant not clamped";
+    "source-not-clamped: A source outside 0 to 1 is not clamped before it is blended." =>
+        held(|i| i.constant = clamped(i.constant)), source "SwiftShader: clamping of blend inputs";
+    "constant-clamped-below-only: A constant above 1 is not clamped." =>
+        held(|i| {
+            (i.src, i.src1) = (clamped(i.src), clamped(i.src1));
+            i.constant = i.constant.map(|[v]| [v.max(0.0)]);
+        });
+    source "integer blending, as mobile GPUs do it";
+    "in-8-bits-nearest: Operands and products are rounded to the nearest of 8-bit codes." =>
+        integer(|a, b| (a * b + 127) / 255), legal PRECISION;
+    "in-8-bits-truncated: Products are rounded down to 8-bit codes." => integer(|a, b| a * b / 255), legal PRECISION;
+    "in-8-bits-times-plus-one: Products are a × (b + 1) / 256, rounded down." =>
+        integer(|a, b| (a * (b + 1)) >> 8), legal PRECISION;
+    "in-8-bits-by-256: Products are divided by 256, so that 1 times 1 is less than 1." =>
+        integer(|a, b| (a * b) >> 8), source "SwiftShader: blending on truncated bits";
+    source "SwiftShader: 565/5551 blended on truncated bits";
+    "in-7-bits: Operands lose their lowest bit." => integer(|a, b| ((a & 0xfe) * (b & 0xfe) + 127) / 255);
+    "in-5-bits: Operands lose their lowest three bits." => integer(|a, b| ((a & 0xf8) * (b & 0xf8) + 127) / 255);
+    source SMALL;
+    "complement-by-256: Factors 1 - x are computed as 256/255 - x." =>
+        after(|state, _, input, result| {
             for (c, value) in result.iter_mut().enumerate() {
                 let component = component(state, c);
                 let extra = |f: BlendFactor, operand: f32| {
@@ -167,65 +114,34 @@ fn precision(list: &mut List) {
                 };
                 let s = extra(component.src_factor, input.src[c][0]);
                 let d = extra(component.dst_factor, input.dst[c][0]);
-                if !is_extreme(component.operation) {
-                    *value += joined(component.operation, s, d);
-                }
+                if !is_extreme(component.operation) { *value += joined(component.operation, s, d); }
             }
-        }));
-    list.bug("result-plus-1-lsb: Blended results are 1/255 too large.")
-        .plant(after(|_, _, _, result| {
-            *result = result.map(|v| v + 1.0 / 255.0)
-        }));
-    list.bug("result-minus-1-lsb: Blended results are 1/255 too small.")
-        .plant(after(|_, _, _, result| {
-            *result = result.map(|v| v - 1.0 / 255.0)
-        }));
-    list.bug("in-srgb-space: Colour is blended in linear light of an sRGB reading.")
-        .source("SwiftShader: sRGB treated as linear")
-        .plant(blending(|state, encodings, input| {
+        });
+    "result-plus-1-lsb: Blended results are 1/255 too large." =>
+        after(|_, _, _, result| *result = result.map(|v| v + 1.0 / 255.0));
+    "result-minus-1-lsb: Blended results are 1/255 too small." =>
+        after(|_, _, _, result| *result = result.map(|v| v - 1.0 / 255.0));
+    "in-srgb-space: Colour is blended in linear light of an sRGB reading." =>
+        blending(|state, encodings, input| {
             let mut light = *input;
             for c in 0..3 {
                 light.src[c] = input.src[c].map(|v| v.clamp(0.0, 1.0).powf(2.2));
                 light.dst[c] = input.dst[c].map(|v| v.powf(2.2));
             }
             let mut result = faithful_blend(state, encodings, &light);
-            for value in &mut result[..3] {
-                *value = value.max(0.0).powf(1.0 / 2.2);
-            }
+            for value in &mut result[..3] { *value = value.max(0.0).powf(1.0 / 2.2); }
             result
-        }));
-}
-
-/// Replaces the store of 8-bit codes.
-fn store(bug: fn(f32) -> u32) -> Plant {
-    color_code(move |e, v| if e == Unorm(8) { bug(v) } else { code(e, v) })
-}
-
-/// A value as an exact code.
-fn exact(v: f32) -> f64 {
-    f64::from(v.clamp(0.0, 1.0)) * 255.0
-}
-
-fn stores(list: &mut List) {
-    list.bug("store-rounded-down: Colours are rounded down at the store.")
-        .source("truncation instead of rounding")
-        .legal(ROUNDED)
-        .plant(store(|v| (exact(v) + 1e-4) as u32));
-    list.bug("store-rounded-up: Colours are rounded up at the store.")
-        .source("rounding up")
-        .legal(ROUNDED)
-        .plant(store(|v| (exact(v) - 1e-4).ceil() as u32));
-    list.bug("store-by-256: Colours are stored as v × 256, rounded down and clamped to 255.")
-        .source("multiplying by 256 instead of 255")
-        .legal(ROUNDED)
-        .plant(store(|v| ((exact(v) * 256.0 / 255.0) as u32).min(255)));
-    list.bug("store-wraps: Colours outside 0 to 1 wrap around.")
-        .source(CONFUSION)
-        .plant(store(|v| ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32));
-    list.bug("store-in-7-bits: Stored colours lose their lowest bit.")
-        .plant(store(|v| code(Unorm(8), v) & 0xfe));
-    list.bug("store-in-6-bits: Stored colours keep 6 bits.")
-        .plant(color_code(|encoding, v| {
-            code(encoding, in_bits(v.clamp(0.0, 1.0), 6))
-        }));
+        }), source "SwiftShader: sRGB treated as linear";
+    "store-rounded-down: Colours are rounded down at the store." =>
+        store(Unorm(8), |v| (exact(v) + 1e-4) as u32), source "truncation instead of rounding", legal ROUNDED;
+    "store-rounded-up: Colours are rounded up at the store." =>
+        store(Unorm(8), |v| (exact(v) - 1e-4).ceil() as u32), source "rounding up", legal ROUNDED;
+    "store-by-256: Colours are stored as v × 256, rounded down and clamped to 255." =>
+        store(Unorm(8), |v| ((exact(v) * 256.0 / 255.0) as u32).min(255)),
+        source "multiplying by 256 instead of 255", legal ROUNDED;
+    "store-wraps: Colours outside 0 to 1 wrap around." =>
+        store(Unorm(8), |v| ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32), source CONFUSION;
+    "store-in-7-bits: Stored colours lose their lowest bit." => store(Unorm(8), |v| code(Unorm(8), v) & 0xfe);
+    "store-in-6-bits: Stored colours keep 6 bits." =>
+        color_code(|encoding, v| code(encoding, in_bits(v.clamp(0.0, 1.0), 6)));
 }

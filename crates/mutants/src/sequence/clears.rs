@@ -3,8 +3,8 @@
 use crate::aspects::{
     ASPECTS, BOTH, clear, discard, is_cleared, is_discarded, load, reach_both, reaches, word,
 };
-use crate::list::{CONFUSION, List};
-use crate::plant::{Plant, passes};
+use crate::list::{CONFUSION, bugs};
+use crate::plant::{Plant, passes, scene};
 use etalon_frame::Aspect;
 use etalon_scene::{Clear, Contents, LoadOperation, Pass, PassOperations, Scene};
 
@@ -29,82 +29,6 @@ fn without(keeps: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'stat
             clears.filter(|(number, command)| keeps(asked, &asked.clears[..*number], command));
         pass.clears = kept.map(|(_, command)| *command).collect();
     })
-}
-
-pub(super) fn add(list: &mut List) {
-    for aspect in ASPECTS {
-        let (name, word) = (aspect.name(), word(aspect));
-        list.bug(format!(
-            "{name}-load-clears: Passes after the first clear {word} instead of loading it."
-        ))
-        .passes(move |_, number, pass| {
-            if number > 0 {
-                clear(pass, aspect);
-            }
-        });
-        list.bug(format!(
-            "{name}-store-dropped: The {word} that passes store is discarded."
-        ))
-        .passes(move |_, _, pass| discard(pass, aspect));
-        list.bug(format!(
-            "{name}-clear-command-skipped: Clear commands of {word} are skipped."
-        ))
-        .plant(without(move |_, _, command| !reaches(command, aspect)));
-    }
-    list.bug("depth-clear-value-of-the-pass-before: Depth is cleared with the value of the clear before.").scene(|scene| {
-        let mut before = None;
-        for pass in &mut scene.passes {
-            if let LoadOperation::Clear(value) = pass.operations.depth.load {
-                pass.operations.depth.load = LoadOperation::Clear(before.unwrap_or(value));
-                before = Some(value);
-            }
-        }
-    });
-    loads(list);
-    commanded(list);
-    discards(list);
-}
-
-fn loads(list: &mut List) {
-    list.source(FAST);
-    for aspect in ASPECTS {
-        let word = word(aspect);
-        list.bug(format!(
-            "{word}-not-cleared-on-load: Where a pass is to clear {word}, it loads it."
-        ))
-        .passes(move |_, _, pass| load(pass, aspect));
-    }
-    for (cleared, other, value) in BOTH {
-        let (a, b) = (cleared.name(), other.name());
-        list.bug(format!(
-            "{b}-cleared-with-{a}-on-load: Where {a} is cleared and {b} loaded, {b} becomes {value}."
-        ))
-        .passes(move |_, _, pass| {
-            if is_cleared(pass, cleared) && !is_cleared(pass, other) {
-                clear(pass, other);
-            }
-        });
-    }
-    list.bug("empty-pass-does-not-clear: A pass without draws does not clear on load.")
-        .passes(|_, _, pass| {
-            if pass.draws.is_empty() {
-                pass.operations = PassOperations::default();
-            }
-        });
-    list.bug(
-        "clear-on-load-of-both-aspects-alone: Depth and stencil are cleared on load together \
-         or not at all.",
-    )
-    .passes(|_, _, pass| {
-        if is_cleared(pass, Aspect::Depth) != is_cleared(pass, Aspect::Stencil) {
-            load(pass, Aspect::Depth);
-            load(pass, Aspect::Stencil);
-        }
-    });
-    list.bug(
-        "clear-on-load-to-the-last-value: A clear to the value of the clear before is left out.",
-    )
-    .scene(skip_equal);
 }
 
 /// Loads where a pass clears to the same value as the clear before, which may be the first contents.
@@ -144,59 +68,81 @@ fn skip_equal(scene: &mut Scene) {
     }
 }
 
-fn commanded(list: &mut List) {
-    list.source(FAST);
-    list.bug("command-ignores-its-rectangle: A clear command clears everything.")
-        .plant(commands(|_, command| command.rect = None));
-    list.bug("commands-at-the-start: Clear commands are made into clears on load.")
-        .plant(commands(|_, command| command.before = 0));
-    list.bug("equal-command-skipped: A clear command like an earlier one of the pass is left out.")
-        .plant(without(|_, before, command| {
+bugs! {
+    for aspect in ASPECTS {
+        let (name, word) = (aspect.name(), word(aspect));
+        "{name}-load-clears: Passes after the first clear {word} instead of loading it." =>
+            passes(move |_, number, pass| if number > 0 { clear(pass, aspect) });
+        "{name}-store-dropped: The {word} that passes store is discarded." =>
+            passes(move |_, _, pass| discard(pass, aspect));
+        "{name}-clear-command-skipped: Clear commands of {word} are skipped." =>
+            without(move |_, _, command| !reaches(command, aspect));
+    }
+    "depth-clear-value-of-the-pass-before: Depth is cleared with the value of the clear before." =>
+        scene(|scene| {
+            let mut before = None;
+            for pass in &mut scene.passes {
+                if let LoadOperation::Clear(value) = pass.operations.depth.load {
+                    pass.operations.depth.load = LoadOperation::Clear(before.unwrap_or(value));
+                    before = Some(value);
+                }
+            }
+        });
+    source FAST;
+    for aspect in ASPECTS {
+        let word = word(aspect);
+        "{word}-not-cleared-on-load: Where a pass is to clear {word}, it loads it." =>
+            passes(move |_, _, pass| load(pass, aspect));
+    }
+    for (cleared, other, value) in BOTH {
+        let (a, b) = (cleared.name(), other.name());
+        "{b}-cleared-with-{a}-on-load: Where {a} is cleared and {b} loaded, {b} becomes {value}." =>
+            passes(move |_, _, pass| if is_cleared(pass, cleared) && !is_cleared(pass, other) { clear(pass, other) });
+    }
+    "empty-pass-does-not-clear: A pass without draws does not clear on load." =>
+        passes(|_, _, pass| if pass.draws.is_empty() { pass.operations = PassOperations::default() });
+    "clear-on-load-of-both-aspects-alone: Depth and stencil are cleared on load together or not at all." =>
+        passes(|_, _, pass| {
+            if is_cleared(pass, Aspect::Depth) != is_cleared(pass, Aspect::Stencil) {
+                load(pass, Aspect::Depth);
+                load(pass, Aspect::Stencil);
+            }
+        });
+    "clear-on-load-to-the-last-value: A clear to the value of the clear before is left out." => scene(skip_equal);
+    source FAST;
+    "command-ignores-its-rectangle: A clear command clears everything." => commands(|_, command| command.rect = None);
+    "commands-at-the-start: Clear commands are made into clears on load." => commands(|_, command| command.before = 0);
+    "equal-command-skipped: A clear command like an earlier one of the pass is left out." =>
+        without(|_, before, command| {
             let alike = |b: &Clear| (b.target, b.rect) == (command.target, command.rect);
             !before.iter().any(alike)
-        }));
-    list.source(CONFUSION);
+        });
+    source CONFUSION;
     for (name, side) in [("row", 3), ("column", 2)] {
-        list.bug(format!(
-            "command-without-last-{name}: The rectangle of a clear command lacks its last {name}."
-        ))
-        .plant(commands(move |_, command| {
-            if let Some(rect) = &mut command.rect {
-                rect[side] -= 1;
-            }
-        }));
+        "command-without-last-{name}: The rectangle of a clear command lacks its last {name}." =>
+            commands(move |_, command| if let Some(rect) = &mut command.rect { rect[side] -= 1 });
     }
-    list.bug("clear-ignores-left-of-rectangle: The rectangle of a clear begins at column 0.")
-        .plant(commands(|_, command| {
-            command.rect = command.rect.map(|[x, y, w, h]| [0, y, x + w, h])
-        }));
-    list.bug("command-upside-down: The rectangle of a clear is counted from the bottom.")
-        .source("OpenGL under another API: y from below")
-        .plant(commands(|_, command| {
+    "clear-ignores-left-of-rectangle: The rectangle of a clear begins at column 0." =>
+        commands(|_, command| command.rect = command.rect.map(|[x, y, w, h]| [0, y, x + w, h]));
+    "command-upside-down: The rectangle of a clear is counted from the bottom." =>
+        commands(|_, command| {
             let below = |[x, y, w, h]: [u32; 4]| [x, 16_u32.saturating_sub(y + h), w, h];
             command.rect = command.rect.map(below);
-        }));
-    for (number, word) in ["first", "second"].into_iter().enumerate() {
-        list.bug(format!(
-            "{word}-clear-command-skipped: The {word} clear command of a pass is skipped."
-        ))
-        .plant(without(move |_, before, _| before.len() != number));
+        }), source "OpenGL under another API: y from below";
+    for (number, word) in [(0, "first"), (1, "second")] {
+        "{word}-clear-command-skipped: The {word} clear command of a pass is skipped." =>
+            without(move |_, before, _| before.len() != number);
     }
-    list.bug("later-commands-skipped: Clear commands behind the first draw are left out.")
-        .plant(without(|_, _, command| command.before == 0));
-    list.bug("last-commands-skipped: Clear commands behind the last draw are left out.")
-        .plant(without(|pass, _, command| {
-            command.before < pass.draws.len()
-        }));
-    list.bug("clears-after-all-draws: Clear commands of a pass are executed after its draws.")
-        .plant(commands(|pass, command| command.before = pass.draws.len()));
-    list.bug("clears-one-draw-late: Clear commands are executed after the draw that follows them.")
-        .plant(commands(|pass, command| {
-            command.before = (command.before + 1).min(pass.draws.len())
-        }));
-    list.bug("command-obeys-the-scissor: A clear stays in the scissor of the draw before it.")
-        .source("OpenGL: the scissor test applies to clears")
-        .plant(commands(|pass, command| {
+    "later-commands-skipped: Clear commands behind the first draw are left out." =>
+        without(|_, _, command| command.before == 0);
+    "last-commands-skipped: Clear commands behind the last draw are left out." =>
+        without(|pass, _, command| command.before < pass.draws.len());
+    "clears-after-all-draws: Clear commands of a pass are executed after its draws." =>
+        commands(|pass, command| command.before = pass.draws.len());
+    "clears-one-draw-late: Clear commands are executed after the draw that follows them." =>
+        commands(|pass, command| command.before = (command.before + 1).min(pass.draws.len()));
+    "command-obeys-the-scissor: A clear stays in the scissor of the draw before it." =>
+        commands(|pass, command| {
             let before = command.before.checked_sub(1);
             if let Some([x, y, w, h]) = before.and_then(|draw| pass.draws[draw].scissor) {
                 let [left, top, width, height] = command.rect.unwrap_or([0, 0, 16, 16]);
@@ -204,41 +150,23 @@ fn commanded(list: &mut List) {
                 let (r, b) = ((left + width).min(x + w), (top + height).min(y + h));
                 command.rect = Some([l, t, r.saturating_sub(l), b.saturating_sub(t)]);
             }
-        }));
+        }), source "OpenGL: the scissor test applies to clears";
     for (cleared, other, value) in BOTH {
         let (a, b) = (cleared.name(), other.name());
-        list.bug(format!(
-            "command-clears-{b}-with-{a}: A clear command of {a} sets {b} to {value}."
-        ))
-        .plant(commands(move |_, command| {
-            if reaches(command, cleared) {
-                reach_both(command);
-            }
-        }));
+        "command-clears-{b}-with-{a}: A clear command of {a} sets {b} to {value}." =>
+            commands(move |_, command| if reaches(command, cleared) { reach_both(command) });
     }
-}
-
-fn discards(list: &mut List) {
-    list.source("Mali, PowerVR: one operation for both aspects");
+    source "Mali, PowerVR: one operation for both aspects";
     for (discarded, other, _) in BOTH {
         let (a, b) = (discarded.name(), other.name());
-        list.bug(format!(
-            "{b}-discarded-with-{a}: Where {a} is discarded, {b} is too."
-        ))
-        .passes(move |_, _, pass| {
-            if is_discarded(pass, discarded) {
-                discard(pass, other);
+        "{b}-discarded-with-{a}: Where {a} is discarded, {b} is too." =>
+            passes(move |_, _, pass| if is_discarded(pass, discarded) { discard(pass, other) });
+    }
+    "depth-and-stencil-discarded-with-colour: Where colour is discarded, depth and stencil are too." =>
+        passes(|_, _, pass| {
+            if is_discarded(pass, Aspect::Color) {
+                discard(pass, Aspect::Depth);
+                discard(pass, Aspect::Stencil);
             }
         });
-    }
-    list.bug(
-        "depth-and-stencil-discarded-with-colour: Where colour is discarded, depth and \
-         stencil are too.",
-    )
-    .passes(|_, _, pass| {
-        if is_discarded(pass, Aspect::Color) {
-            discard(pass, Aspect::Depth);
-            discard(pass, Aspect::Stencil);
-        }
-    });
 }

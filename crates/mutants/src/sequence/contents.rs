@@ -1,8 +1,7 @@
 //! Contents that a pass change or a submission loses or keeps.
 
 use crate::aspects::{ASPECTS, word};
-use crate::list::List;
-use crate::memory::Memory;
+use crate::list::bugs;
 use crate::plant::{Plant, memory};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::Moment;
@@ -28,29 +27,23 @@ fn restored(
     from: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
     to: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
 ) -> Plant {
-    memory(move || {
-        let mut kept: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, scene, stored| {
-            if to(moment, scene) && !kept.is_empty() {
-                let drawn: Vec<usize> = match moment {
-                    Moment::Begin { pass } | Moment::End { pass } => {
-                        let pass = &scene.passes[pass];
-                        pass.color
-                            .iter()
-                            .chain(&pass.depth_stencil)
-                            .copied()
-                            .collect()
-                    }
-                    _ => (0..kept.len()).collect(),
-                };
-                for index in drawn {
-                    restore(aspect, &kept[index], &mut stored.surfaces[index]);
+    memory(move |kept: &mut Vec<Surface>, moment, scene, stored| {
+        if to(moment, scene) && !kept.is_empty() {
+            let drawn: Vec<usize> = match moment {
+                Moment::Begin { pass } | Moment::End { pass } => {
+                    let pass = &scene.passes[pass];
+                    let color = pass.color.iter();
+                    color.chain(&pass.depth_stencil).copied().collect()
                 }
+                _ => (0..kept.len()).collect(),
+            };
+            for index in drawn {
+                restore(aspect, &kept[index], &mut stored.surfaces[index]);
             }
-            if from(moment, scene) {
-                kept = stored.surfaces.to_vec();
-            }
-        })
+        }
+        if from(moment, scene) {
+            *kept = stored.surfaces.to_vec();
+        }
     })
 }
 
@@ -59,72 +52,47 @@ fn at_end(moment: Moment, scene: &Scene) -> bool {
     matches!(moment, Moment::End { pass } if pass + 1 == scene.passes.len())
 }
 
-pub(super) fn add(list: &mut List) {
-    for aspect in ASPECTS {
-        let (name, word) = (aspect.name(), word(aspect));
-        list.bug(format!(
-            "{name}-not-stored-by-the-first-pass: The {word} that the first of several passes leaves is \
-             lost."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| moment == Moment::Begin { pass: 0 },
-            |moment, scene| moment == Moment::End { pass: 0 } && scene.passes.len() > 1,
-        ));
-        list.bug(format!(
-            "{name}-not-loaded: A pass after the first finds the {word} that attachments began with."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| moment == Moment::Initial,
-            |moment, _| matches!(moment, Moment::Begin { pass } if pass > 0),
-        ));
-        list.bug(format!(
-            "{name}-of-the-last-pass-lost: The {word} that the last of several passes leaves is lost."
-        ))
-        .plant(restored(
-            aspect,
-            |moment, _| matches!(moment, Moment::Begin { .. }),
-            |moment, scene| scene.passes.len() > 1 && at_end(moment, scene),
-        ));
-        list.bug(format!(
-            "{name}-kept-from-the-submission-before: A submission begins with the {word} that the one \
-             before left."
-        ))
-        .plant(restored(aspect, at_end, |moment, _| moment == Moment::Initial));
-    }
-    list.bug("texture-as-it-began: A texture that earlier passes drew is read as it began.")
-        .plant(textures_as_they_began());
-    list.bug("later-submissions-draw-nothing: Only the first submission draws.")
-        .plant(later_submissions(|_| true));
-    list.bug(
-        "later-submissions-lose-their-first-draw: Submissions after the first lose their \
-         first draw.",
+/// Undoes draws of submissions after the first.
+fn later_submissions(undone: fn(Moment) -> bool) -> Plant {
+    memory(
+        move |(submissions, kept): &mut (u32, Vec<Surface>), moment, _, stored| match moment {
+            Moment::Initial => *submissions += 1,
+            Moment::Draw { .. } if *submissions > 1 => *kept = stored.surfaces.to_vec(),
+            Moment::Drawn { .. } if *submissions > 1 && undone(moment) => {
+                stored.surfaces.clone_from_slice(kept);
+            }
+            _ => {}
+        },
     )
-    .plant(later_submissions(|moment| {
-        moment == Moment::Drawn { pass: 0, draw: 0 }
-    }));
-    list.bug("counts-added-over-submissions: Counters go on from the submission before.")
-        .plant(memory(|| {
-            let mut counts: Vec<u64> = Vec::new();
-            Memory::new(move |moment, scene, stored| {
-                if moment == Moment::Initial {
-                    for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) {
-                        *to = *from;
-                    }
-                }
-                if at_end(moment, scene) {
-                    counts = stored.counters.iter().map(|(_, count)| *count).collect();
-                }
-            })
-        }));
 }
 
-fn textures_as_they_began() -> Plant {
-    memory(|| {
-        let mut began: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, scene, stored| match moment {
-            Moment::Initial => began = stored.surfaces.to_vec(),
+bugs! {
+    for aspect in ASPECTS {
+        let (name, word) = (aspect.name(), word(aspect));
+        "{name}-not-stored-by-the-first-pass: The {word} that the first of several passes leaves is lost." =>
+            restored(
+                aspect,
+                |moment, _| moment == Moment::Begin { pass: 0 },
+                |moment, scene| moment == Moment::End { pass: 0 } && scene.passes.len() > 1,
+            );
+        "{name}-not-loaded: A pass after the first finds the {word} that attachments began with." =>
+            restored(
+                aspect,
+                |moment, _| moment == Moment::Initial,
+                |moment, _| matches!(moment, Moment::Begin { pass } if pass > 0),
+            );
+        "{name}-of-the-last-pass-lost: The {word} that the last of several passes leaves is lost." =>
+            restored(
+                aspect,
+                |moment, _| matches!(moment, Moment::Begin { .. }),
+                |moment, scene| scene.passes.len() > 1 && at_end(moment, scene),
+            );
+        "{name}-kept-from-the-submission-before: A submission begins with the {word} that the one before left." =>
+            restored(aspect, at_end, |moment, _| moment == Moment::Initial);
+    }
+    "texture-as-it-began: A texture that earlier passes drew is read as it began." =>
+        memory(|began: &mut Vec<Surface>, moment, scene, stored| match moment {
+            Moment::Initial => *began = stored.surfaces.to_vec(),
             Moment::Draw { pass, draw } | Moment::Drawn { pass, draw } => {
                 let textures = scene.passes[pass].draws[draw].textures.iter().copied();
                 for texture in textures.collect::<HashSet<usize>>() {
@@ -132,22 +100,15 @@ fn textures_as_they_began() -> Plant {
                 }
             }
             _ => {}
-        })
-    })
-}
-
-/// Undoes draws of submissions after the first.
-fn later_submissions(undone: fn(Moment) -> bool) -> Plant {
-    memory(move || {
-        let mut submissions = 0;
-        let mut kept: Vec<Surface> = Vec::new();
-        Memory::new(move |moment, _, stored| match moment {
-            Moment::Initial => submissions += 1,
-            Moment::Draw { .. } if submissions > 1 => kept = stored.surfaces.to_vec(),
-            Moment::Drawn { .. } if submissions > 1 && undone(moment) => {
-                stored.surfaces.clone_from_slice(&kept);
+        });
+    "later-submissions-draw-nothing: Only the first submission draws." => later_submissions(|_| true);
+    "later-submissions-lose-their-first-draw: Submissions after the first lose their first draw." =>
+        later_submissions(|moment| moment == Moment::Drawn { pass: 0, draw: 0 });
+    "counts-added-over-submissions: Counters go on from the submission before." =>
+        memory(|counts: &mut Vec<u64>, moment, scene, stored| {
+            if moment == Moment::Initial {
+                for (from, (_, to)) in counts.iter().zip(stored.counters.iter_mut()) { *to = *from; }
             }
-            _ => {}
-        })
-    })
+            if at_end(moment, scene) { *counts = stored.counters.iter().map(|(_, count)| *count).collect(); }
+        });
 }

@@ -1,7 +1,7 @@
 //! Queries side by side, and queries over several draws or passes.
 
-use crate::list::{CONFUSION, List};
-use crate::plant::{Plant, frames};
+use crate::list::{CONFUSION, bugs};
+use crate::plant::{Plant, frames, passes, scene};
 use etalon_scene::{Draw, Scene};
 
 /// Changes the counts of a frame.
@@ -40,39 +40,25 @@ fn counted_elsewhere(draws: &mut [Draw], others: &[etalon_scene::Pass]) {
     }
 }
 
-pub(super) fn add(list: &mut List) {
-    list.bug("second-query-gets-the-first: Every query gets the value of the first one.")
-        .source("SwiftShader: one query for all")
-        .plant(counts(|counts| {
-            counts.fill(counts.first().copied().unwrap_or_default())
-        }));
-    list.source(CONFUSION);
-    list.bug("queries-in-reverse: Queries come back in reverse.")
-        .plant(counts(<[_]>::reverse));
-    list.bug("last-query-lost: Of several queries the last one stays 0.")
-        .plant(counts(|counts| {
-            if let [_, .., last] = counts {
-                *last = 0;
-            }
-        }));
-    list.bug("query-of-the-first-pass-alone: A query keeps the value of its first pass.")
-        .passes(|asked, number, pass| counted_elsewhere(&mut pass.draws, &asked.passes[..number]));
-    list.bug("query-of-the-last-pass-alone: A query keeps the value of its last pass.")
-        .passes(|asked, number, pass| {
-            counted_elsewhere(&mut pass.draws, &asked.passes[number + 1..]);
-        });
-    list.bug("every-count-is-the-last: Every counter has the last one's value.")
-        .plant(alike(|counts| counts.fill(counts[counts.len() - 1])));
-    list.bug("counts-shifted: Every counter has the value of the one before.")
-        .plant(alike(|counts| counts.rotate_right(1)));
-    list.bug("counts-not-reset: A counter goes on from the one before.")
-        .plant(alike(|counts| {
-            for number in 1..counts.len() {
-                counts[number] += counts[number - 1];
-            }
-        }));
-    list.bug("counter-ends-one-draw-early: A counter over several draws misses the last.")
-        .scene(|scene| uncounted(scene, |count| count - 1));
-    list.bug("counter-begins-one-draw-late: A counter over several draws misses the first.")
-        .scene(|scene| uncounted(scene, |_| 0));
+bugs! {
+    "second-query-gets-the-first: Every query gets the value of the first one." =>
+        counts(|counts| counts.fill(counts.first().copied().unwrap_or_default())),
+        source "SwiftShader: one query for all";
+    source CONFUSION;
+    "queries-in-reverse: Queries come back in reverse." => counts(<[_]>::reverse);
+    "last-query-lost: Of several queries the last one stays 0." =>
+        counts(|counts| if let [_, .., last] = counts { *last = 0 });
+    "query-of-the-first-pass-alone: A query keeps the value of its first pass." =>
+        passes(|asked, number, pass| counted_elsewhere(&mut pass.draws, &asked.passes[..number]));
+    "query-of-the-last-pass-alone: A query keeps the value of its last pass." =>
+        passes(|asked, number, pass| { counted_elsewhere(&mut pass.draws, &asked.passes[number + 1..]); });
+    "every-count-is-the-last: Every counter has the last one's value." =>
+        alike(|counts| counts.fill(counts[counts.len() - 1]));
+    "counts-shifted: Every counter has the value of the one before." => alike(|counts| counts.rotate_right(1));
+    "counts-not-reset: A counter goes on from the one before." =>
+        alike(|counts| { for number in 1..counts.len() { counts[number] += counts[number - 1]; } });
+    "counter-ends-one-draw-early: A counter over several draws misses the last." =>
+        scene(|scene| uncounted(scene, |count| count - 1));
+    "counter-begins-one-draw-late: A counter over several draws misses the first." =>
+        scene(|scene| uncounted(scene, |_| 0));
 }

@@ -1,11 +1,12 @@
 //! Passes that lose what earlier ones drew, their draws, attachments or resolves, or their promises; and
 //! submissions after the first.
 
-use crate::fields::{DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
-use crate::list::{CONFUSION, List};
-use crate::plant::{Plant, again, all_draws, passes};
+use crate::fields::{DEPTH, DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
+use crate::list::{CONFUSION, bugs};
+use crate::plant::{Plant, again, all_draws, passes, put, scene};
+use crate::read_only::read_only;
 use etalon_frame::TextureFormat;
-use etalon_scene::{Draw, Pass, Scene, StencilOperation};
+use etalon_scene::{Pass, Scene, StencilOperation};
 
 const TILER: &str = "Mali, PowerVR, Turnip: contents that a tiler does not keep";
 
@@ -52,126 +53,6 @@ fn earlier(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// Changes the draws of read-only passes, or of the passes behind them.
-fn read_only(behind: bool, bug: fn(&mut Draw)) -> Plant {
-    passes(move |asked, number, pass| {
-        let named = if behind {
-            number.checked_sub(1)
-        } else {
-            Some(number)
-        };
-        if named.is_some_and(|number| asked.passes[number].depth_stencil_read_only) {
-            pass.draws.iter_mut().for_each(bug);
-        }
-    })
-}
-
-fn without_depth_writes(draw: &mut Draw) {
-    DEPTH_WRITE(draw)
-        .into_iter()
-        .for_each(|write| *write = false);
-}
-
-fn without_stencil_writes(draw: &mut Draw) {
-    STENCIL_WRITE_MASK(draw)
-        .into_iter()
-        .for_each(|mask| *mask = 0);
-}
-
-pub(super) fn add(list: &mut List) {
-    lost(list);
-    draws(list);
-    attachments(list);
-    promises(list);
-    resolves(list);
-    submissions(list);
-}
-
-fn lost(list: &mut List) {
-    list.source(TILER);
-    list.bug("pass-not-stored: What a pass drew is lost for the next one on the same attachments.")
-        .plant(lose(|pass, later, distance| {
-            distance == 1 && share(pass, later)
-        }));
-    for (words, name, least) in [
-        ("another pass", "while-away", 2),
-        ("two other passes", "behind-two-passes", 3),
-    ] {
-        list.bug(format!(
-            "attachment-lost-{name}: What a pass drew is lost where its attachments come back behind \
-             {words}."
-        ))
-        .plant(lose(move |pass, later, distance| distance >= least && share(pass, later)));
-    }
-    list.bug("depth-lost-for-the-next-pass: Depth is lost where another pass follows.")
-        .plant(earlier(|pass| {
-            pass.draws.iter_mut().for_each(without_depth_writes)
-        }));
-    list.bug("stencil-lost-for-the-next-pass: Stencil is lost where another pass follows.")
-        .plant(earlier(|pass| {
-            pass.draws.iter_mut().for_each(without_stencil_writes)
-        }));
-    list.bug(
-        "depth-and-stencil-lost-without-colour: Depth and stencil of a pass without colour \
-         are lost.",
-    )
-    .plant(emptied(|_, pass| pass.color.is_empty()));
-    list.bug("texture-as-first-sampled: A texture that was sampled keeps what it held then.")
-        .source("wgpu's GL, Zink: a cache that is not flushed")
-        .plant(emptied(|before, pass| {
-            let draws = before.iter().flat_map(|p| &p.draws);
-            let mut read = draws.flat_map(|d| &d.textures);
-            read.any(|texture| pass.color.contains(texture))
-        }));
-    list.bug("texture-as-uploaded: What was drawn to a texture does not reach the next pass.")
-        .source(CONFUSION)
-        .plant(lose(|pass, later, distance| {
-            let mut read = later.draws.iter().flat_map(|d| &d.textures);
-            distance == 1 && read.any(|t| pass.color.contains(t))
-        }));
-}
-
-fn draws(list: &mut List) {
-    list.source(CONFUSION);
-    list.bug("third-pass-dropped: The third pass on an attachment draws nothing.")
-        .plant(emptied(|before, pass| {
-            before.iter().filter(|b| share(b, pass)).count() == 2
-        }));
-    list.bug("sixteenth-pass-dropped: Passes behind the fifteenth draw nothing.")
-        .plant(emptied(|before, _| before.len() >= 15));
-    list.bug("second-pass-lost: The second pass draws nothing.")
-        .plant(emptied(|before, _| before.len() == 1));
-    list.bug("first-draw-of-later-passes-lost: Every pass but the first loses its first draw.")
-        .plant(after(|_, pass| {
-            drop(pass.draws.drain(..1.min(pass.draws.len())))
-        }));
-    list.bug("last-draw-of-earlier-passes-lost: Every pass but the last loses its last draw.")
-        .plant(earlier(|pass| drop(pass.draws.pop())));
-    list.bug("second-draw-lost: The second draw of a pass is lost.")
-        .passes(|_, _, pass| {
-            if pass.draws.len() > 1 {
-                pass.draws.remove(1);
-            }
-        });
-    list.bug("passes-swapped: The first two passes on the same attachments change places.")
-        .scene(|scene| {
-            if let [first, second, ..] = &mut scene.passes[..]
-                && first.color == second.color
-                && first.depth_stencil == second.depth_stencil
-            {
-                std::mem::swap(&mut first.draws, &mut second.draws);
-            }
-        });
-    list.bug(
-        "equal-state-draw-skipped-in-the-next-pass: A draw like the last one before is skipped.",
-    )
-    .plant(after(|before, pass| {
-        if !pass.draws.is_empty() && before.draws.last() == pass.draws.first() {
-            pass.draws.remove(0);
-        }
-    }));
-}
-
 /// Formats, sizes and samples of attachments.
 fn shape(
     scene: &Scene,
@@ -181,131 +62,124 @@ fn shape(
     attachments.map(|a| (a.format, a.size, a.samples)).collect()
 }
 
-fn attachments(list: &mut List) {
-    list.bug(
-        "color-attachment-kept: A pass draws to the like colour attachments of the pass before.",
-    )
-    .passes(|asked, number, pass| {
-        let Some(before) = number.checked_sub(1).map(|n| &asked.passes[n].color) else {
-            return;
-        };
-        let mut fetched = pass.draws.iter().flat_map(|d| &d.textures);
-        let free = !fetched.any(|t| before.contains(t));
-        if free && shape(asked, before.clone()) == shape(asked, pass.color.clone()) {
-            pass.color.clone_from(before);
-        }
-    });
-    list.bug("depth-attachment-kept: A pass tests the like depth attachment of the pass before.")
-        .passes(|asked, number, pass| {
-            let before = number
-                .checked_sub(1)
-                .and_then(|n| asked.passes[n].depth_stencil);
+bugs! {
+    source TILER;
+    "pass-not-stored: What a pass drew is lost for the next one on the same attachments." =>
+        lose(|pass, later, distance| distance == 1 && share(pass, later));
+    for (words, name, least) in [("another pass", "while-away", 2), ("two other passes", "behind-two-passes", 3)] {
+        "attachment-lost-{name}: What a pass drew is lost where its attachments come back behind {words}." =>
+            lose(move |pass, later, distance| distance >= least && share(pass, later));
+    }
+    "depth-lost-for-the-next-pass: Depth is lost where another pass follows." =>
+        earlier(|pass| pass.draws.iter_mut().for_each(put(DEPTH_WRITE, false)));
+    "stencil-lost-for-the-next-pass: Stencil is lost where another pass follows." =>
+        earlier(|pass| pass.draws.iter_mut().for_each(put(STENCIL_WRITE_MASK, 0)));
+    "depth-and-stencil-lost-without-colour: Depth and stencil of a pass without colour are lost." =>
+        emptied(|_, pass| pass.color.is_empty());
+    "texture-as-first-sampled: A texture that was sampled keeps what it held then." =>
+        emptied(|before, pass| {
+            let draws = before.iter().flat_map(|p| &p.draws);
+            let mut read = draws.flat_map(|d| &d.textures);
+            read.any(|texture| pass.color.contains(texture))
+        }), source "wgpu's GL, Zink: a cache that is not flushed";
+    "texture-as-uploaded: What was drawn to a texture does not reach the next pass." =>
+        lose(|pass, later, distance| {
+            let mut read = later.draws.iter().flat_map(|d| &d.textures);
+            distance == 1 && read.any(|t| pass.color.contains(t))
+        }), source CONFUSION;
+    source CONFUSION;
+    "third-pass-dropped: The third pass on an attachment draws nothing." =>
+        emptied(|before, pass| before.iter().filter(|b| share(b, pass)).count() == 2);
+    "sixteenth-pass-dropped: Passes behind the fifteenth draw nothing." => emptied(|before, _| before.len() >= 15);
+    "second-pass-lost: The second pass draws nothing." => emptied(|before, _| before.len() == 1);
+    "first-draw-of-later-passes-lost: Every pass but the first loses its first draw." =>
+        after(|_, pass| drop(pass.draws.drain(..1.min(pass.draws.len()))));
+    "last-draw-of-earlier-passes-lost: Every pass but the last loses its last draw." =>
+        earlier(|pass| drop(pass.draws.pop()));
+    "second-draw-lost: The second draw of a pass is lost." =>
+        passes(|_, _, pass| { if pass.draws.len() > 1 { pass.draws.remove(1); } });
+    "passes-swapped: The first two passes on the same attachments change places." =>
+        scene(|scene| {
+            if let [first, second, ..] = &mut scene.passes[..]
+                && first.color == second.color && first.depth_stencil == second.depth_stencil
+            {
+                std::mem::swap(&mut first.draws, &mut second.draws);
+            }
+        });
+    "equal-state-draw-skipped-in-the-next-pass: A draw like the last one before is skipped." =>
+        after(|before, pass| {
+            if !pass.draws.is_empty() && before.draws.last() == pass.draws.first() { pass.draws.remove(0); }
+        });
+    "color-attachment-kept: A pass draws to the like colour attachments of the pass before." =>
+        passes(|asked, number, pass| {
+            let Some(before) = number.checked_sub(1).map(|n| &asked.passes[n].color) else { return; };
+            let mut fetched = pass.draws.iter().flat_map(|d| &d.textures);
+            let free = !fetched.any(|t| before.contains(t));
+            if free && shape(asked, before.clone()) == shape(asked, pass.color.clone()) {
+                pass.color.clone_from(before);
+            }
+        });
+    "depth-attachment-kept: A pass tests the like depth attachment of the pass before." =>
+        passes(|asked, number, pass| {
+            let before = number.checked_sub(1).and_then(|n| asked.passes[n].depth_stencil);
             if before.is_some() && shape(asked, before) == shape(asked, pass.depth_stencil) {
                 pass.depth_stencil = before;
             }
         });
-    list.bug("framebuffer-not-switched-back: Of bindings A, B, A the third stays B.")
-        .source("wgpu's GL: a cached framebuffer")
-        .passes(|asked, number, pass| {
-            let Some([first, before]) = asked.passes[..number].last_chunk() else {
-                return;
-            };
+    "framebuffer-not-switched-back: Of bindings A, B, A the third stays B." =>
+        passes(|asked, number, pass| {
+            let Some([first, before]) = asked.passes[..number].last_chunk() else { return; };
             let back = pass.color == first.color && pass.color != before.color;
             if back && shape(asked, before.color.clone()) == shape(asked, pass.color.clone()) {
                 pass.color.clone_from(&before.color);
             }
+        }), source "wgpu's GL: a cached framebuffer";
+    source "ANGLE: read-only depth feedback loops";
+    "read-only-stays: The pass behind a read-only one is read-only too." =>
+        read_only(1, |draw| {
+            put(DEPTH_WRITE, false)(draw);
+            put(STENCIL_WRITE_MASK, 0)(draw);
         });
-}
-
-fn promises(list: &mut List) {
-    list.source("ANGLE: read-only depth feedback loops");
-    list.bug("read-only-stays: The pass behind a read-only one is read-only too.")
-        .plant(read_only(true, |draw| {
-            without_depth_writes(draw);
-            without_stencil_writes(draw);
-        }));
-    list.bug("read-only-first-draw: The first draw behind a read-only pass does not write depth.")
-        .plant(after(|before, pass| {
-            let draw = pass.draws.first_mut();
-            if let Some(draw) = draw.filter(|_| before.depth_stencil_read_only) {
-                without_depth_writes(draw);
-            }
-        }));
-    list.source(CONFUSION);
-    list.bug("read-only-untested: A read-only pass does not test.")
-        .plant(read_only(false, |draw| {
-            (draw.depth, draw.stencil) = (None, None)
-        }));
-    list.bug("read-only-stencil-kept: A pass after a read-only one does not write stencil.")
-        .plant(read_only(true, |draw| {
-            let operations = STENCIL_OPERATIONS(draw).into_iter();
-            operations.for_each(|operation| *operation = StencilOperation::Keep);
-        }));
-    list.bug("depth-test-off-after-read-only: A pass after a read-only one does not test depth.")
-        .plant(read_only(true, |draw| draw.depth = None));
-    list.bug("depth-test-off-in-read-only: A read-only pass after another does not test depth.")
-        .plant(after(|_, pass| {
-            if pass.depth_stencil_read_only {
-                pass.draws.iter_mut().for_each(|draw| draw.depth = None);
-            }
-        }));
-}
-
-fn resolves(list: &mut List) {
-    list.bug("resolve-first-target: Only the first target of a pass is resolved.")
-        .passes(|_, _, pass| pass.resolve.iter_mut().skip(1).for_each(|r| *r = None));
-    list.bug("resolve-second-target: Of several targets, the second is not resolved.")
-        .passes(|_, _, pass| {
-            if let Some(second) = pass.resolve.get_mut(1) {
-                *second = None;
-            }
+    "read-only-first-draw: The first draw behind a read-only pass does not write depth." =>
+        after(|before, pass| {
+            let draws = pass.draws.iter_mut().take(usize::from(before.depth_stencil_read_only));
+            draws.for_each(put(DEPTH_WRITE, false));
         });
-    list.bug("resolve-once: A target that was resolved to is not resolved to again.")
-        .passes(|asked, number, pass| {
+    source CONFUSION;
+    "read-only-untested: A read-only pass does not test." =>
+        read_only(0, |draw| (draw.depth, draw.stencil) = (None, None));
+    "read-only-stencil-kept: A pass after a read-only one does not write stencil." =>
+        read_only(1, put(STENCIL_OPERATIONS, StencilOperation::Keep));
+    "depth-test-off-after-read-only: A pass after a read-only one does not test depth." =>
+        read_only(1, put(DEPTH, None));
+    "depth-test-off-in-read-only: A read-only pass after another does not test depth." =>
+        after(|_, pass| if pass.depth_stencil_read_only { pass.draws.iter_mut().for_each(put(DEPTH, None)) });
+    "resolve-first-target: Only the first target of a pass is resolved." =>
+        passes(|_, _, pass| pass.resolve.iter_mut().skip(1).for_each(|r| *r = None));
+    "resolve-second-target: Of several targets, the second is not resolved." =>
+        passes(|_, _, pass| if let Some(second) = pass.resolve.get_mut(1) { *second = None });
+    "resolve-once: A target that was resolved to is not resolved to again." =>
+        passes(|asked, number, pass| {
             for target in &mut pass.resolve {
                 let mut before = asked.passes[..number].iter();
-                if before.any(|b| target.is_some() && b.resolve.contains(target)) {
-                    *target = None;
-                }
+                if before.any(|b| target.is_some() && b.resolve.contains(target)) { *target = None; }
             }
         });
-    list.bug("later-resolves-lost: Only the first pass resolves.")
-        .plant(after(|_, pass| pass.resolve.fill(None)));
-    list.bug("earlier-resolves-lost: Only the last pass resolves.")
-        .plant(earlier(|pass| pass.resolve.fill(None)));
-}
-
-fn submissions(list: &mut List) {
+    "later-resolves-lost: Only the first pass resolves." => after(|_, pass| pass.resolve.fill(None));
+    "earlier-resolves-lost: Only the last pass resolves." => earlier(|pass| pass.resolve.fill(None));
     for (from, word) in [(2, "second"), (4, "fourth"), (64, "sixty-fourth")] {
-        list.bug(format!(
-            "draw-lost-from-the-{word}-submission: From the {word} submission on the last draw is lost."
-        ))
-        .source("a ring of buffers that is used up")
-        .plant(again(from, |scene| {
-            scene.passes.last_mut().and_then(|pass| pass.draws.pop());
-        }));
+        "draw-lost-from-the-{word}-submission: From the {word} submission on the last draw is lost." =>
+            again(from, |scene| { scene.passes.last_mut().and_then(|pass| pass.draws.pop()); }),
+            source "a ring of buffers that is used up";
     }
-    list.bug(
-        "draw-twice-from-the-second-submission: From the second one on the last pass is \
-         drawn twice.",
-    )
-    .plant(again(2, |scene| {
-        scene.passes.extend(scene.passes.last().cloned())
-    }));
-    list.bug(
-        "contents-stay-from-the-second-submission: From the second one on attachments keep \
-         their contents.",
-    )
-    .source("a clear that is skipped as redundant")
-    .plant(again(2, |scene| scene.passes.extend(scene.passes.clone())));
-    list.bug(
-        "params-shared-from-the-second-submission: From the second one on all draws have the \
-         last's parameters.",
-    )
-    .source("a ring of uniform buffers that wraps")
-    .plant(again(2, |scene| {
-        if let Some(params) = all_draws(scene).last().map(|d| d.params) {
-            all_draws(scene).for_each(|d| d.params = params);
-        }
-    }));
+    "draw-twice-from-the-second-submission: From the second one on the last pass is drawn twice." =>
+        again(2, |scene| scene.passes.extend(scene.passes.last().cloned()));
+    "contents-stay-from-the-second-submission: From the second one on attachments keep their contents." =>
+        again(2, |scene| scene.passes.extend(scene.passes.clone())), source "a clear that is skipped as redundant";
+    "params-shared-from-the-second-submission: From the second one on all draws have the last's parameters." =>
+        again(2, |scene| {
+            if let Some(params) = all_draws(scene).last().map(|d| d.params) {
+                all_draws(scene).for_each(|d| d.params = params);
+            }
+        }), source "a ring of uniform buffers that wraps";
 }

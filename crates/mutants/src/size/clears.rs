@@ -1,7 +1,7 @@
 //! Bugs of clears of memory that a driver only notes as cleared.
 
 use crate::aspects::{BOTH, clear, is_cleared, load, reach_both, reaches};
-use crate::list::List;
+use crate::list::bugs;
 use crate::plant::{Plant, contents, passes};
 use etalon_frame::Aspect;
 use etalon_scene::{Attachment, Clear, ClearTarget, Contents, LoadOperation, Pass, Scene};
@@ -48,135 +48,6 @@ fn inward([x, y, w, h]: [u32; 4], side: u32) -> [u32; 4] {
     [left, top, width, height]
 }
 
-pub(super) fn add(list: &mut List) {
-    commanded(list);
-    loads(list);
-    initial(list);
-}
-
-fn commanded(list: &mut List) {
-    for side in [8, 16, 64] {
-        list.bug(format!(
-            "clear-rect-outward-{side}: Whole tiles of {side} texels are cleared, those cut among them."
-        ))
-        .plant(commands(move |c, size| c.rect = c.rect.map(|r| outward(r, side, size))));
-        list.bug(format!(
-            "clear-rect-inward-{side}: Whole tiles of {side} texels are cleared, without those cut."
-        ))
-        .plant(commands(move |c, _| {
-            c.rect = c.rect.map(|r| inward(r, side))
-        }));
-    }
-    list.bug("clear-rect-ignored: Clears ignore their rectangle.")
-        .plant(commands(|c, _| c.rect = None));
-    list.bug("clear-mask-ignored: Clears write all channels and bits.")
-        .plant(commands(|c, _| match &mut c.target {
-            ClearTarget::Color { write_mask, .. } => *write_mask = 0b1111,
-            ClearTarget::DepthStencil {
-                depth_write,
-                stencil_write_mask,
-                ..
-            } => (*depth_write, *stencil_write_mask) = (true, 0xff),
-        }));
-    list.bug("clear-alpha-lost: Clears of colour leave alpha.")
-        .plant(commands(|c, _| {
-            if let ClearTarget::Color { write_mask, .. } = &mut c.target {
-                *write_mask &= 0b0111;
-            }
-        }));
-    for (cleared, other, value) in BOTH {
-        let (a, b) = (cleared.name(), other.name());
-        list.bug(format!(
-            "{b}-cleared-with-{a}: A clear of {a} alone clears {b} to {value}."
-        ))
-        .plant(commands(move |c, _| {
-            if reaches(c, cleared) {
-                reach_both(c);
-            }
-        }));
-    }
-    list.bug("both-cleared-as-depth: A clear of depth and stencil clears depth alone.")
-        .plant(commands(|c, _| {
-            if let ClearTarget::DepthStencil {
-                depth: Some(_),
-                stencil,
-                ..
-            } = &mut c.target
-            {
-                *stencil = None;
-            }
-        }));
-    list.bug("clear-depth-to-an-end: Depth is cleared to the nearer end of its range.")
-        .plant(commands(|c, _| {
-            if let ClearTarget::DepthStencil { depth, .. } = &mut c.target {
-                *depth = depth.map(f32::round);
-            }
-        }));
-    list.bug("clear-too-late: A clear is executed behind the next draw.")
-        .plant(commands(|c, _| c.before += 1));
-    list.bug("clear-command-skipped: A clear of everything within a pass is skipped.")
-        .plant(large(|pass, _, [w, h]| {
-            pass.clears
-                .retain(|c| c.rect.is_some_and(|r| r != [0, 0, w, h]));
-        }));
-}
-
-fn loads(list: &mut List) {
-    list.bug("second-equal-clear-skipped: A clear to the value of the clear before is skipped.")
-        .plant(large(|pass, scene, _| {
-            let first = pass.color.first().map(|i| &scene.attachments[*i].contents);
-            for operations in &mut pass.operations.color {
-                if let (Some(Contents::Color(first)), LoadOperation::Clear(value)) =
-                    (first, operations.load)
-                    && *first == value
-                {
-                    operations.load = LoadOperation::Load;
-                }
-            }
-        }));
-    list.bug("load-clear-skipped: A clear on load of colour does nothing.")
-        .plant(large(|pass, _, _| load(pass, Aspect::Color)));
-    list.bug("load-clear-to-ends: A load operation clears to 0 and 1 alone.")
-        .plant(color_loads(|value| *value = value.map(f32::round)));
-    list.bug("load-clear-first-64x64: A load operation clears the first 64 by 64 texels alone.")
-        .plant(large(|pass, _, _| {
-            for (location, operations) in pass.operations.color.iter_mut().enumerate() {
-                if let LoadOperation::Clear(value) = operations.load {
-                    operations.load = LoadOperation::Load;
-                    let write_mask = 0b1111;
-                    let target = ClearTarget::Color {
-                        location,
-                        value,
-                        write_mask,
-                    };
-                    let rect = Some([0, 0, 64, 64]);
-                    pass.clears.insert(
-                        0,
-                        Clear {
-                            before: 0,
-                            target,
-                            rect,
-                        },
-                    );
-                }
-            }
-        }));
-    for (name, (cleared, other, value)) in ["load-clears-both", "load-clears-depth-with-stencil"]
-        .into_iter()
-        .zip(BOTH)
-    {
-        let (a, b) = (cleared.name(), other.name());
-        list.bug(format!(
-            "{name}: A load operation that clears {a} alone clears {b} to {value}."
-        ))
-        .plant(large(move |pass, _, _| {
-            if is_cleared(pass, cleared) && !is_cleared(pass, other) {
-                clear(pass, other);
-            }
-        }));
-    }
-}
-
 /// Changes what large attachments start from.
 fn large_contents(bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant {
     contents(move |attachment: &mut Attachment| {
@@ -186,29 +57,76 @@ fn large_contents(bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant 
     })
 }
 
-fn initial(list: &mut List) {
-    list.bug("clear-color-to-ends: Large attachments are cleared to 0 and 1 alone.")
-        .plant(large_contents(|contents| {
-            if let Contents::Color(value) = contents {
-                *value = value.map(f32::round);
+bugs! {
+    for side in [8, 16, 64] {
+        "clear-rect-outward-{side}: Whole tiles of {side} texels are cleared, those cut among them." =>
+            commands(move |c, size| c.rect = c.rect.map(|r| outward(r, side, size)));
+        "clear-rect-inward-{side}: Whole tiles of {side} texels are cleared, without those cut." =>
+            commands(move |c, _| c.rect = c.rect.map(|r| inward(r, side)));
+    }
+    "clear-rect-ignored: Clears ignore their rectangle." => commands(|c, _| c.rect = None);
+    "clear-mask-ignored: Clears write all channels and bits." =>
+        commands(|c, _| match &mut c.target {
+            ClearTarget::Color { write_mask, .. } => *write_mask = 0b1111,
+            ClearTarget::DepthStencil { depth_write, stencil_write_mask, .. } =>
+                (*depth_write, *stencil_write_mask) = (true, 0xff),
+        });
+    "clear-alpha-lost: Clears of colour leave alpha." =>
+        commands(|c, _| if let ClearTarget::Color { write_mask, .. } = &mut c.target { *write_mask &= 0b0111 });
+    for (cleared, other, value) in BOTH {
+        let (a, b) = (cleared.name(), other.name());
+        "{b}-cleared-with-{a}: A clear of {a} alone clears {b} to {value}." =>
+            commands(move |c, _| if reaches(c, cleared) { reach_both(c) });
+    }
+    "both-cleared-as-depth: A clear of depth and stencil clears depth alone." =>
+        commands(|c, _| {
+            if let ClearTarget::DepthStencil { depth: Some(_), stencil, .. } = &mut c.target { *stencil = None; }
+        });
+    "clear-depth-to-an-end: Depth is cleared to the nearer end of its range." =>
+        commands(|c, _| {
+            if let ClearTarget::DepthStencil { depth, .. } = &mut c.target { *depth = depth.map(f32::round); }
+        });
+    "clear-too-late: A clear is executed behind the next draw." => commands(|c, _| c.before += 1);
+    "clear-command-skipped: A clear of everything within a pass is skipped." =>
+        large(|pass, _, [w, h]| { pass.clears.retain(|c| c.rect.is_some_and(|r| r != [0, 0, w, h])); });
+    "second-equal-clear-skipped: A clear to the value of the clear before is skipped." =>
+        large(|pass, scene, _| {
+            let first = pass.color.first().map(|i| &scene.attachments[*i].contents);
+            for operations in &mut pass.operations.color {
+                if let (Some(Contents::Color(first)), LoadOperation::Clear(value)) =
+                    (first, operations.load) && *first == value
+                {
+                    operations.load = LoadOperation::Load;
+                }
             }
-        }));
-    list.bug("clear-color-first-channel: Large attachments take the first channel's value.")
-        .plant(large_contents(|contents| {
-            if let Contents::Color(value) = contents {
-                *value = [value[0]; 4];
+        });
+    "load-clear-skipped: A clear on load of colour does nothing." => large(|pass, _, _| load(pass, Aspect::Color));
+    "load-clear-to-ends: A load operation clears to 0 and 1 alone." =>
+        color_loads(|value| *value = value.map(f32::round));
+    "load-clear-first-64x64: A load operation clears the first 64 by 64 texels alone." =>
+        large(|pass, _, _| {
+            for (location, operations) in pass.operations.color.iter_mut().enumerate() {
+                if let LoadOperation::Clear(value) = operations.load {
+                    operations.load = LoadOperation::Load;
+                    let write_mask = 0b1111;
+                    let target = ClearTarget::Color { location, value, write_mask, };
+                    let rect = Some([0, 0, 64, 64]);
+                    pass.clears.insert(0, Clear { before: 0, target, rect, });
+                }
             }
-        }));
-    list.bug("clear-depth-to-ends: The depths of large attachments are cleared to 0 and 1 alone.")
-        .plant(large_contents(|contents| {
-            if let Contents::DepthStencil { depth, .. } = contents {
-                *depth = depth.round();
-            }
-        }));
-    list.bug("clear-stencil-lost: The stencil values of large attachments are cleared to 0.")
-        .plant(large_contents(|contents| {
-            if let Contents::DepthStencil { stencil, .. } = contents {
-                *stencil = 0;
-            }
-        }));
+        });
+    let named = ["load-clears-both", "load-clears-depth-with-stencil"].into_iter().zip(BOTH);
+    for (name, (cleared, other, value)) in named {
+        let (a, b) = (cleared.name(), other.name());
+        "{name}: A load operation that clears {a} alone clears {b} to {value}." =>
+            large(move |pass, _, _| if is_cleared(pass, cleared) && !is_cleared(pass, other) { clear(pass, other) });
+    }
+    "clear-color-to-ends: Large attachments are cleared to 0 and 1 alone." =>
+        large_contents(|contents| if let Contents::Color(value) = contents { *value = value.map(f32::round) });
+    "clear-color-first-channel: Large attachments take the first channel's value." =>
+        large_contents(|contents| { if let Contents::Color(value) = contents { *value = [value[0]; 4]; } });
+    "clear-depth-to-ends: The depths of large attachments are cleared to 0 and 1 alone." =>
+        large_contents(|contents| if let Contents::DepthStencil { depth, .. } = contents { *depth = depth.round() });
+    "clear-stencil-lost: The stencil values of large attachments are cleared to 0." =>
+        large_contents(|contents| if let Contents::DepthStencil { stencil, .. } = contents { *stencil = 0 });
 }
