@@ -4,7 +4,7 @@ use super::data::{Methods, Point, Question, SceneSeries, Series, Setting, Shown}
 use super::name::{title, value_text};
 use super::pictures::Pictures;
 use super::stability::CurveBreak;
-use super::{claims, scatter, stability};
+use super::{claims, grid, overview, scatter, stability};
 use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
 use crate::lists::{distinct, grouped};
@@ -27,6 +27,7 @@ const SCRIPT: &str = concat!(
     include_str!("page/flip.js"),
     include_str!("page/pictures.js"),
     include_str!("page/settings.js"),
+    include_str!("page/budget.js"),
 );
 
 /// The whole page. Pictures are read from the folder as they are needed.
@@ -40,11 +41,15 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let main = html! {
         (head(run, methods))
         noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
-        section id="claims" {
-            h2 { "Claims of the literature" }
-            (claims::section(methods))
-        }
+        (overview::section(methods, &shown))
         (breaks(methods, &shown))
+        @for (q, question) in methods.questions.iter().enumerate() {
+            section id={ "q" (q) } {
+                h2 { (title(question.name)) }
+                (explained(question))
+                @for (shown, scene) in shown.iter().zip(&scenes) { @if std::ptr::eq(shown.question, question) { (scene) } }
+            }
+        }
         section id="reading" {
             h2 { "Reading the charts" }
             h3 { "Accuracy against speed" }
@@ -52,12 +57,9 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
             h3 { "Stability" }
             (stability::caption())
         }
-        @for (q, question) in methods.questions.iter().enumerate() {
-            section id={ "q" (q) } {
-                h2 { (title(question.name)) }
-                (explained(question))
-                @for (shown, scene) in shown.iter().zip(&scenes) { @if std::ptr::eq(shown.question, question) { (scene) } }
-            }
+        section id="claims" {
+            h2 { "Claims of the literature" }
+            (claims::section(methods))
         }
         (page::script(SCRIPT))
     };
@@ -100,12 +102,12 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
                 }
             }
             nav {
-                a href="#claims" { "Claims" } " "
                 a href="#breaks" { "Break points" } " "
-                a href="#reading" { "Reading the charts" } " "
                 @for (q, question) in methods.questions.iter().enumerate() {
                     a href={ "#q" (q) } { (title(question.name)) } " "
                 }
+                a href="#reading" { "Reading the charts" } " "
+                a href="#claims" { "Claims" }
             }
         }
     }
@@ -146,6 +148,7 @@ fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
                 "The parameter at which a method's RMSE crosses 1 % of full brightness, interpolated between the two values "
                 "beside it that were drawn."
             }
+            (grid::picture(shown))
             @if curves == 0 {
                 p.u { "Not measured: no method was drawn at two values of its parameter." }
             } @else if broken.is_empty() { p { "No method crosses it." } }

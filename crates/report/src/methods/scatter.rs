@@ -216,7 +216,7 @@ pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
 }
 
 /// The corners of the front as steps: between two of its points nothing better than the faster one is known.
-fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut corners: Vec<(f64, f64)> = Vec::new();
     for index in front(points) {
         let (x, y) = (plot.x(points[index].0), plot.y(points[index].1));

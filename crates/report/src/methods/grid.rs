@@ -1,0 +1,137 @@
+//! Break points in one picture: a row for each method with a parameter, a cell for each of its values.
+
+use super::breaks::LIMIT;
+use super::data::{Series, Shown};
+use super::name::value_text;
+use crate::chart::key;
+use crate::numbers::share;
+use crate::table::{Cell, Table};
+use maud::{Markup, html};
+
+/// The errors at which the colours of cells change: each is the least of its colour.
+const STEPS: [f64; 5] = [0.0, 1e-9, 0.001, LIMIT, 0.1];
+
+/// A method along its parameter in a scene.
+struct Row<'s, 'a> {
+    shown: &'s Shown<'s, 'a>,
+    series: &'s Series<'a>,
+    /// Each value with the largest error of all adapters.
+    errors: Vec<(f64, f64)>,
+}
+
+/// The picture of all scenes; nothing where no method was drawn at several values.
+pub(super) fn picture(shown: &[Shown<'_, '_>]) -> Markup {
+    let rows: Vec<Row<'_, '_>> = shown.iter().flat_map(rows).collect();
+    if rows.is_empty() {
+        return html! {};
+    }
+    let table = Table::<Row<'_, '_>>::new("strips")
+        .head("Scene", |row| {
+            html! { a href={ "#" (row.shown.anchor) } { (row.shown.scene.question) "/" (row.shown.scene.name) } }
+        })
+        .text("Method", |row| {
+            html! { (key(row.shown.style(row.series.method))) " " (row.series.name()) }
+        })
+        .text("From", |row| row.errors.first().map(|(value, _)| value_text(*value)))
+        .text("Error along the parameter", |row| Cell::from(strip(row)))
+        .text("To", |row| {
+            let last = row.errors.last().map(|(value, _)| value_text(*value));
+            html! { (last.unwrap_or_default()) " " (row.series.parameter.unwrap_or_default()) }
+        });
+    html! {
+        p.legend {
+            @for (step, name) in ["exact", "below 0.1 %", "below 1 %", "below 10 %", "above"].iter().enumerate() {
+                i class={ "e" (step) } {} " " (name) " "
+            }
+            i.e3.turn {} " the error crosses 1 %"
+        }
+        div.wide { (table.page(rows)) }
+    }
+}
+
+fn rows<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Row<'s, 'a>> {
+    let series = shown.scene.series.iter();
+    let several = series.filter(|series| series.values().len() > 1);
+    several
+        .map(|series| Row {
+            shown,
+            series,
+            errors: errors(series),
+        })
+        .filter(|row| row.errors.len() > 1)
+        .collect()
+}
+
+/// Each value of a series with the largest error of all adapters.
+fn errors(series: &Series<'_>) -> Vec<(f64, f64)> {
+    let mut errors: Vec<(f64, f64)> = Vec::new();
+    for point in &series.points {
+        if let (Some(value), Some(error)) = (point.value, point.error()) {
+            match errors.last_mut().filter(|(last, _)| *last == value) {
+                Some((_, largest)) => *largest = error.max(*largest),
+                None => errors.push((value, error)),
+            }
+        }
+    }
+    errors
+}
+
+/// The cells of a row. A line stands between two of which one is beyond the limit.
+fn strip(row: &Row<'_, '_>) -> Markup {
+    let parameter = row.series.parameter.unwrap_or_default();
+    let before = [None]
+        .into_iter()
+        .chain(row.errors.iter().map(|(_, error)| Some(*error)));
+    html! {
+        span.strip {
+            @for ((value, error), before) in row.errors.iter().zip(before) {
+                @let turns = before.is_some_and(|before| (before > LIMIT) != (*error > LIMIT));
+                i class={ "e" (step(*error)) @if turns { " turn" } } title={ (parameter) " " (value_text(*value)) ": " (share(*error)) } {}
+            }
+        }
+    }
+}
+
+/// The colour of an error.
+fn step(error: f64) -> usize {
+    STEPS.iter().rposition(|least| error >= *least).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::data::Methods;
+    use crate::methods::tests::made::{Made, run};
+
+    #[test]
+    fn a_row_holds_the_largest_errors_and_marks_where_they_cross() {
+        let made = |alpha, error| {
+            Made::new("t/windows/method=a")
+                .at("alpha", alpha)
+                .off(error)
+        };
+        let run = run(&[
+            made(0.1, 0.0),
+            made(0.2, 0.002),
+            made(0.2, 0.005).on("hw:a"),
+            made(0.4, 0.02),
+            made(0.8, 0.3),
+        ]);
+        let methods = Methods::of(&run).expect("it has methods");
+        let shown = methods.shown();
+        let html = picture(&shown).into_string();
+        for due in [
+            "class=\"e0\" title=\"alpha 0.1",
+            "class=\"e2\" title=\"alpha 0.2: 0.5",
+            "class=\"e3 turn\" title=\"alpha 0.4",
+            "class=\"e4\" title=\"alpha 0.8",
+        ] {
+            assert!(html.contains(due), "{due}: {html}");
+        }
+        assert_eq!(html.matches(" turn\" title").count(), 1);
+        assert_eq!(
+            [0.0, 1e-4, 0.001, 0.01, 0.0101, 1.0].map(step),
+            [0, 1, 2, 3, 3, 4]
+        );
+    }
+}

@@ -1,0 +1,238 @@
+//! The first screen of the page of methods: a small chart and a sentence for each question, and what a budget leaves.
+
+use super::data::{Methods, Point, Question, Shown};
+use super::front::front;
+use super::scatter::steps;
+use crate::chart::{
+    BOTTOM, LEFT, Plot, RIGHT, Scale, TOP, color, key, marker, n, polyline, zero_band,
+};
+use crate::numbers::{count, duration, share};
+use maud::{Markup, html};
+use serde_json::json;
+
+/// Width and height of a small chart, in pixels.
+const SIZE: [f64; 2] = [232.0, 120.0];
+/// The room for marks around it.
+const MARGIN: f64 = 9.0;
+/// A frame time in seconds that leaves most of a frame to others.
+const SHORT: f64 = 0.001;
+
+/// A method as it was timed on an adapter, at the setting that stands for its scene.
+struct Timed<'a> {
+    method: &'a str,
+    adapter: usize,
+    time: f64,
+    error: f64,
+}
+
+/// The charts of all questions, with the choice of an adapter and of a budget.
+pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
+    html! {
+        section id="overview" {
+            h2 { "Which method, at which price?" }
+            p.lead {
+                "A chart per question, of the scene that most methods draw: to the left what is faster, below what is more accurate. "
+                "The line joins the methods that no other one beats, the dots mark an error of 1 %."
+            }
+            form.budget id="budget" hidden {
+                label { "On " select id="on" {
+                    @for (index, adapter) in methods.adapters.iter().enumerate() {
+                        option value=(index) { (adapter.name) }
+                    }
+                } }
+                (limit("most-time", "at most", "a frame"))
+                (limit("most-error", "at most", "of error"))
+            }
+            div.cards {
+                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, shown, q, question)) }
+            }
+        }
+    }
+}
+
+/// A slider, whose stops the script knows.
+fn limit(id: &str, before: &str, behind: &str) -> Markup {
+    html! {
+        label { (before) " " output for=(id) { "any" } " " (behind) " " input id=(id) type="range" min="0" step="1"; }
+    }
+}
+
+fn card(
+    methods: &Methods<'_>,
+    shown: &[Shown<'_, '_>],
+    number: usize,
+    question: &Question<'_>,
+) -> Markup {
+    let scenes: Vec<&Shown<'_, '_>> = shown
+        .iter()
+        .filter(|shown| std::ptr::eq(shown.question, question))
+        .collect();
+    let timed: Vec<Vec<Timed<'_>>> = scenes.iter().map(|shown| timed(shown)).collect();
+    let points: Vec<_> = timed
+        .iter()
+        .enumerate()
+        .flat_map(|(scene, all)| {
+            all.iter()
+                .map(move |t| json!([t.method, scene, t.adapter, t.time, t.error]))
+        })
+        .collect();
+    let fullest = timed
+        .iter()
+        .enumerate()
+        .max_by_key(|(place, all)| (all.len(), std::cmp::Reverse(*place)));
+    html! {
+        article.card data-points=(json!(points)) {
+            h3 { a href={ "#q" (number) } { (super::name::title(question.name)) } }
+            @match fullest {
+                Some((place, all)) if !all.is_empty() => {
+                    @for (adapter, _) in methods.adapters.iter().enumerate() {
+                        div class=(if adapter == 0 { "on" } else { "on off" }) data-on=(adapter) {
+                            (chart(question, scenes[place], all, adapter))
+                            p.answer { (answer(all, adapter)) }
+                        }
+                    }
+                }
+                _ => p.u { "Not timed." }
+            }
+            p.left {}
+            p.of { (count(scenes.len() as u64, "scene")) }
+        }
+    }
+}
+
+/// The methods of a scene at the setting that stands for it.
+fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
+    let Some(setting) = shown.settings.get(shown.main) else {
+        return Vec::new();
+    };
+    let of_point = |method: &'a str, point: &Point<'a>| {
+        Some(Timed {
+            method,
+            adapter: point.adapter,
+            time: point.wall()?,
+            error: point.error()?,
+        })
+    };
+    let points = shown.scene.at(setting);
+    points
+        .filter_map(|(series, point)| of_point(series.method, point))
+        .collect()
+}
+
+/// The chart of a scene on an adapter, on axes that hold all of them.
+fn chart(
+    question: &Question<'_>,
+    shown: &Shown<'_, '_>,
+    all: &[Timed<'_>],
+    adapter: usize,
+) -> Markup {
+    let positive = all.iter().map(|t| t.error).filter(|error| *error > 0.0);
+    let plot = Plot {
+        x: Scale::log(all.iter().map(|t| t.time)),
+        y: Scale::log(positive.chain([super::breaks::LIMIT])),
+        zero: zero_band(all.iter().map(|t| t.error)),
+    };
+    let small = |(x, y): (f64, f64)| {
+        let [width, height] = SIZE;
+        (
+            (x - LEFT) / (RIGHT - LEFT) * width,
+            (y - TOP) / (BOTTOM - TOP) * height,
+        )
+    };
+    let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
+    let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
+    let line: Vec<(f64, f64)> = steps(&plot, &costs).into_iter().map(small).collect();
+    let (_, level) = small((LEFT, plot.y(super::breaks::LIMIT)));
+    let [width, height] = SIZE;
+    let view = format!(
+        "{} {} {} {}",
+        n(-MARGIN),
+        n(-MARGIN),
+        n(width + 2.0 * MARGIN),
+        n(height + 2.0 * MARGIN)
+    );
+    html! {
+        svg.chart.small viewBox=(view) role="img" {
+            title { (shown.scene.name) ": " (answer(all, adapter)) }
+            rect.box x="0" y="0" width=(n(width)) height=(n(height)) {}
+            path.level.one d={ "M0 " (n(level)) "H" (n(width)) } {}
+            @if costs.len() > 1 { path.front d=(polyline(&line)) {} }
+            @for timed in &here {
+                @let style = question.style(timed.method);
+                @let place = small((plot.x(timed.time), plot.y(timed.error)));
+                g class={ "of " (color(style)) } data-time=(timed.time) data-error=(timed.error) {
+                    (marker(style, place, false, &format!("{}: {}, {}", timed.method, share(timed.error), duration(timed.time))))
+                }
+            }
+        }
+        p.legend aria-hidden="true" {
+            @for timed in &here { span.key { (key(question.style(timed.method))) " " (timed.method) } " " }
+        }
+    }
+}
+
+/// What one takes: the best within a short time, and the best of all.
+fn answer(all: &[Timed<'_>], adapter: usize) -> String {
+    let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
+    let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
+    let leaders: Vec<&Timed<'_>> = front(&costs).into_iter().map(|i| here[i]).collect();
+    let (Some(fastest), Some(best)) = (leaders.first(), leaders.last()) else {
+        return "Not timed on this adapter.".to_owned();
+    };
+    let exact = if best.error == 0.0 {
+        format!("exact: {}, {}", best.method, duration(best.time))
+    } else {
+        let (error, time) = (share(best.error), duration(best.time));
+        format!("most accurate: {}, {error}, {time}", best.method)
+    };
+    let short = leaders.iter().rfind(|t| t.time <= SHORT);
+    let first = short.unwrap_or(fastest);
+    if std::ptr::eq(*first, *best) {
+        return exact;
+    }
+    let error = share(first.error);
+    if short.is_some() {
+        format!("under 1 ms: {}, {error}; {exact}", first.method)
+    } else {
+        let time = duration(first.time);
+        format!("fastest: {}, {error}, {time}; {exact}", first.method)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timed(method: &'static str, time: f64, error: f64) -> Timed<'static> {
+        Timed {
+            method,
+            adapter: 0,
+            time,
+            error,
+        }
+    }
+
+    #[test]
+    fn the_answer_is_what_no_other_method_beats() {
+        let all = [
+            timed("rough", 0.0002, 0.2),
+            timed("sorted", 0.0009, 0.0018),
+            timed("slow", 0.02, 0.1),
+            timed("lists", 0.01, 0.0),
+        ];
+        let text = answer(&all, 0);
+        assert_eq!(
+            text,
+            format!(
+                "under 1 ms: sorted, {}; exact: lists, {}",
+                share(0.0018),
+                duration(0.01)
+            )
+        );
+        assert_eq!(answer(&all, 1), "Not timed on this adapter.");
+        assert!(answer(&all[3..], 0).starts_with("exact: lists"));
+        assert!(answer(&all[2..], 0).starts_with("exact: lists"));
+        let slow = [timed("a", 0.002, 0.5), timed("b", 0.004, 0.1)];
+        assert!(answer(&slow, 0).starts_with("fastest: a, "));
+    }
+}
