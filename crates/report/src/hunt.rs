@@ -89,17 +89,12 @@ fn head(hunt: &Hunt) -> Markup {
         (Catch::Survived, "Every case passed."),
         (Catch::Broken, "It could not be drawn: a bug of the mutant."),
     ];
+    let occurs = |outcome| outcome != Catch::Broken || hunt.count(outcome) > 0;
+    let totals = totals.into_iter().filter(|(outcome, _)| occurs(*outcome));
     let totals = totals.map(|(outcome, about)| {
-        (
-            class(outcome),
-            hunt.count(outcome) as u64,
-            outcome.name(),
-            about,
-        )
+        let count = hunt.count(outcome) as u64;
+        (class(outcome), count, outcome.name(), about)
     });
-    let totals = totals
-        .into_iter()
-        .filter(|(class, n, ..)| *n > 0 || *class != "b");
     html! {
         header {
             h1 { "etalon mutants" }

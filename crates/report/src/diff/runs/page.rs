@@ -93,7 +93,8 @@ fn head(diff: &RunDiff) -> Markup {
             nav {
                 @for direction in Direction::ALL {
                     @if diff.count(direction) > 0 {
-                        a href={ "#" (direction.name()) } { (phrases::look(direction)[2]) } " "
+                        @let [.., title] = phrases::look(direction);
+                        a href={ "#" (direction.name()) } { (title) } " "
                     }
                 }
                 @if !diff.only.is_empty() { a href="#only" { "In one run only" } " " }
@@ -177,9 +178,10 @@ fn section(
     let these = these.filter(|c| chosen.contains(&std::ptr::from_ref(*c)));
     let files = grouped(these.map(|change| (&*change.case_file, change)));
     let left = total - chosen.len() as u64;
+    let [.., title] = phrases::look(direction);
     html! {
         section id=(direction.name()) {
-            h2 { (phrases::look(direction)[2]) " (" (total) ")" }
+            h2 { (title) " (" (total) ")" }
             @if left > 0 {
                 p.note { (left) " more are left out here; " code { "etalon diff --format json" } " has them all." }
             }
@@ -203,9 +205,10 @@ fn section(
 }
 
 fn line(change: &Change) -> Markup {
+    let [sign, ..] = phrases::look(change.direction);
     html! {
         span class={ "chip " (change.direction.name()) } {
-            (phrases::look(change.direction)[0]) " " (phrases::verdicts(change))
+            (sign) " " (phrases::verdicts(change))
         }
         " " code { (change.case) } " " small { (breakable(&both_names(&change.adapter))) }
     }
