@@ -3,7 +3,7 @@
 use crate::fields::{Places, VERTICES};
 use crate::hooks::interpolation;
 use crate::list::bugs;
-use crate::plant::{draws, each};
+use crate::plant::{Plant, draws, each};
 use Interpolation::{Linear, Perspective};
 use InterpolationSampling::{Center, Centroid, Sample};
 use etalon_scene::{Interpolation, InterpolationSampling, Shader, Vertex};
@@ -14,6 +14,16 @@ const READ: Places<Vertex> = |d| {
     d.mesh.vertices.iter_mut().filter(|_| reads).collect()
 };
 
+/// Takes what is interpolated at samples elsewhere.
+fn sampled(elsewhere: InterpolationSampling) -> Plant {
+    interpolation(
+        move |shader: Shader| match shader.interpolation_sampling() {
+            Sample => (shader.interpolation(), elsewhere),
+            sampling => (shader.interpolation(), sampling),
+        },
+    )
+}
+
 bugs! {
     class "interpolation", "texture";
     "always-linear: Attributes are linear in the window, whatever w is." =>
@@ -21,22 +31,8 @@ bugs! {
     "always-perspective: Attributes are linear in space, where the shader wants them in the window too." =>
         interpolation(|shader: Shader| (Perspective, shader.interpolation_sampling())),
         source "a driver without `noperspective`";
-    "samples-at-centre: What is interpolated at samples is that of the texel's centre." =>
-        interpolation(|shader: Shader| {
-            let at = match shader.interpolation_sampling() {
-                Sample => Center,
-                other => other,
-            };
-            (shader.interpolation(), at)
-        });
-    "samples-at-centroid: What is interpolated at samples is that of the first covered one." =>
-        interpolation(|shader: Shader| {
-            let at = match shader.interpolation_sampling() {
-                Sample => Centroid,
-                other => other,
-            };
-            (shader.interpolation(), at)
-        });
+    "samples-at-centre: What is interpolated at samples is that of the texel's centre." => sampled(Center);
+    "samples-at-centroid: What is interpolated at samples is that of the first covered one." => sampled(Centroid);
     "over-w: Attributes are divided by w, and not multiplied again." =>
         each(READ, |v| { let w = v.position[3]; if w > 0.0 { v.uv = v.uv.map(|c| c / w); } });
     "of-the-cut: A clipped triangle's attributes run over what is left of it." =>

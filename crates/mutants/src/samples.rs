@@ -23,20 +23,19 @@ fn masks(bug: impl Fn(u32, u32) -> u32 + Send + Sync + 'static) -> Plant {
     states(move |state, samples| state.mask = bug(state.mask, samples))
 }
 
-type Bug = fn(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-
-fn plant(bug: Bug) -> Plant {
-    sample_positions(move |positions| {
+/// Changes the positions of several samples.
+fn placed(bug: impl Fn(&mut Vec<[u16; 2]>) + Send + Sync + 'static) -> Plant {
+    sample_positions(move |mut positions: Vec<[u16; 2]>| {
         if positions.len() > 1 {
-            bug(positions)
-        } else {
-            positions
+            bug(&mut positions);
         }
+        positions
     })
 }
 
-fn each(positions: Vec<[u16; 2]>, bug: fn([u16; 2]) -> [u16; 2]) -> Vec<[u16; 2]> {
-    positions.into_iter().map(bug).collect()
+/// Changes the position of each of several samples.
+fn each_placed(bug: fn([u16; 2]) -> [u16; 2]) -> Plant {
+    placed(move |positions| positions.iter_mut().for_each(|place| *place = bug(*place)))
 }
 
 fn share(alpha: f32, samples: usize) -> usize {
@@ -68,23 +67,21 @@ bugs! {
     "second-missing: The second sample is never drawn." => masks(|mask, _| mask & !2);
     "last-missing: The last sample is never drawn." => masks(|mask, n| mask & !(1 << (n - 1)));
     source "sample positions rotated";
-    "all-at-the-centre: All samples lie at the centre." => plant(|positions| each(positions, |_| [128, 128]));
-    "all-at-the-corner: All samples lie at the corner." => plant(|positions| each(positions, |_| [0, 0]));
-    "rotated: The positions are turned by a quarter." => plant(|positions| each(positions, |[x, y]| [256 - y, x]));
-    "mirrored: The positions are mirrored." => plant(|positions| each(positions, |[x, y]| [256 - x, y]));
-    "upside-down: The positions are upside down." => plant(|positions| each(positions, |[x, y]| [x, 256 - y]));
+    "all-at-the-centre: All samples lie at the centre." => each_placed(|_| [128, 128]);
+    "all-at-the-corner: All samples lie at the corner." => each_placed(|_| [0, 0]);
+    "rotated: The positions are turned by a quarter." => each_placed(|[x, y]| [256 - y, x]);
+    "mirrored: The positions are mirrored." => each_placed(|[x, y]| [256 - x, y]);
+    "upside-down: The positions are upside down." => each_placed(|[x, y]| [x, 256 - y]);
     "transposed: Columns and rows of the positions are exchanged." =>
-        plant(|positions| each(positions, |[x, y]| [y, x]));
-    "in-reverse-order: The last sample lies where the first should." =>
-        plant(|mut positions| { positions.reverse(); positions });
-    "first-two-exchanged: The first two samples exchange their places." =>
-        plant(|mut positions| { positions.swap(0, 1); positions });
+        each_placed(|[x, y]| [y, x]);
+    "in-reverse-order: The last sample lies where the first should." => placed(|positions| positions.reverse());
+    "first-two-exchanged: The first two samples exchange their places." => placed(|positions| positions.swap(0, 1));
     "one-sixteenth-right: All samples lie a sixteenth too far right." =>
-        plant(|positions| each(positions, |[x, y]| [x + 16, y]));
+        each_placed(|[x, y]| [x + 16, y]);
     "of-two-samples: Every pair of samples lies where two would." =>
-        plant(|positions| {
-            let two = standard_sample_positions(2);
-            (0..positions.len()).map(|s| two[s % 2]).collect()
+        placed(|positions| {
+            let two = standard_sample_positions(2).into_iter().cycle();
+            positions.iter_mut().zip(two).for_each(|(place, of_two)| *place = of_two);
         });
     source "dEQP sees alpha to coverage ignored in 2 of 32 cases";
     "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true);

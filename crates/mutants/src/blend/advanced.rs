@@ -23,12 +23,21 @@ fn over_alpha(color: f32, alpha: f32) -> f32 {
     if alpha == 0.0 { 0.0 } else { color / alpha }
 }
 
-fn composed([src, dst]: Colors, f: impl Fn(f32, f32) -> f32, weights: Weights) -> [f32; 4] {
+/// Blends by a function and weights, of colours that are divided by their alphas or not.
+fn composed(
+    [src, dst]: Colors,
+    f: impl Fn(f32, f32) -> f32,
+    weights: Weights,
+    divided: [bool; 2],
+) -> [f32; 4] {
     let [both, source, destination] = weights(src[3], dst[3]);
+    let side = |color: [f32; 4], divided: bool, c: usize| {
+        over_alpha(color[c], if divided { color[3] } else { 1.0 })
+    };
     std::array::from_fn(|c| match c {
         3 => both + source + destination,
         _ => {
-            let (s, d) = (over_alpha(src[c], src[3]), over_alpha(dst[c], dst[3]));
+            let (s, d) = (side(src, divided[0], c), side(dst, divided[1], c));
             f(s, d) * both + s * source + d * destination
         }
     })
@@ -44,14 +53,35 @@ fn mixes(wrong: AdvancedBlend, function: fn(f32, f32, f32) -> f32) -> Plant {
         if mode != wrong {
             return faithful_advanced(mode, encodings, colors);
         }
-        composed(colors, |s, d| function(mix(mode, s, d), s, d), parts)
+        composed(
+            colors,
+            |s, d| function(mix(mode, s, d), s, d),
+            parts,
+            [true; 2],
+        )
     })
 }
 
 /// Coverage is weighed in another way.
 fn weighed(weights: Weights) -> Plant {
     advanced_blending(move |mode, _, colors: Colors| {
-        composed(colors, |s, d| mix(mode, s, d), weights)
+        composed(colors, |s, d| mix(mode, s, d), weights, [true; 2])
+    })
+}
+
+/// Source or destination is not divided by its alpha.
+fn undivided(divided: [bool; 2]) -> Plant {
+    advanced_blending(move |mode, _, colors: Colors| {
+        composed(colors, |s, d| mix(mode, s, d), parts, divided)
+    })
+}
+
+/// Changes the result, given the mode and the colours.
+fn results(bug: fn(AdvancedBlend, Colors, &mut [f32; 4])) -> Plant {
+    advanced_blending(move |mode, encodings, colors| {
+        let mut result = faithful_advanced(mode, encodings, colors);
+        bug(mode, colors, &mut result);
+        result
     })
 }
 
@@ -120,56 +150,19 @@ bugs! {
     "advanced-disjoint: Source and destination cover different parts, if they can." =>
         weighed(|s, d| [(s + d - 1.0).max(0.0), s.min(1.0 - d), d.min(1.0 - s)]);
     "advanced-opaque-destination: The destination counts as opaque." => weighed(|s, _| [s, 0.0, 1.0 - s]);
-    "advanced-source-not-divided: The source is not divided by its alpha." =>
-        advanced_blending(|mode, _, [src, dst]| {
-            let [both, source, destination] = parts(src[3], dst[3]);
-            let mut result = [both + source + destination; 4];
-            for c in 0..3 {
-                let d = over_alpha(dst[c], dst[3]);
-                result[c] = mix(mode, src[c], d) * both + src[c] * source + d * destination;
-            }
-            result
-        });
-    "advanced-destination-not-divided: The destination is not divided by its alpha." =>
-        advanced_blending(|mode, _, [src, dst]| {
-            let [both, source, destination] = parts(src[3], dst[3]);
-            let mut result = [both + source + destination; 4];
-            for c in 0..3 {
-                let s = over_alpha(src[c], src[3]);
-                result[c] = mix(mode, s, dst[c]) * both + s * source + dst[c] * destination;
-            }
-            result
-        });
+    "advanced-source-not-divided: The source is not divided by its alpha." => undivided([false, true]);
+    "advanced-destination-not-divided: The destination is not divided by its alpha." => undivided([true, false]);
     "advanced-result-divided: The result is divided by its alpha." =>
-        advanced_blending(|mode, encodings, colors| {
-            let mut result = faithful_advanced(mode, encodings, colors);
-            for c in 0..3 { result[c] = over_alpha(result[c], result[3]); }
-            result
-        });
+        results(|_, _, result| (0..3).for_each(|c| result[c] = over_alpha(result[c], result[3])));
     "advanced-nothing-from-nothing: What is divided by an alpha of 0 is no number." =>
-        advanced_blending(|mode, encodings, colors| {
-            let mut result = faithful_advanced(mode, encodings, colors);
-            if colors.iter().any(|color| color[3] == 0.0) { result[..3].fill(f32::NAN); }
-            result
-        });
+        results(|_, colors, result| if colors.iter().any(|color| color[3] == 0.0) { result[..3].fill(f32::NAN) });
     "advanced-alpha-of-the-mode: Alpha is mixed by the mode's function." =>
-        advanced_blending(|mode, encodings, colors| {
-            let mut result = faithful_advanced(mode, encodings, colors);
-            result[3] = mix(mode, colors[0][3], colors[1][3]);
-            result
-        });
-    "advanced-alpha-of-the-source: Alpha is the source's." =>
-        advanced_blending(|mode, encodings, colors| {
-            let mut result = faithful_advanced(mode, encodings, colors);
-            result[3] = colors[0][3];
-            result
-        });
+        results(|mode, colors, result| result[3] = mix(mode, colors[0][3], colors[1][3]));
+    "advanced-alpha-of-the-source: Alpha is the source's." => results(|_, colors, result| result[3] = colors[0][3]);
     "advanced-sides-exchanged: Source and destination are exchanged." =>
         advanced_blending(|mode, encodings, [src, dst]| faithful_advanced(mode, encodings, [dst, src]));
     "advanced-never: Advanced blending is off." =>
         draws(|draw| draw.targets.iter_mut().for_each(|t| t.advanced = None));
     "advanced-tenth-lighter: Advanced blends are a tenth too light." =>
-        advanced_blending(|mode, encodings, colors: Colors| {
-            faithful_advanced(mode, encodings, colors).map(|v| v * 1.1)
-        }), source SMALL;
+        results(|_, _, result| *result = result.map(|v| v * 1.1)), source SMALL;
 }
