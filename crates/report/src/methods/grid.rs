@@ -26,7 +26,7 @@ pub(super) fn picture(shown: &[Shown<'_, '_>]) -> Markup {
         return html! {};
     }
     let table = Table::<Row<'_, '_>>::new("strips")
-        .head("Scene", |row| {
+        .text("Scene", |row| {
             html! { a href={ "#" (row.shown.anchor) } { (row.shown.scene.question) "/" (row.shown.scene.name) } }
         })
         .text("Method", |row| {

@@ -40,8 +40,8 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup 
                         option value=(index) { (adapter.name) }
                     }
                 } }
-                (limit("most-time", "at most", "a frame"))
-                (limit("most-error", "at most", "of error"))
+                (limit("most-time", "Frame time at most"))
+                (limit("most-error", "RMSE at most"))
             }
             div.cards {
                 @for (q, question) in methods.questions.iter().enumerate() { (card(methods, shown, q, question)) }
@@ -51,9 +51,9 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup 
 }
 
 /// A slider, whose stops the script knows.
-fn limit(id: &str, before: &str, behind: &str) -> Markup {
+fn limit(id: &str, name: &str) -> Markup {
     html! {
-        label { (before) " " output for=(id) { "any" } " " (behind) " " input id=(id) type="range" min="0" step="1"; }
+        label { (name) " " output for=(id) { "any" } " " input id=(id) type="range" min="0" step="1"; }
     }
 }
 
@@ -95,7 +95,10 @@ fn card(
                 _ => p.u { "Not timed." }
             }
             p.left {}
-            p.of { (count(scenes.len() as u64, "scene")) }
+            p.of {
+                @if let Some((place, _)) = fullest { "In " (scenes[place].scene.name) ", one of " }
+                (count(scenes.len() as u64, "scene"))
+            }
         }
     }
 }

@@ -317,10 +317,24 @@ fn methods_get_a_page_of_charts() {
     // What needs it says so.
     assert!(page.contains("<noscript>") && page.contains("disabled"));
     assert!(!page.contains("http://") && !page.contains("https://"));
-    // Three scenes on four adapters, and one chart of stability for each scene, since the made-up errors are the
-    // same everywhere.
+    // Two questions and three scenes on four adapters, and one chart of stability for each scene, since the made-up errors
+    // are the same everywhere. The questions come first.
     let charts: Vec<&str> = page.split("<svg class=\"chart").skip(1).collect();
-    assert_eq!(charts.len(), 3 * 4 + 3);
+    assert_eq!(charts.len(), 2 * 4 + 3 * 4 + 3);
+    let small = |chart: &&str| chart.starts_with(" small");
+    assert_eq!(
+        charts.iter().take_while(|chart| small(chart)).count(),
+        2 * 4
+    );
+    let place = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text}"));
+    let order = [
+        "id=\"overview\"",
+        "id=\"breaks\"",
+        "id=\"q0\"",
+        "id=\"claims\"",
+    ]
+    .map(place);
+    assert!(order.is_sorted(), "{order:?}");
     for chart in &charts {
         let chart = chart.split("</svg>").next().unwrap();
         assert!(chart.contains("role=\"img\"") && chart.contains("<title>"));
