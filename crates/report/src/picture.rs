@@ -143,11 +143,15 @@ pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
 
 /// The pictures of an image. `None` when the image's lists do not fit its size.
 pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
-    named(image, "allowed", "actual")
+    named(image, ["allowed", "actual"], true)
 }
 
 /// The pictures of an image with the names of what is allowed and of what came.
-pub(crate) fn named(image: &FrameImage, allowed: &str, actual: &str) -> Option<Strip> {
+pub(crate) fn named(
+    image: &FrameImage,
+    [allowed, actual]: [&str; 2],
+    bounds: bool,
+) -> Option<Strip> {
     let view = View::of(image)?;
     let mut pictures = Vec::new();
     let same = image.low == image.high;
@@ -174,7 +178,7 @@ pub(crate) fn named(image: &FrameImage, allowed: &str, actual: &str) -> Option<S
     Some(Strip {
         title: title(image),
         pictures,
-        caption: view.caption(same, alpha),
+        caption: view.caption(same && bounds, alpha),
     })
 }
 

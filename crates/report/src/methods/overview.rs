@@ -53,7 +53,7 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup 
 /// A slider, whose stops the script knows.
 fn limit(id: &str, name: &str) -> Markup {
     html! {
-        label { (name) " " output for=(id) { "any" } " " input id=(id) type="range" min="0" step="1"; }
+        label for=(id) { (name) " " output for=(id) { "any" } " " input id=(id) type="range" min="0" step="1"; }
     }
 }
 

@@ -7,7 +7,7 @@ use etalon_record::{AdapterRecord, Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
 };
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeSet;
 
 /// The comparison of two benches. `--format json` prints its serialised form.
@@ -57,7 +57,8 @@ pub struct TimeChange {
     /// True if the adapter draws with the processor.
     pub software: bool,
     /// `faster`, `slower` or `cannot tell`.
-    pub outcome: &'static str,
+    #[serde(serialize_with = "by_name")]
+    pub outcome: Conclusion,
     /// The reason why the samples decide nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<&'static str>,
@@ -87,8 +88,15 @@ pub struct TimeChange {
 impl TimeChange {
     /// The outcome if the samples decide it, else nothing.
     pub(super) fn decided(&self) -> &'static str {
-        if self.why.is_none() { self.outcome } else { "" }
+        match self.outcome {
+            Conclusion::CannotTell(_) => "",
+            outcome => outcome.name(),
+        }
     }
+}
+
+fn by_name<S: Serializer>(outcome: &Conclusion, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(outcome.name())
 }
 
 /// A case on an adapter that has times in one bench only.
@@ -110,14 +118,22 @@ pub struct Untimed {
 }
 
 impl BenchDiff {
-    /// The number of changes with this outcome.
-    pub fn count(&self, outcome: &str) -> usize {
-        self.changes.iter().filter(|c| c.outcome == outcome).count()
+    /// The numbers of changes that are slower, faster, and that cannot be told.
+    pub fn counts(&self) -> [usize; 3] {
+        let mut counts = [0; 3];
+        for change in &self.changes {
+            counts[match change.outcome {
+                Conclusion::Slower => 0,
+                Conclusion::Faster => 1,
+                Conclusion::CannotTell(_) => 2,
+            }] += 1;
+        }
+        counts
     }
 
     /// True if anything is worse: slower, no longer right, or on an adapter that vanished.
     pub fn worse(&self) -> bool {
-        self.count(Conclusion::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
+        self.counts()[0] > 0 || self.gone.iter().any(|g| g.worse)
     }
 
     /// The number of comparisons that decide nothing, and of cases that only one bench has times of.
@@ -150,7 +166,7 @@ impl BenchDiff {
     pub(super) fn conclusion(&self) -> String {
         let mut parts = Vec::new();
         if self.worse() {
-            parts.push(format!("{} slower", self.count(Conclusion::Slower.name())));
+            parts.push(format!("{} slower", self.counts()[0]));
             let wrong = self.gone.iter().filter(|g| g.worse && !g.vanished).count();
             parts.push(format!("{wrong} no longer right"));
         } else {
@@ -239,7 +255,7 @@ fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Sampl
         case: record.picture.case.clone(),
         adapter: record.picture.adapter.clone(),
         software,
-        outcome: comparison.outcome.name(),
+        outcome: comparison.outcome,
         why: match comparison.outcome {
             Conclusion::CannotTell(why) => Some(Why::text(why)),
             Conclusion::Faster | Conclusion::Slower => None,

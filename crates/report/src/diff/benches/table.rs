@@ -7,6 +7,7 @@ use crate::page::adapter::adapter;
 use crate::table::{Cell, Table};
 use crate::terminal::TableOptions;
 use crate::words::plain;
+use etalon_stats::Conclusion;
 use maud::html;
 use tabled::settings::Color;
 
@@ -52,12 +53,10 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     text.push_str(&options.paint(&plain(&line, 400), color));
     text.push('\n');
     let n = diff.changes.len();
+    let [slower, faster, undecided] = diff.counts();
     text += &format!(
-        "{} slower, {} faster, {} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
+        "{slower} slower, {faster} faster, {undecided} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
          are called a change on average ({} each).\n",
-        diff.count("slower"),
-        diff.count("faster"),
-        diff.count("cannot tell"),
         n as f64 * diff.level,
         diff.level,
     );
@@ -73,13 +72,14 @@ pub(super) fn changes_table<'a>() -> Table<'a, &'a TimeChange> {
         .text("adapter", |c| adapter(&c.adapter))
         .text("outcome", |c| {
             let why = c.why.map_or_else(String::new, |why| format!(": {why}"));
-            let color = match c.decided() {
-                "slower" => Some(Color::FG_RED | Color::BOLD),
-                "faster" => Some(Color::FG_GREEN),
-                _ => None,
+            let color = match c.outcome {
+                Conclusion::Slower => Some(Color::FG_RED | Color::BOLD),
+                Conclusion::Faster => Some(Color::FG_GREEN),
+                Conclusion::CannotTell(_) => None,
             };
-            let shown = html! { b { (c.outcome) } small { (why) } };
-            Cell::from(format!("{}{why}", c.outcome))
+            let name = c.outcome.name();
+            let shown = html! { b { (name) } small { (why) } };
+            Cell::from(format!("{name}{why}"))
                 .on_page(shown)
                 .color(color)
         })

@@ -34,6 +34,11 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     if let Some(expected) = &record.expected {
         add("Expected", "text", true, end(&expected.reason));
     }
+    if let Some(case) = &record.look {
+        let text =
+            format!("The finding names {case}: both leave the same states and violation, reduced.");
+        add("Known by its look", "text", true, text);
+    }
     if let Some(verdict) = record.improves {
         let text = format!("The expectations still name {}.", words::name(verdict));
         add("Improvement", "text", false, text);

@@ -10,7 +10,11 @@ use std::path::{Path, PathBuf};
 type Check = fn(&Chromium, &Path);
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 6] = [
+pub(super) const CHECKS: [(&str, Check); 7] = [
+    (
+        "a budget says which methods are left",
+        a_budget_says_which_methods_are_left,
+    ),
     (
         "a legend highlights its method",
         a_legend_highlights_its_method,
@@ -83,6 +87,40 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     }
     drop(writer);
     etalon_report::write(&out).unwrap().methods.unwrap()
+}
+
+fn a_budget_says_which_methods_are_left(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let left = || -> Vec<String> {
+        page.eval("[...document.querySelectorAll('.card .left')].map(p => p.textContent)")
+    };
+    let count =
+        |what: &str| -> u64 { page.eval(&format!("document.querySelectorAll(\"{what}\").length")) };
+    let cards = count(".card") as usize;
+    assert!(cards > 1);
+    assert_eq!(left(), vec![String::new(); cards], "no budget");
+    assert_eq!(count(".card .on:not(.off)") as usize, cards, "one adapter");
+    let set = |id: &str, value: &str| {
+        page.run(&format!(
+            "$('{id}').value = {value}; $('{id}').dispatchEvent(new Event('input', {{ bubbles: true }}))"
+        ));
+    };
+    set("most-error", "0");
+    assert_eq!(page.text("#budget output[for=most-error]"), "0\u{a0}%");
+    assert_eq!(left(), ["Left: none.", "Left: depth-peeling."]);
+    assert!(count(".card .on:not(.off) .of.beyond") > 0);
+    // Nothing is drawn within no time at all, and another adapter has marks of its own.
+    set("most-time", "0");
+    set("on", "1");
+    assert_eq!(count(".card .on[data-on='1']:not(.off)") as usize, cards);
+    assert!(
+        left()
+            .iter()
+            .all(|text| text == "Left: none." || text.is_empty()),
+        "{:?}",
+        left()
+    );
+    assert_eq!(count(".card.none"), count(".card .left:not(:empty)"));
 }
 
 fn opacity(page: &Page<'_>, class: &str) -> String {
