@@ -171,6 +171,7 @@ prop_compose! {
             error: message.strip_prefix('e').map(|rest| ErrorKind::Resource {
                 object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
             }),
+            look: said.first().cloned(),
             validation: said.clone(),
             after: said.clone(),
             blocked_by: said,
