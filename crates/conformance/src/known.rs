@@ -104,12 +104,7 @@ pub const KNOWN: &[Known] = &[
         &[SOFTPIPE_WRONG, WGPU_GL_WRONG, WGPU_SOFTPIPE_WRONG],
     ),
     driver("webgpu:chromium", Api::WebGpu, BROWSER, &[]),
-    driver(
-        "webgpu:chromium, compatibility mode",
-        Api::WebGpu,
-        COMPATIBILITY,
-        &[],
-    ),
+    driver("webgpu:compatibility", Api::WebGpu, COMPATIBILITY, &[]),
     driver("webgpu:firefox", Api::WebGpu, FIREFOX, &[]),
 ];
 

@@ -68,9 +68,8 @@ pub(crate) fn chromium() -> Driver<'static> {
 
 /// Chromium, whose page asks for a device in compatibility mode.
 pub(crate) fn compatibility() -> Driver<'static> {
-    let name = "webgpu:chromium, compatibility mode";
     Driver {
-        known: known(name),
+        known: known("webgpu:compatibility"),
         environment: Vec::new(),
         open: |validate| {
             let mut browser = browser("webgpu:chromium");

@@ -32,6 +32,7 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
@@ -176,10 +177,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         arguments.news.labels.labels()?;
     }
     let selected = Selected::new(arguments)?;
-    let to_bless = arguments
-        .bless
-        .then(|| to_bless(&arguments.expected.expect));
-    let to_bless = to_bless.transpose()?;
+    let to_bless = file_to_bless(arguments)?;
     let expectations = expectations(arguments, to_bless.as_deref())?;
     let blessed = blessed(arguments, to_bless.as_deref())?;
     // The records of a concurrent or an earlier run must not be lost.
@@ -213,15 +211,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         resume,
         stop,
     })?;
-    if arguments.known_by_look && summary.unexpected > 0 && !summary.interrupted {
-        let looks = Looks {
-            library: &library(arguments.selection.cases.as_ref())?,
-            expectations: &expectations,
-            launches: &launches,
-            timeout: options(arguments).timeout,
-            stop,
-        };
-        summary.unexpected = looks.mark(&arguments.out)?;
+    if arguments.known_by_look && !summary.interrupted {
+        summary.unexpected = known_by_look(arguments, &expectations, &launches, stop)?;
     }
     let results = Results::write(arguments, &selected, &expectations, summary, adapter_names)?;
     results.print()?;
@@ -237,6 +228,31 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Ok(0);
     }
     Ok(results.exit_code())
+}
+
+/// Returns the file whose expectations are to be updated, if one is.
+fn file_to_bless(arguments: &Arguments) -> Result<Option<PathBuf>, Failure> {
+    let Arguments {
+        bless, expected, ..
+    } = arguments;
+    bless.then(|| to_bless(&expected.expect)).transpose()
+}
+
+/// Compares what is unexpected with findings. Returns the number of records that stay so.
+fn known_by_look(
+    arguments: &Arguments,
+    expectations: &Expectations,
+    launches: &[Launch],
+    stop: &AtomicBool,
+) -> Result<u64, Failure> {
+    let looks = Looks {
+        library: &library(arguments.selection.cases.as_ref())?,
+        expectations,
+        launches,
+        timeout: options(arguments).timeout,
+        stop,
+    };
+    looks.mark(&arguments.out)
 }
 
 /// The cases of a run.

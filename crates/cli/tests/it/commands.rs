@@ -13,8 +13,14 @@ use std::process::Stdio;
 
 const CLEARED: &str = "depth/clear/clear=1/format=depth32float";
 
+/// True if a command says nothing else than what it leaves out.
+fn tells_what_is_left_out(text: &str) -> bool {
+    text.lines().all(|line| line.starts_with("left out: "))
+}
+
 fn lines(arguments: &[&str]) -> Vec<String> {
-    let output = etalon(arguments).assert().success().stderr(is_empty());
+    let told = predicates::function::function(tells_what_is_left_out);
+    let output = etalon(arguments).assert().success().stderr(told);
     let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
     text.lines().map(str::to_owned).collect()
 }
@@ -147,7 +153,7 @@ fn a_reader_that_leaves_early_is_no_error() {
         let mut said = String::new();
         let mut stderr = child.stderr.take().unwrap();
         stderr.read_to_string(&mut said).unwrap();
-        assert_eq!(said, "");
+        assert!(tells_what_is_left_out(&said), "{said}");
         assert!(child.wait().unwrap().success());
     }
 }

@@ -22,6 +22,7 @@ fn drawn(folder: &Path, more: &[&str]) -> Assert {
         .arg(folder.join("cases"))
         .arg("--out")
         .arg(folder.join("out"))
+        .args(["--profile", "full"])
         .args(more)
         .assert()
 }

@@ -408,7 +408,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
         assert!(frames == due_frames, "after {kills} kills");
     }
     println!("{kills} kills, {inside} of them between records, {ended} runs that ended before");
-    assert!(inside >= planned / 4, "{inside}");
+    assert!(inside >= planned / 8, "{inside}");
 }
 
 /// Waits until a run has written some records.
