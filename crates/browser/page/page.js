@@ -6,7 +6,7 @@ const PROTOCOL = 1;
 /** The feature of a device that keeps all that WebGPU promises. Browsers older than it have no other device. */
 const CORE = "core-features-and-limits";
 
-/** True if a device in compatibility mode is asked for: by the address, or where there is no other. */
+/** True if the address asks for a device in compatibility mode. */
 const COMPATIBILITY = new URLSearchParams(location.search).has("compatibility");
 
 /** Features that a device is asked for, where it has them. */

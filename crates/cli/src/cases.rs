@@ -61,7 +61,8 @@ fn warn(library: &Library, cases: &[Case]) {
     }
 }
 
-/// Returns the ids of the selected cases, and whether they exist to be measured. Those of a folder are built all the same, so that errors show.
+/// Returns the ids of the selected cases, each with true if it exists to be measured. Those of a folder are built all the
+/// same, so that errors show.
 pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)>, Failure> {
     if arguments.cases.is_some() {
         let cases = chosen(arguments)?.into_iter();

@@ -4,17 +4,17 @@
 //! reduced on their driver, and cases of the findings too: what leaves the same states and the same violation is known by its
 //! look.
 
-use crate::cases::find;
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::output::say;
 use crate::reduction::{Reducer, confirm};
-use etalon_case::{Case, Library, Profile, build};
+use etalon_case::{Case, CaseRef, Library, Profile, build};
 use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
 use etalon_explore::Candidate;
 use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
 use etalon_runner::Launch;
-use std::collections::BTreeMap;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -38,6 +38,12 @@ impl Looks<'_> {
     /// Marks the unexpected records of the run in a folder that findings explain. Returns the number of those that are left.
     pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {
         let mut run = Run::read(folder).map_err(Failure::incomplete)?;
+        let unexpected = |run: &Run| run.records.iter().filter(|r| r.unexpected()).count() as u64;
+        if unexpected(&run) == 0 {
+            return Ok(0);
+        }
+        let cases = self.library.cases(Profile::Full);
+        let cases: HashMap<String, CaseRef<'_>> = cases.map(|case| (case.id(), case)).collect();
         let built_in = Library::built_in().map_err(Failure::usage)?;
         for adapter in &run.header.adapters {
             let of_adapter = |r: &&mut Record| {
@@ -53,17 +59,18 @@ impl Looks<'_> {
                     "{}: failures to compare with findings: {count}",
                     adapter.name
                 );
-                self.mark_all(failing, adapter, launch, &built_in)?;
+                self.mark_all(failing, &cases, adapter, launch, &built_in)?;
             }
         }
         run.replace_in(folder).map_err(Failure::incomplete)?;
-        Ok(run.records.iter().filter(|r| r.unexpected()).count() as u64)
+        Ok(unexpected(&run))
     }
 
     /// Marks those of an adapter's failures that findings explain.
     fn mark_all(
         &self,
         failing: Vec<&mut Record>,
+        cases: &HashMap<String, CaseRef<'_>>,
         adapter: &AdapterRecord,
         launch: &Launch,
         built_in: &Library,
@@ -74,9 +81,13 @@ impl Looks<'_> {
         };
         let mut groups = Groups::default();
         let mut looking = reducer();
-        let numbers = failing
-            .iter()
-            .map(|record| self.group(&mut groups, &mut looking, record));
+        let numbers = failing.iter().map(|record| {
+            let case = cases.get(&record.case).ok_or_else(|| {
+                Failure::incomplete(format!("there is no case `{}`", record.case))
+            })?;
+            let document = case.document().map_err(Failure::usage)?;
+            group(&mut groups, &mut looking, document, record)
+        });
         let numbers = numbers.collect::<Result<Vec<usize>, Failure>>()?;
         let cases = built_in.cases(Profile::Full);
         let cases = cases.map(|case| (case.id(), case));
@@ -107,31 +118,29 @@ impl Looks<'_> {
         }
         Ok(())
     }
+}
 
-    /// Returns the number of the group that a failure belongs to, which is a new one if it is like no other.
-    fn group(
-        &self,
-        groups: &mut Groups<Option<Case>>,
-        reducer: &mut Reducer<'_>,
-        record: &Record,
-    ) -> Result<usize, Failure> {
-        let document = find(self.library, &record.case)?.document();
-        let document = document.map_err(Failure::usage)?;
-        let symptom = Symptom::of(record);
-        if let Some(number) = groups.count(&document, &symptom, reducer.is_stopped()) {
-            return Ok(number);
-        }
-        let case = build(NAME, &document).map_err(Failure::usage)?;
-        let scene = Candidate { document, case };
-        let looked = reducer.look(scene, record.clone(), symptom)?;
-        if let Some(number) = groups.count_reduced(&looked.key) {
-            return Ok(number);
-        }
-        let Candidate { document, case } = looked.scene;
-        let mut group = Group::new(None, &document, looked.symptom, looked.key);
-        group.scene = group.steady.then_some(case);
-        Ok(groups.push(group))
+/// Returns the number of the group that a failure of a document belongs to, which is a new one if it is like no other.
+fn group(
+    groups: &mut Groups<Option<Case>>,
+    reducer: &mut Reducer<'_>,
+    document: Value,
+    record: &Record,
+) -> Result<usize, Failure> {
+    let symptom = Symptom::of(record);
+    if let Some(number) = groups.count(&document, &symptom, reducer.is_stopped()) {
+        return Ok(number);
     }
+    let case = build(NAME, &document).map_err(Failure::usage)?;
+    let scene = Candidate { document, case };
+    let looked = reducer.look(scene, record.clone(), symptom)?;
+    if let Some(number) = groups.count_reduced(&looked.key) {
+        return Ok(number);
+    }
+    let Candidate { document, case } = looked.scene;
+    let mut group = Group::new(None, &document, looked.symptom, looked.key);
+    group.scene = group.steady.then_some(case);
+    Ok(groups.push(group))
 }
 
 /// Returns lines on the records that are known by their look, by finding; nothing where there are none.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// The limits and messages of one kind of file.
@@ -40,14 +40,29 @@ pub(crate) struct Extent {
 /// has half a header.
 pub(crate) fn begin(folder: &Path, name: &str, header: &[u8]) -> Result<File, RecordError> {
     fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+    put(folder, name, [Ok(header)])
+}
+
+/// Writes the lines of a file beside the one of its name, and renames it into place.
+pub(crate) fn put<L: AsRef<[u8]>>(
+    folder: &Path,
+    name: &str,
+    lines: impl IntoIterator<Item = Result<L, RecordError>>,
+) -> Result<File, RecordError> {
     let path = folder.join(name);
     let beside = folder.join(format!(".{name}.{}", std::process::id()));
-    let mut file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
-    file.write_all(header)
-        .and_then(|()| file.sync_data())
+    let file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
+    let mut file = BufWriter::new(file);
+    for line in lines {
+        let written = file.write_all(line?.as_ref());
+        written.map_err(RecordError::io("write", &path))?;
+    }
+    file.flush()
+        .and_then(|()| file.get_ref().sync_data())
         .and_then(|()| fs::rename(&beside, &path))
         .map_err(RecordError::io("write", &path))?;
-    Ok(file)
+    file.into_inner()
+        .map_err(|error| RecordError::io("write", &path)(error.into_error()))
 }
 
 /// Opens a file to append lines to `whole` bytes of whole ones; what follows them is cut off.

@@ -7,14 +7,14 @@ use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PIC
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::json_lines::{begin, reopen};
+use crate::json_lines::{begin, put, reopen};
 use crate::record::Record;
 use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::write_cases;
 use crate::shorten::fit;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -43,22 +43,9 @@ impl Run {
     /// # Errors
     /// When the file cannot be written, or a record cannot be shortened enough.
     pub fn replace_in(&self, folder: &Path) -> Result<(), RecordError> {
-        let path = folder.join(RUN_FILE);
-        let beside = folder.join(format!(".{RUN_FILE}.{}", std::process::id()));
-        let file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
-        let mut file = BufWriter::new(file);
-        let mut write = |line: Vec<u8>| {
-            let written = file.write_all(&line);
-            written.map_err(RecordError::io("write", &beside))
-        };
-        write(json_line("the header", &self.header)?)?;
-        for record in &self.records {
-            write(fit(record)?)?;
-        }
-        file.flush()
-            .and_then(|()| file.get_ref().sync_data())
-            .and_then(|()| fs::rename(&beside, &path))
-            .map_err(RecordError::io("write", &path))
+        let header = json_line("the header", &self.header);
+        let lines = std::iter::once(header).chain(self.records.iter().map(fit));
+        put(folder, RUN_FILE, lines).map(drop)
     }
 }
 
