@@ -2,13 +2,14 @@
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
-use crate::reduction::{Looked, Reducer, confirm, file_name};
+use crate::reducing::file_name;
 use etalon_case::Case;
 use etalon_diagnose::{Groups, KnownBugs, Symptom};
 use etalon_explore::{RandomScene, keys, states};
 use etalon_frame::threads::share;
 use etalon_record::Record;
 use etalon_report::ReducedCase;
+use etalon_runner::{Looked, Reducer, confirm};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -7,12 +7,11 @@
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::output::say;
-use crate::reduction::{Reducer, confirm};
 use etalon_case::{Case, CaseRef, Library, Profile, build};
 use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
 use etalon_explore::Candidate;
 use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
-use etalon_runner::Launch;
+use etalon_runner::{Launch, Reducer, confirm};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;

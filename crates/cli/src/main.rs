@@ -37,7 +37,6 @@ mod processors;
 mod progress;
 mod provenance;
 mod reducing;
-mod reduction;
 mod report_files;
 mod scene_text;
 mod shard;

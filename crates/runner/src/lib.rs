@@ -21,6 +21,7 @@ mod memory;
 mod outcome;
 mod process;
 mod protocol;
+mod reduction;
 mod run;
 mod select;
 mod serve;
@@ -38,6 +39,9 @@ pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
+pub use reduction::{
+    Flakiness, Looked, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
+};
 pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;

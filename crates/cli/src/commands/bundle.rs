@@ -5,10 +5,11 @@ use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::Format;
+use crate::interruption::listen;
 use crate::out_folder::apart;
 use crate::output::{print_json, say, summarize};
 use crate::provenance;
-use crate::reducing::{Failing, FailingArguments, smallest, started};
+use crate::reducing::{Failing, FailingArguments, started};
 use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
@@ -22,7 +23,7 @@ use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Record, Source};
 use etalon_report::{ReducedCase, story_text};
-use etalon_runner::{Launch, Recorded, Worker};
+use etalon_runner::{Launch, Recorded, Worker, smallest};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -63,7 +64,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     etalon_bundle::free(&arguments.out, &name, arguments.force).map_err(Failure::usage)?;
     let adapter = AdapterRecord::from(&worker);
     let timeout = failing.timeout();
-    let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
+    let smallest = smallest(
+        &failing.case,
+        candidate,
+        &launch,
+        worker,
+        timeout,
+        listen()?,
+    )?;
     let document = &smallest.reduction.smallest.document;
     let reduced = Reduced {
         arguments,

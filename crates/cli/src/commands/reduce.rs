@@ -2,14 +2,16 @@
 
 use crate::failure::Failure;
 use crate::flags::Format;
+use crate::interruption::listen;
 use crate::out_folder::apart;
 use crate::output::{print_json, summarize};
-use crate::reducing::{Failing, FailingArguments, smallest};
+use crate::reducing::{Failing, FailingArguments};
 use clap::Args;
 use etalon_diagnose::Symptom;
 use etalon_explore::{Reduction, keys, leaves, states};
 use etalon_record::Record;
 use etalon_report::ReducedCase;
+use etalon_runner::smallest;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,7 +39,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     refuse_foreign(&path)?;
     let document = candidate.document.clone();
     let timeout = failing.timeout();
-    let smallest = smallest(&failing.case, candidate, &launch, worker, timeout)?;
+    let smallest = smallest(
+        &failing.case,
+        candidate,
+        &launch,
+        worker,
+        timeout,
+        listen()?,
+    )?;
     let report = Told {
         arguments,
         before: &document["scene"],

@@ -53,8 +53,8 @@ const TABLE: [(&str, &[&str], &[&str]); 28] = [
     (
         "runner",
         &[
-            "backend", "case", "diagnose", "frame", "judge", "mutants", "record", "scene", "stats",
-            "truth",
+            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "record",
+            "scene", "stats", "truth",
         ],
         &[],
     ),

@@ -1,0 +1,89 @@
+//! Reductions on a driver, with the judge as oracle.
+//!
+//! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
+//! way. Each such candidate costs a process, and each that hangs costs its time.
+
+mod oracle;
+mod reducer;
+mod smallest;
+mod steady;
+
+pub use oracle::{Unconfirmed, confirm};
+pub use reducer::{Looked, Reducer};
+pub use smallest::{Smallest, smallest};
+
+use crate::launch::StartError;
+use etalon_diagnose::Symptom;
+use thiserror::Error;
+
+/// Why a case was not reduced.
+#[derive(Debug, Error)]
+pub enum ReductionError {
+    /// A worker did not start.
+    #[error("{0}")]
+    Start(#[from] StartError),
+    /// A worker that a case ended did not start again.
+    #[error("the worker of {adapter} could not be started again: {error}")]
+    Lost {
+        /// The name of the adapter.
+        adapter: String,
+        /// Why it did not start.
+        error: StartError,
+    },
+    /// The adapter lacks what the case needs.
+    #[error("{adapter} does not support {missing}")]
+    NotSupported {
+        /// The name of the adapter.
+        adapter: String,
+        /// The requirement.
+        missing: String,
+    },
+    /// The case does not fail.
+    #[error(
+        "{case} does not fail on {adapter}, drawn alone: {verdict}; there is nothing to reduce"
+    )]
+    Passes {
+        /// The id of the case.
+        case: String,
+        /// The name of the adapter.
+        adapter: String,
+        /// The verdict, with the record's message.
+        verdict: String,
+    },
+    /// The case fails in some drawings only, or in several ways.
+    #[error("{case} is flaky on {adapter}: {flakiness}; only a steady failure can be reduced")]
+    Flaky {
+        /// The id of the case.
+        case: String,
+        /// The name of the adapter.
+        adapter: String,
+        /// How its drawings differ.
+        flakiness: Flakiness,
+    },
+    /// The reduced case does not fail in a new process as it did before.
+    #[error("the reduced case of {case} {why}")]
+    Unconfirmed {
+        /// The id of the case that was reduced.
+        case: String,
+        /// What the reduced case did instead.
+        why: Unconfirmed,
+    },
+}
+
+/// How the drawings of one case differ.
+#[derive(Debug, Error)]
+pub enum Flakiness {
+    /// It fails in some drawings only.
+    #[error("it fails in {failing} of {drawings} drawings, in {processes} processes")]
+    Sometimes {
+        /// The number of drawings that failed.
+        failing: usize,
+        /// The number of drawings.
+        drawings: usize,
+        /// The number of processes.
+        processes: usize,
+    },
+    /// It fails in two ways.
+    #[error("it fails by {0} and by {1}")]
+    TwoWays(Box<Symptom>, Box<Symptom>),
+}

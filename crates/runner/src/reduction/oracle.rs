@@ -1,0 +1,177 @@
+//! The judge as oracle, with a driver's frames.
+
+use crate::launch::{Launch, StartError};
+use crate::trial::Trials;
+use crate::worker::Worker;
+use etalon_case::Case;
+use etalon_diagnose::Symptom;
+use etalon_explore::{Budget, Candidate, Oracle, Reduction, reduce};
+use etalon_frame::Limits;
+use etalon_record::{Record, Verdict};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+use thiserror::Error;
+
+/// The time of a candidate, if the case does not end.
+const HUNG_TIME: Duration = Duration::from_secs(2);
+
+/// Why a failure was not confirmed.
+#[derive(Debug, Error)]
+pub enum Unconfirmed {
+    /// No new process could be started.
+    #[error("could not be drawn in a new process: {0}")]
+    Start(#[from] StartError),
+    /// It fails by the second symptom where it failed by the first.
+    #[error("is unsteady: it failed by {0}, and drawn alone in a new process it fails by {1}")]
+    Unsteady(Box<Symptom>, Box<Symptom>),
+    /// It does not fail when it is drawn alone.
+    #[error("fails only after others in the same process: drawn alone it is {0}")]
+    FailsAfterOthers(Verdict),
+}
+
+/// Draws a case in a new process, which must fail with this symptom.
+///
+/// # Errors
+/// If the process does not start, or the case fails in another way or not at all.
+pub fn confirm(
+    launch: &Launch,
+    case: &Case,
+    symptom: &Symptom,
+    timeout: Duration,
+) -> Result<(), Unconfirmed> {
+    let mut worker = Worker::start(launch)?;
+    let (record, _) = worker.record(case, timeout);
+    let alone = Symptom::of(&record);
+    if symptom.covers(&alone) {
+        return Ok(());
+    }
+    Err(Unconfirmed::of(symptom, alone))
+}
+
+impl Unconfirmed {
+    /// What a case with this symptom did instead, drawn alone.
+    fn of(symptom: &Symptom, alone: Symptom) -> Self {
+        if alone.verdict.is_bad() {
+            Self::Unsteady(Box::new(symptom.clone()), Box::new(alone))
+        } else {
+            Self::FailsAfterOthers(alone.verdict)
+        }
+    }
+}
+
+/// The judge as oracle: a candidate must fail like the case before it. If the case ends its worker, the candidate must
+/// end its worker in the same way.
+pub(super) struct DriverOracle<'a> {
+    pub(super) trials: Trials,
+    /// The symptom of the smallest case so far, and its record.
+    pub(super) symptom: Symptom,
+    pub(super) record: Record,
+    pub(super) error: Option<StartError>,
+    /// Set when the search is being stopped.
+    stop: Option<&'a AtomicBool>,
+    /// Starts a process of its own for each candidate that fails, which must fail there too: on some drivers a failure
+    /// leaves something behind that makes the next case fail.
+    pub(super) alone: Option<Launch>,
+}
+
+impl<'a> DriverOracle<'a> {
+    /// An oracle on a case with this record. A case may take as long as `timeout`.
+    pub(super) fn new(
+        mut trials: Trials,
+        record: Record,
+        timeout: Duration,
+        stop: Option<&'a AtomicBool>,
+    ) -> Self {
+        let hangs = record.verdict == Verdict::Timeout;
+        trials.timeout = if hangs {
+            timeout.min(HUNG_TIME)
+        } else {
+            timeout
+        };
+        Self {
+            trials,
+            symptom: Symptom::of(&record),
+            record,
+            error: None,
+            stop,
+            alone: None,
+        }
+    }
+
+    /// Reduces the case with at most `draws` drawings.
+    pub(super) fn reduce(
+        &mut self,
+        failing: Candidate,
+        limits: &Limits,
+        draws: usize,
+    ) -> Reduction {
+        let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+        let budget = if self.record.verdict.is_violation() {
+            Budget::draws(draws)
+        } else {
+            Budget::of_processes()
+        };
+        reduce(failing, budget.with_stop(self.stop), &can_draw, self)
+    }
+}
+
+impl Oracle for DriverOracle<'_> {
+    fn first(&mut self, candidates: &mut dyn Iterator<Item = Candidate>) -> Option<Candidate> {
+        let Self {
+            trials,
+            symptom,
+            record,
+            error,
+            alone,
+            ..
+        } = self;
+        if error.is_some() {
+            return None;
+        }
+        let mut next = || candidates.next();
+        let timeout = trials.timeout;
+        let mut found = |candidate: &Candidate, judged: Record| {
+            let seen = Symptom::of(&judged);
+            if !symptom.covers(&seen) {
+                return false;
+            }
+            let fails_alone =
+                |launch: &Launch| confirm(launch, &candidate.case, &seen, timeout).is_ok();
+            if !alone.as_ref().is_none_or(fails_alone) {
+                return false;
+            }
+            *symptom = seen;
+            *record = judged;
+            true
+        };
+        match trials.first(&mut next, |c| &c.case, &mut found) {
+            Ok(found) => found,
+            Err(failed) => {
+                *error = Some(failed);
+                None
+            }
+        }
+    }
+
+    fn texel(&self) -> Option<[u32; 2]> {
+        self.record.wrong.first().map(|w| [w.x, w.y])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crash_alone_is_no_success_alone() {
+        let symptom = |verdict| Symptom::of(&Record::new("a", "gl:x", verdict));
+        let fail = symptom(Verdict::Fail);
+        let unsteady = Unconfirmed::of(&fail, symptom(Verdict::Crash));
+        assert!(matches!(unsteady, Unconfirmed::Unsteady(..)), "{unsteady}");
+        let after = Unconfirmed::of(&fail, symptom(Verdict::Pass));
+        assert!(
+            after.to_string().ends_with("drawn alone it is pass"),
+            "{after}"
+        );
+    }
+}

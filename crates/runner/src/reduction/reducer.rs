@@ -1,0 +1,183 @@
+//! Reductions of many cases on one driver.
+
+use super::ReductionError;
+use super::oracle::{DriverOracle, confirm};
+use crate::launch::Launch;
+use crate::trial::Trials;
+use crate::worker::Worker;
+use etalon_case::{CaseRef, build};
+use etalon_diagnose::{Driver, Key, Symptom, Traits, Unreduced};
+use etalon_explore::{Candidate, MOST_DRAWS, Oracle, keys};
+use etalon_frame::Limits;
+use etalon_record::Record;
+use serde_json::Value;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// The most keys of a scene that is reduced for a comparison.
+const MOST_KEYS: usize = 600;
+
+/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
+/// was drawn before.
+const DRAWS: usize = 400;
+
+/// A failing scene that was looked at.
+pub struct Looked {
+    /// What is left of it.
+    pub scene: Candidate,
+    /// The record of what is left.
+    pub record: Record,
+    /// How it fails.
+    pub symptom: Symptom,
+    /// What puts it into a group.
+    pub key: Key,
+}
+
+/// Reduces cases on one driver, whose worker is started when it is needed.
+pub struct Reducer<'a> {
+    /// How the driver's worker is started.
+    pub launch: Launch,
+    /// The limits of the driver.
+    pub limits: Limits,
+    /// The time that a case may take.
+    pub timeout: Duration,
+    /// Set when the search is being stopped.
+    pub stop: &'a AtomicBool,
+    trials: Option<Trials>,
+}
+
+impl<'a> Reducer<'a> {
+    /// A reducer without a worker.
+    pub fn new(launch: Launch, limits: Limits, timeout: Duration, stop: &'a AtomicBool) -> Self {
+        Self {
+            launch,
+            limits,
+            timeout,
+            stop,
+            trials: None,
+        }
+    }
+
+    /// Returns true if the search is being stopped.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Returns an oracle on a case with this record, which is to be given back.
+    fn oracle(&mut self, record: Record) -> Result<DriverOracle<'a>, ReductionError> {
+        let trials = self.trials()?;
+        let stop = Some(self.stop);
+        Ok(DriverOracle::new(trials, record, self.timeout, stop))
+    }
+
+    /// Keeps the worker of an oracle for the next one.
+    fn give_back(&mut self, oracle: DriverOracle<'_>) -> Result<(), ReductionError> {
+        if let Some(error) = oracle.error {
+            let adapter = &self.launch.adapter;
+            let adapter = adapter.clone();
+            return Err(ReductionError::Lost { adapter, error });
+        }
+        self.trials = Some(oracle.trials);
+        Ok(())
+    }
+
+    /// Draws a failing scene again, and reduces it if it fails again.
+    ///
+    /// # Errors
+    /// If a worker does not start.
+    pub fn look(
+        &mut self,
+        scene: Candidate,
+        record: Record,
+        symptom: Symptom,
+    ) -> Result<Looked, ReductionError> {
+        let whole = |scene: Candidate, record: Record, symptom: Symptom, why| Looked {
+            key: Key::whole(&scene.document, &symptom, why),
+            scene,
+            record,
+            symptom,
+        };
+        if self.is_stopped() {
+            return Ok(whole(scene, record, symptom, Unreduced::Stopped));
+        }
+        let mut oracle = self.oracle(record)?;
+        let again = oracle.first(&mut std::iter::once(scene.clone()));
+        let looked = if again.is_none() {
+            whole(scene, oracle.record.clone(), symptom, Unreduced::Unsteady)
+        } else {
+            let reduction = oracle.reduce(scene, &self.limits, DRAWS);
+            Looked {
+                key: Key::reduced(&reduction.smallest.document, &oracle.symptom),
+                scene: reduction.smallest,
+                record: oracle.record.clone(),
+                symptom: oracle.symptom.clone(),
+            }
+        };
+        self.give_back(oracle)?;
+        Ok(looked)
+    }
+
+    fn trials(&mut self) -> Result<Trials, ReductionError> {
+        match self.trials.take() {
+            Some(trials) => Ok(trials),
+            None => {
+                let worker = Worker::start(&self.launch)?;
+                Ok(Trials::new(self.launch.clone(), worker, self.timeout))
+            }
+        }
+    }
+}
+
+impl<'a> Driver for Reducer<'a> {
+    type Named = CaseRef<'a>;
+    type Case = Candidate;
+    type Error = ReductionError;
+
+    fn is_stopped(&self) -> bool {
+        self.is_stopped()
+    }
+
+    fn document(&self, named: &CaseRef<'a>) -> Option<Value> {
+        named.document().ok()
+    }
+
+    fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, ReductionError> {
+        // A case may need all that it reads.
+        let Ok(case) = build("found/known", document) else {
+            return Ok(None);
+        };
+        if keys(&document["scene"]) > MOST_KEYS
+            || self.limits.missing(&case.requirements()).is_some()
+        {
+            return Ok(None);
+        }
+        let mut trials = self.trials()?;
+        let mut next = Some(&case);
+        let mut record = None;
+        let drawn = trials.first(&mut || next.take(), |case| *case, &mut |_, judged| {
+            record = Some(judged);
+            true
+        });
+        drawn?;
+        self.trials = Some(trials);
+        let document = document.clone();
+        Ok(record.map(|record| (Candidate { document, case }, record)))
+    }
+
+    fn reduce(
+        &mut self,
+        case: Candidate,
+        record: Record,
+    ) -> Result<(Candidate, Symptom, Traits), ReductionError> {
+        let mut oracle = self.oracle(record)?;
+        let smallest = oracle.reduce(case, &self.limits, MOST_DRAWS).smallest;
+        let symptom = oracle.symptom.clone();
+        self.give_back(oracle)?;
+        let traits = Traits::of(&smallest.document, &symptom);
+        Ok((smallest, symptom, traits))
+    }
+
+    fn is_steady(&self, case: &Candidate, symptom: &Symptom) -> bool {
+        confirm(&self.launch, &case.case, symptom, self.timeout).is_ok()
+    }
+}
