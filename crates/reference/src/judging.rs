@@ -11,15 +11,17 @@ use etalon_scene::LogicOperation;
 /// The values that permitted ways of computing arrive at.
 ///
 /// A blend may be computed in floating-point throughout, or with every result rounded to a
-/// neighbouring code of the destination. The two are carried side by side: joined early, the error
-/// of the one would be added to the rounding of the other, and the set would be wider than either
-/// reading of the text.
+/// neighbouring code of the destination, or to a neighbouring binary fraction with as many bits. The
+/// three are carried side by side: joined early, the error of one would be added to the rounding of
+/// another, and the set would be wider than any reading of the text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// In floating-point, of the least precision that is permitted or any above.
     pub float: Interval,
     /// Rounded to destination codes at every step.
-    pub coarse: Interval,
+    pub codes: Interval,
+    /// Rounded to binary fractions at every step.
+    pub fixed: Interval,
 }
 
 impl From<Range> for ValueRange {
@@ -38,21 +40,50 @@ impl Range {
     pub fn same(interval: Interval) -> Self {
         Self {
             float: interval,
-            coarse: interval,
+            codes: interval,
+            fixed: interval,
         }
     }
 
-    /// Returns the values of both ways.
+    /// Returns the values of all ways of computing.
     pub fn hull(self) -> Interval {
-        self.float.hull(self.coarse)
+        if self.is_same() {
+            self.float
+        } else {
+            self.float.hull(self.codes).hull(self.fixed)
+        }
+    }
+
+    /// Returns true if all ways of computing have the same values.
+    fn is_same(self) -> bool {
+        self.codes == self.float && self.fixed == self.float
     }
 
     pub(crate) fn zip(self, other: Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
+        let float = f(self.float, other.float);
+        if self.is_same() && other.is_same() {
+            return Self::same(float);
+        }
         Self {
-            float: f(self.float, other.float),
-            coarse: f(self.coarse, other.coarse),
+            float,
+            codes: f(self.codes, other.codes),
+            fixed: f(self.fixed, other.fixed),
         }
     }
+
+    /// Returns the values of a function of each way.
+    pub(crate) fn map(self, f: impl Fn(Interval) -> Interval) -> Self {
+        self.zip(self, |value, _| f(value))
+    }
+}
+
+/// What a blend that does not compute in floating-point rounds its results to.
+#[derive(Clone, Copy)]
+enum Grid {
+    /// The destination's codes.
+    Codes,
+    /// Binary fractions with as many bits as the destination's codes.
+    Fixed,
 }
 
 /// Arithmetic under a set of rules.
@@ -192,22 +223,35 @@ impl<'r> Judging<'r> {
         exact: Interval,
         computed: Interval,
     ) -> Interval {
-        let bits = match encoding {
-            ChannelEncoding::Unorm(bits) => u32::from(bits),
-            ChannelEncoding::Snorm(bits) => u32::from(bits) - 1,
-            ChannelEncoding::Srgb8 => 8,
-            // Every step of these is rounded in the coarse way of computing.
-            _ => return computed,
+        // Every step of floats is rounded to codes instead.
+        let Some(bits) = self.bits(encoding) else {
+            return computed;
         };
         if !self.is_coarse() || exact.may_be_nan() {
             return computed;
         }
-        let bits = if self.advanced {
+        computed.hull(to_significand(bits, exact))
+    }
+
+    /// Returns the least number of bits of a normalized destination's blends, without a sign.
+    fn bits(&self, encoding: ChannelEncoding) -> Option<u32> {
+        let bits = match encoding {
+            ChannelEncoding::Unorm(bits) => u32::from(bits),
+            ChannelEncoding::Snorm(bits) => u32::from(bits) - 1,
+            ChannelEncoding::Srgb8 => 8,
+            _ => return None,
+        };
+        Some(if self.advanced {
             bits.min(HALF_SIGNIFICAND)
         } else {
             bits
-        };
-        computed.hull(to_significand(bits, exact))
+        })
+    }
+
+    /// Returns the number of steps between 0 and 1 in fixed-point of the least precision: a power of two.
+    fn steps(&self, encoding: ChannelEncoding) -> f64 {
+        self.bits(encoding)
+            .map_or(1.0, |bits| 2_f64.powi(bits as i32))
     }
 
     /// Returns the floats that one step of a blend may compute for an exact result.
@@ -219,13 +263,32 @@ impl<'r> Judging<'r> {
     fn rounded_once(&self, encoding: ChannelEncoding, exact: Range) -> Range {
         Range {
             float: self.float_step(encoding, exact.float),
-            coarse: self.round_outward(encoding, exact.coarse),
+            ..self.on_grids(encoding, exact)
+        }
+    }
+
+    /// Rounds what is not computed in floating-point.
+    fn on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
+        let codes = self.round_outward(encoding, Grid::Codes, value.codes);
+        let has_fractions = matches!(
+            encoding,
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_)
+        );
+        let fixed = if has_fractions || value.fixed != value.codes {
+            self.round_outward(encoding, Grid::Fixed, value.fixed)
+        } else {
+            codes
+        };
+        Range {
+            float: value.float,
+            codes,
+            fixed,
         }
     }
 
     /// Returns one over a value that is above 0 where it counts.
     fn inverse(&self, encoding: ChannelEncoding, value: Range) -> Range {
-        let exact = value.zip(value, |v, _| {
+        let exact = value.map(|v| {
             let least = f64::from(f32::MIN_POSITIVE);
             if v.may_be_nan() {
                 v
@@ -244,11 +307,8 @@ impl<'r> Judging<'r> {
         dividend: Range,
         divisor: Range,
     ) -> Range {
-        if divisor.float.is(1.0) && divisor.coarse.is(1.0) {
-            return Range {
-                float: exact.float,
-                coarse: self.round_outward(encoding, exact.coarse),
-            };
+        if divisor.is_same() && divisor.float.is(1.0) {
+            return self.on_grids(encoding, exact);
         }
         let inverse = self.inverse(encoding, divisor);
         let product = dividend.zip(inverse, Interval::times);
@@ -256,14 +316,17 @@ impl<'r> Judging<'r> {
             .zip(self.rounded_once(encoding, product), Interval::hull)
     }
 
-    /// Widens to the destination's codes on either side, where blending may round to them.
-    fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
+    /// Widens to the grid's values on either side, if blending may round to them.
+    fn round_outward(&self, encoding: ChannelEncoding, grid: Grid, value: Interval) -> Interval {
         if !self.is_coarse() {
             return value;
         }
         match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
-            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => to_codes(encoding, value),
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => match grid {
+                Grid::Codes => to_codes(encoding, value),
+                Grid::Fixed => to_steps(self.steps(encoding), value),
+            },
             // The codes of sRGB are spaced in the encoded value.
             ChannelEncoding::Srgb8 => {
                 let position = |v: f64| encoding.position(v).unwrap_or(0.0);
@@ -396,10 +459,14 @@ impl<'r> Judging<'r> {
 
 /// Widens to a normalized encoding's codes on either side.
 pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
-    let scale = encoding.max_order() as f64;
+    to_steps(encoding.max_order() as f64, value)
+}
+
+/// Widens to multiples of one over `steps` on either side.
+fn to_steps(steps: f64, value: Interval) -> Interval {
     Interval {
-        low: (value.low * scale + INTEGER_SLACK).floor() / scale,
-        high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
+        low: (value.low * steps + INTEGER_SLACK).floor() / steps,
+        high: (value.high * steps - INTEGER_SLACK).ceil() / steps,
     }
 }
 
@@ -549,19 +616,19 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn rounded(&mut self, value: Range) -> Range {
-        value.zip(value, |v, _| self.computed(v))
+        value.map(|v| self.computed(v))
     }
 
     fn log2(&mut self, value: Range) -> Range {
-        value.zip(value, |v, _| self.logarithm(v))
+        value.map(|v| self.logarithm(v))
     }
 
     fn exp2(&mut self, value: Range) -> Range {
-        value.zip(value, |v, _| self.power_of_two(v))
+        value.map(|v| self.power_of_two(v))
     }
 
     fn sqrt(&mut self, value: Range) -> Range {
-        value.zip(value, |v, _| self.root(v))
+        value.map(|v| self.root(v))
     }
 
     fn select_less(&mut self, a: Range, b: Range, less: Range, otherwise: Range) -> Range {
@@ -615,7 +682,7 @@ impl Arithmetic for Judging<'_> {
                         low: down(value.low),
                         high: up(value.high),
                     },
-                    coarse: value,
+                    ..Range::same(value)
                 }
             }
             // Within half a code of the encoded value (Direct3D 11.3, 3.2.3.7); no text is tighter.
@@ -639,21 +706,22 @@ impl Arithmetic for Judging<'_> {
 
     fn encode(&mut self, encoding: ChannelEncoding, value: Range) -> CodeInterval {
         let float = self.store(encoding, value.float, 0.0);
-        if value.coarse == value.float {
+        if value.is_same() {
             return float;
         }
         // Codes divided and multiplied again are integers but for this machine's own rounding.
-        float.hull(self.store(encoding, value.coarse, INTEGER_SLACK))
+        let codes = float.hull(self.store(encoding, value.codes, INTEGER_SLACK));
+        if value.fixed == value.codes {
+            return codes;
+        }
+        codes.hull(self.store(encoding, value.fixed, INTEGER_SLACK))
     }
 
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let clamped = Range {
-            float: self.blend_clamp(encoding, value.float),
-            coarse: self.blend_clamp(encoding, value.coarse),
-        };
+        let clamped = value.map(|v| self.blend_clamp(encoding, v));
         Range {
             float: self.float_outward(encoding, clamped.float, clamped.float),
-            coarse: self.round_outward(encoding, clamped.coarse),
+            ..self.on_grids(encoding, clamped)
         }
     }
 
@@ -665,33 +733,27 @@ impl Arithmetic for Judging<'_> {
         } else {
             self.float_step(encoding, exact.float)
         };
-        Range {
-            float,
-            coarse: if self.advanced {
-                self.round_outward(encoding, exact.coarse)
-            } else {
-                exact.coarse
-            },
-        }
+        let rounded = if self.advanced {
+            self.on_grids(encoding, exact)
+        } else {
+            exact
+        };
+        Range { float, ..rounded }
     }
 
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let clamp = |v: Interval| {
+        value.map(|v| {
             let clamped = self.blend_clamp(encoding, v);
             match self.rules.factor_clamp.value() {
                 FactorClamp::Clamped => clamped,
                 FactorClamp::Either => clamped.hull(v),
             }
-        };
-        Range {
-            float: clamp(value.float),
-            coarse: clamp(value.coarse),
-        }
+        })
     }
 
     /// No text says whether a factor of zero is multiplied or leaves its side out.
     fn blend_zero(&mut self, operand: Range) -> Range {
-        operand.zip(operand, |v, _| {
+        operand.map(|v| {
             if v.low.is_finite() && v.high.is_finite() {
                 Interval::exact(0.0)
             } else {
@@ -710,7 +772,7 @@ impl Arithmetic for Judging<'_> {
         };
         Range {
             float: float.may_overflow(),
-            coarse: self.round_outward(encoding, product.coarse),
+            ..self.on_grids(encoding, product)
         }
     }
 
@@ -734,16 +796,17 @@ impl Arithmetic for Judging<'_> {
             let computed = sum.float.widen(largest * self.error());
             self.float_outward(encoding, sum.float, computed)
         };
+        let rounded = match encoding {
+            // A sum of floats is rounded like any result; one of integers is an integer.
+            _ if self.advanced => self.on_grids(encoding, sum),
+            ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
+                self.on_grids(encoding, sum)
+            }
+            _ => sum,
+        };
         Range {
             float: float.may_overflow(),
-            coarse: match encoding {
-                // A sum of floats is rounded like any result; one of integers is an integer.
-                _ if self.advanced => self.round_outward(encoding, sum.coarse),
-                ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
-                    self.round_outward(encoding, sum.coarse)
-                }
-                _ => sum.coarse,
-            },
+            ..rounded
         }
     }
 
@@ -756,13 +819,14 @@ impl Arithmetic for Judging<'_> {
             (false, true) => Interval::EVERYTHING,
             (false, false) => c.corners(a, |c, a| c / a),
         });
-        let Range { float, mut coarse } = self.divided(encoding, exact, color, alpha);
-        if let Some((low, high)) = encoding.normalized_range() {
-            coarse = coarse.hull(coarse.clamp(f64::from(low), f64::from(high)));
-        }
+        let quotient = self.divided(encoding, exact, color, alpha);
+        let held = match encoding.normalized_range() {
+            Some((low, high)) => quotient.map(|v| v.hull(v.clamp(f64::from(low), f64::from(high)))),
+            None => quotient,
+        };
         Range {
-            float: float.may_overflow(),
-            coarse,
+            float: quotient.float.may_overflow(),
+            ..held
         }
     }
 
@@ -782,16 +846,11 @@ impl Arithmetic for Judging<'_> {
             Interval { low, high }
         });
         let ratio = self.divided(encoding, exact, a, b);
-        ratio.zip(
-            ratio,
-            |v, _| {
-                if v.may_be_nan() { v } else { v.clamp(0.0, 1.0) }
-            },
-        )
+        ratio.map(|v| if v.may_be_nan() { v } else { v.clamp(0.0, 1.0) })
     }
 
     fn blend_root(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let exact = value.zip(value, |v, _| {
+        let exact = value.map(|v| {
             if v.may_be_nan() {
                 v
             } else {
@@ -805,9 +864,10 @@ impl Arithmetic for Judging<'_> {
         {
             // Within the units that a shader's root has, of 16-bit floats.
             let half = ROOT_UNITS * 2_f64.powi(1 - HALF_SIGNIFICAND as i32);
+            let wide = exact.map(|v| v.widen_relative(half));
             return Range {
                 float: exact.float.widen_relative(self.error()),
-                coarse: self.round_outward(encoding, exact.coarse.widen_relative(half)),
+                ..self.on_grids(encoding, wide)
             };
         }
         let inverse = self.inverse(encoding, exact);
@@ -829,7 +889,8 @@ impl Arithmetic for Judging<'_> {
         let all = [a, b, at_most, otherwise];
         Range {
             float: one(all.map(|r| r.float)),
-            coarse: one(all.map(|r| r.coarse)),
+            codes: one(all.map(|r| r.codes)),
+            fixed: one(all.map(|r| r.fixed)),
         }
     }
 
@@ -889,6 +950,24 @@ mod tests {
         let color = a.blend_operand(e, color);
         let product = a.blend_product(e, color, rest);
         assert!(a.encode(e, product).contains(14));
+    }
+
+    /// 100/127 is between 100/128 and 101/128, and the product of two such fractions is rounded to one again.
+    #[test]
+    fn a_blend_in_binary_fractions_is_legal_although_they_lack_the_codes() {
+        let rules = Rules::of(&crate::test_limits::limits(Api::OpenGlEs));
+        let mut a = Judging::new(&rules);
+        let e = ChannelEncoding::Snorm(8);
+        let value = a.decode(e, CodeInterval::exact(100));
+        let value = a.blend_operand(e, value);
+        assert_eq!(value.codes, Interval::exact(100.0 / 127.0));
+        let steps = |low: f64, high: f64| Interval::between(low / 128.0, high / 128.0);
+        assert_eq!(value.fixed, steps(100.0, 101.0));
+        let product = a.blend_product(e, value, value);
+        assert_eq!(product.fixed, steps(78.0, 80.0));
+        assert_eq!(a.blend_complement(e, value).fixed, steps(27.0, 28.0));
+        let one = a.constant(1.0);
+        assert_eq!(a.blend_operand(e, one).fixed, Interval::exact(1.0));
     }
 
     #[test]

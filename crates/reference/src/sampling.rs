@@ -167,7 +167,7 @@ impl Walk<'_> {
                     FilterMode::Nearest => {
                         let at = [*x as i64, *y as i64];
                         let texel = self.tap(texture, sampler, at)?;
-                        texel.map(|c| Range::same(c.float.hull(c.coarse)))
+                        texel.map(|c| Range::same(c.hull()))
                     }
                     FilterMode::Linear => self.weighted(texture, sampler, [*x, *y])?,
                 };
@@ -235,13 +235,13 @@ impl Walk<'_> {
             ];
             let taps = self.tap(texture, sampler, position)?;
             for (c, texel) in taps.into_iter().enumerate() {
-                let tap = texel.float.hull(texel.coarse);
+                let tap = texel.hull();
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
                 sum[c] = sum[c].plus(tap.map_increasing(|v| v * share));
                 for (axis, [near, far]) in [[dx, dy], [dy, dx]].into_iter().enumerate() {
                     let line = &mut lines[axis][far as usize][c];
                     let weight = part(axis, near);
-                    *line = line.plus(texel.coarse.map_increasing(|v| v * weight));
+                    *line = line.plus(texel.codes.map_increasing(|v| v * weight));
                 }
             }
         }
@@ -263,7 +263,11 @@ impl Walk<'_> {
                     });
                     to_codes(*encoding, near.plus(far))
                 };
-                range.coarse = stepped(0).hull(stepped(1));
+                let codes = stepped(0).hull(stepped(1));
+                *range = Range {
+                    float: range.float,
+                    ..Range::same(codes)
+                };
             }
         }
         Some(all)

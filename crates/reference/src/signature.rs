@@ -86,9 +86,8 @@ fn bits(value: Interval) -> [u64; 2] {
     [value.low.to_bits(), value.high.to_bits()]
 }
 
-fn range_bits(value: Range) -> [u64; 4] {
-    let ([a, b], [c, d]) = (bits(value.float), bits(value.coarse));
-    [a, b, c, d]
+fn range_bits(value: Range) -> [[u64; 2]; 3] {
+    [value.float, value.codes, value.fixed].map(bits)
 }
 
 impl Walk<'_> {
@@ -308,7 +307,7 @@ impl Walk<'_> {
                 signature.constant = false;
                 let nowhere = World::default();
                 for channel in self.texel(place, &nowhere, t) {
-                    signature.words.extend(range_bits(channel));
+                    signature.words.extend(range_bits(channel).as_flattened());
                 }
             }
         }

@@ -65,10 +65,7 @@ impl Walk<'_> {
         let value = if is_signed {
             value
         } else {
-            Range {
-                float: value.float.clamp(0.0, 1.0),
-                coarse: value.coarse.clamp(0.0, 1.0),
-            }
+            value.map(|v| v.clamp(0.0, 1.0))
         };
         judging.encode(encoding, value)
     }

@@ -3,7 +3,7 @@
 use crate::common::{APIS, all_rules, draw, limits, scene};
 use etalon_frame::{Api, ChannelEncoding, CodeInterval, compare};
 use etalon_pipeline::Arithmetic;
-use etalon_reference::{Judging, Rules, judgements, legal_set};
+use etalon_reference::{Judging, Range, Rules, judgements, legal_set};
 
 fn stored(rules: &Rules, encoding: ChannelEncoding, value: f32) -> CodeInterval {
     let mut a = Judging::new(rules);
@@ -82,11 +82,7 @@ fn codes_become_the_fractions_that_they_stand_for() {
         }
         for (code, value) in [(0, 0.0), (255, 1.0)] {
             let range = a.decode(ChannelEncoding::Unorm(8), CodeInterval::exact(code));
-            assert!(
-                range.float.is(value) && range.coarse.is(value),
-                "{}",
-                rules.name
-            );
+            assert!(range == Range::exact(value), "{}", rules.name);
         }
     }
 }
