@@ -10,7 +10,7 @@ pub(crate) enum Role {
     DepthStencil,
     /// A read-only depth-stencil attachment.
     DepthStencilReadOnly,
-    /// The target of a resolve of depth and stencil.
+    /// The resolve target of depth and stencil.
     DepthStencilResolve,
     Fetched,
     /// Not used by any pass. It may still be read back.
@@ -18,7 +18,7 @@ pub(crate) enum Role {
 }
 
 impl Role {
-    /// Returns the role of an attachment in all passes together. One pass that draws to it decides.
+    /// Returns the role of an attachment in all passes together. A pass that draws to it decides.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
         let role_in = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
         let mut found = Self::Idle;
