@@ -30,7 +30,7 @@ pub struct Options {
     /// Enables the Vulkan validation layer or OpenGL's debug output. Their messages are returned by
     /// [`Backend::messages`], unless the program has set its own logger, which receives them.
     pub validate: bool,
-    /// A fault that a test plants in the values read back.
+    /// A fault that a test plants in the calls or in the values read back.
     pub fault: Option<Fault>,
     /// Records the calls, for [`Backend::recording`]. The frame times then have no device time.
     pub record: bool,
