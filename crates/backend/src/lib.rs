@@ -11,7 +11,7 @@
 //! - Clip space: y points up, depth is 0..=1.
 //! - Framebuffer: the origin is the top left corner, y points down. Row 0 of an image is
 //!   its top row.
-//! Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
+//! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
 mod blits;
 pub mod codes;

@@ -45,8 +45,7 @@ pub(crate) struct Device {
     pub(crate) written_layer: bool,
     /// True if an indirect draw can read its number of draws from a buffer.
     pub(crate) indirect_count: bool,
-    /// The functions of extended dynamic state 3, if the device can set the states of [`Self::all_extended`]
-    /// or [`Self::singles`].
+    /// The functions of extended dynamic state 3, if `all_extended` is true or `singles` is not empty.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::DeviceFn>,
     /// True if the device has all states of extended dynamic state 3 that the suite sets together.
     pub(crate) all_extended: bool,
