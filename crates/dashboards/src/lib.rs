@@ -1,6 +1,6 @@
-//! Frame times in the formats of services that keep a history of their own.
+//! Frame times in the formats of services that keep their own history.
 //!
-//! [`bencher()`] writes Bencher's format and [`action()`] that of github-action-benchmark, both from the same
+//! [`bencher()`] writes Bencher's format, and [`action()`] github-action-benchmark's. Both write the same
 //! [benchmarks](Benchmark): those of one bench, or the latest of a history.
 
 #![cfg_attr(
