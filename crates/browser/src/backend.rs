@@ -256,7 +256,7 @@ impl Prepared for PreparedScene<'_> {
         let (times, bytes) = self.ask(1, read)?;
         self.submitted = true;
         self.frame = read.then_some(bytes);
-        let none = || BackendError::internal("the page tells no time");
+        let none = || BackendError::internal("the page reported no frame time");
         let times = times.first().ok_or_else(none)?;
         Ok(FrameTime {
             cpu: duration(times.cpu),

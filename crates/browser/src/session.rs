@@ -123,7 +123,7 @@ impl Session {
 }
 
 fn garbage(why: &str) -> BackendError {
-    BackendError::internal_of("the page's answer is none", why)
+    BackendError::internal_of("the page's message is not an answer", why)
 }
 
 fn exchange(socket: &mut Socket, message: Vec<u8>) -> Result<(Answer, Vec<u8>), Gone> {

@@ -103,7 +103,7 @@ impl Planes {
         .reaching(points, wide)
     }
 
-    /// Points and lines are clipped before they are widened, so those whose vertices are inside can extend
+    /// Points and lines are clipped before they are widened, so if their vertices are inside, they can extend
     /// beyond the edges.
     fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
         let [left, top, right, bottom] = self.viewport;

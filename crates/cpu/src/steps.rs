@@ -240,7 +240,7 @@ pub trait Steps {
         compare(function, incoming, stored)
     }
 
-    /// Returns the texels whose colour is written, and those whose depth is.
+    /// Returns the texels whose colour is written, and the texels whose depth is written.
     #[inline(always)]
     fn written(&self, tests: &Tests) -> WrittenTexels {
         let all: Mask =

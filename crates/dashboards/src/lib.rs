@@ -1,7 +1,7 @@
 //! Frame times in the formats of services that keep their own history.
 //!
 //! [`bencher()`] writes Bencher's format, and [`action()`] github-action-benchmark's. Both write the same
-//! [benchmarks](Benchmark): those of one bench, or the latest of a history.
+//! [benchmarks](Benchmark): of one bench, or the latest of a history.
 
 #![cfg_attr(
     test,

@@ -14,7 +14,7 @@ use glow::HasContext;
 /// Clears of the pass's framebuffer that one or several calls execute.
 pub(crate) struct ClearCall {
     targets: Vec<ClearTarget>,
-    /// True for each colour attachment of the pass that holds integers.
+    /// For each colour attachment of the pass, true if it holds integers.
     integers: Vec<bool>,
     rect: Option<[i32; 4]>,
     way: PathClears,

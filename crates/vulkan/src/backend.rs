@@ -69,7 +69,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
                 options.device,
                 devices.len()
             ),
-            "list the adapters anew: drivers may have come or gone",
+            "list the adapters again: the installed drivers might have changed",
         ));
     };
     let identity = identify(&instance, physical);

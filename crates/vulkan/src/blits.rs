@@ -65,7 +65,7 @@ pub(crate) unsafe fn record(
         blits.iter().map(|blit| region(blit, source)).collect()
     };
     let blit = |from, to, regions: &[vk::ImageBlit], filter| {
-        // SAFETY: upheld by the caller; both images hold the rectangles.
+        // SAFETY: upheld by the caller; both images contain the rectangles.
         unsafe {
             api.cmd_blit_image(
                 commands,
@@ -106,7 +106,7 @@ pub(crate) unsafe fn record(
             },
         }));
     }
-    // SAFETY: upheld by the caller; both images hold the rectangles.
+    // SAFETY: upheld by the caller; both images contain the rectangles.
     unsafe {
         api.cmd_copy_image(
             commands,

@@ -43,7 +43,7 @@ const STATES: [vk::DynamicState; 18] = [
 /// How the state of a draw is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Setting {
-    /// True if the pipeline holds all state.
+    /// True if all state is part of the pipeline.
     pub(crate) fixed: bool,
     pub(crate) further: Further,
     pub(crate) viewport: PathViewport,

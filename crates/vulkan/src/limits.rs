@@ -140,7 +140,7 @@ fn has(device: &Device, feature: Feature) -> bool {
     flag != vk::FALSE
 }
 
-/// Returns the sample counts that the device may support, but whose results nothing can be asserted about.
+/// Returns the sample counts that the device might support, but about whose results nothing can be asserted.
 fn exempt(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> BTreeSet<Requirement> {
     let unread = |(format, native): &(&TextureFormat, &Native)| {
         native.attachment && !samples_are_readable(device, **format, **native)

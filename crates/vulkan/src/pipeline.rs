@@ -266,7 +266,7 @@ impl Pipelines {
         });
     }
 
-    /// Destroys everything. No prepared scene may be left.
+    /// Destroys everything. All prepared scenes must have been dropped.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.drop_unused(device);
         self.modules.destroy(device);

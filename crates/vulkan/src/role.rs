@@ -5,7 +5,7 @@ use etalon_scene::{Pass, Scene};
 /// The use of an attachment in a pass, or in all passes together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// A colour or resolve attachment. Other passes may fetch from it.
+    /// A colour or resolve attachment. Other passes can fetch from it.
     Color,
     DepthStencil,
     /// A read-only depth-stencil attachment.
@@ -13,7 +13,7 @@ pub(crate) enum Role {
     /// The resolve target of depth and stencil.
     DepthStencilResolve,
     Fetched,
-    /// Not used by any pass. It may still be read back.
+    /// Not used by any pass. It can still be read back.
     Idle,
 }
 

@@ -32,7 +32,7 @@ pub(crate) struct Slot {
     sets: u32,
     /// The average number of images per set that the descriptor pool has room for.
     images: u32,
-    /// True if the device may still be executing the commands.
+    /// True if the device might still be executing the commands.
     pub(crate) in_flight: bool,
 }
 

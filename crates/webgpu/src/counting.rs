@@ -21,7 +21,7 @@ pub(crate) struct Counting {
     kinds: Vec<CounterKind>,
     occlusion: Option<Queries>,
     statistics: Option<Queries>,
-    /// The buffer of the results: those of the occlusion queries, then those of the statistics queries.
+    /// The buffer of the results: first of the occlusion queries, then of the statistics queries.
     results: Option<usize>,
     /// The storage buffer in which shaders count. It has one place per counter of any kind.
     runs: Option<usize>,

@@ -66,7 +66,7 @@ pub(crate) fn of_draw(
 }
 
 /// Returns blending with `constant` as the only constant factor, as in WebGPU. `constant-alpha` occurs only
-/// in the alpha equation, where it means the same; for colour it needs a feature that is denied.
+/// in the alpha equation, where it means the same; in the colour equation it needs a feature that is denied.
 fn with_constant(blend: BlendState) -> BlendState {
     let factor = |factor| match factor {
         BlendFactor::ConstantAlpha => BlendFactor::Constant,

@@ -187,7 +187,7 @@ impl Lowering<'_> {
     }
 
     /// Returns a shader module. If the device does not promise which vertex gives flat values, the module
-    /// must accept either; scenes that need one of them are not lowered for such a device.
+    /// must accept either; scenes that depend on the vertex are not lowered for such a device.
     pub(crate) fn shader(&mut self, label: &'static str, mut code: Cow<'static, str>) -> usize {
         let first = Feature::FirstProvokingVertex;
         if !self.device.limits.features.contains(&first) && code.contains(FLAT) {

@@ -74,7 +74,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     let count = adapters.len();
     let Some(adapter) = adapters.into_iter().nth(options.device) else {
         return Err(Unavailable::new(
-            format!("there is no adapter {}, there are {count}", options.device),
+            format!("there is no adapter {}; {count} found", options.device),
             "choose one from `etalon adapters`",
         ));
     };
@@ -82,7 +82,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     name.clone_into(&mut info.name);
     let gpu = device(&adapter, options).map_err(|reason| {
         Unavailable::new(
-            format!("{} gives no device: {reason}", info.device),
+            format!("{} provides no device: {reason}", info.device),
             remedy(options.via),
         )
     })?;
@@ -210,8 +210,8 @@ fn api(via: Via) -> &'static str {
 fn remedy(via: Via) -> &'static str {
     match via {
         Via::Vulkan => {
-            "apt-get install libvulkan1 mesa-vulkan-drivers, and see that VK_DRIVER_FILES and \
-             VK_ICD_FILENAMES, where they are set, name a driver"
+            "apt-get install libvulkan1 mesa-vulkan-drivers, and check that VK_DRIVER_FILES and \
+             VK_ICD_FILENAMES, if set, name a driver"
         }
         Via::Gl => "apt-get install libegl1 libgl1-mesa-dri",
     }

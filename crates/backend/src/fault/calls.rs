@@ -58,7 +58,7 @@ pub struct FaultyCalls {
     pub scissor_on: bool,
     /// The queries of the submission, kept until another submission begins queries.
     pub queries: Vec<u32>,
-    /// True if `queries` are those of an earlier submission.
+    /// True if `queries` belong to an earlier submission.
     queries_are_old: bool,
     /// The queries that have begun but not ended.
     open: Vec<OpenQuery>,

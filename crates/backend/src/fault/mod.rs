@@ -101,7 +101,7 @@ mod tests {
             let Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash))) =
                 Fault::in_name(&adapter)
             else {
-                panic!("{name} is no fault");
+                panic!("{name} is not a fault");
             };
             assert_eq!(format!("{fault:?}").to_lowercase(), name);
             let adapter = format!("{adapter}@scissor");

@@ -7,7 +7,7 @@ use fearless_simd::{Simd, u8x16, u8x32, u16x16};
 /// The number of codes of a channel.
 pub(crate) const CODES: usize = 256;
 
-/// The number of bytes that a function processes at once, which are those of neighbouring texels.
+/// The number of bytes of neighbouring texels that a function processes at once.
 pub(crate) const BYTES: usize = 16;
 
 /// A linear function of each channel's code. It optionally inverts the code, multiplies it by a 16-bit

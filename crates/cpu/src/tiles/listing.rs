@@ -53,7 +53,7 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
 /// Returns the kernel of a draw's first colour, in words.
 fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     let color = match shading {
-        Shading::Texture { .. } => return "stored as they are",
+        Shading::Texture { .. } => return "stored unchanged",
         Shading::Vertex | Shading::Expensive(_) | Shading::Kept(_) => {
             draw.mesh.vertices.first().map_or([0.0; 4], |v| v.color)
         }

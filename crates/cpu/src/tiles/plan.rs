@@ -273,16 +273,16 @@ impl DrawPlan {
             front && x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture
         });
         if !near {
-            return Err("far outside, or behind the eye");
+            return Err("vertices far outside, or behind the eye");
         }
         let w = draw.mesh.vertices.iter().map(|v| v.position[3]);
         if draw.shader.uses_uv() && w.clone().any(|w| w != draw.mesh.vertices[0].position[3]) {
-            return Err("coordinates in perspective");
+            return Err("texture coordinates in perspective");
         }
         let clips = |v: &Vertex| Behind::of(v).is_some();
         let rejects = !draw.depth_clamp && draw.mesh.vertices.iter().any(clips);
         if rejects && draw.primitives().iter().any(|p| is_cut(draw, p)) {
-            return Err("clipped by the near or the far plane");
+            return Err("triangles cut by the near or far plane");
         }
         let drawn = bounds(draw, size).map(|v| v as i32);
         let rects: Vec<_> = pass
@@ -367,7 +367,7 @@ fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason>
         return Err("a texture of another size, or of depths");
     }
     if draw.sampler.is_some() || draw.alpha_to_coverage() {
-        return Err("texels that are sampled or cover a part");
+        return Err("fetched texels with a sampler or alpha to coverage");
     }
     Ok(Shading::Texels(first, second))
 }
