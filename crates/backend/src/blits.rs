@@ -140,9 +140,9 @@ impl Blits {
     }
 }
 
-/// Returns the code of twice a code's value, rounded to a whole number if one is at most a quarter away,
-/// since linear filters weigh texels with few bits. If the value's double has no code, the value is not a
-/// half, and the result is not a whole number.
+/// Returns the code of twice a code's value, for texels that a linear filter averaged with zeros. A double
+/// within a quarter of a whole number becomes that number, since filters weigh texels with few bits. A
+/// double beyond the encoding's range becomes 0.5: the texel was not halved.
 pub fn doubled(encoding: ChannelEncoding, code: u32) -> u32 {
     let value = encoding.value_of_order(encoding.order_of_code(code));
     let (twice, whole) = (2.0 * value, (2.0 * value).round());

@@ -8,7 +8,7 @@ use etalon_frame::ChannelEncoding;
 /// The first bit and the width of each channel in a little-endian texel, in the order red to alpha.
 pub type TexelLayout = [(u32, u32)];
 
-/// Returns the bytes of a texel.
+/// Returns the size of a texel in bytes.
 pub fn texel_bytes(layout: &TexelLayout) -> usize {
     let bits: u32 = layout.iter().map(|(_, width)| width).sum();
     bits.div_ceil(8) as usize

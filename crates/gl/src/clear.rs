@@ -22,8 +22,8 @@ pub(crate) struct ClearCall {
     packed: bool,
 }
 
-/// Returns clear commands, each with the index of the draw that it precedes. `integers` is true for each
-/// colour attachment that holds integers.
+/// Returns clear commands, each with the index of the draw that it precedes. `integers` says of each
+/// colour attachment whether it holds integers.
 pub(crate) fn commands<'c>(
     clears: impl Iterator<Item = &'c Clear>,
     integers: &[bool],

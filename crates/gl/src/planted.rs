@@ -492,7 +492,7 @@ fn place(numbers: &DrawNumbers, kind: u32) -> Pointer {
     ptr::without_provenance(numbers.first as usize * index_bytes(kind))
 }
 
-/// Returns the bytes of an index.
+/// Returns the size of an index in bytes.
 fn index_bytes(kind: u32) -> usize {
     if kind == glow::UNSIGNED_SHORT { 2 } else { 4 }
 }

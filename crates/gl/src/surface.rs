@@ -67,7 +67,7 @@ impl SurfaceKind {
         }
     }
 
-    /// Returns the approximate bytes of a texel.
+    /// Returns the approximate size of a texel in bytes.
     fn bytes(self) -> u64 {
         match self {
             Self::Attachment(format, samples, ..) if format.is_color() => {

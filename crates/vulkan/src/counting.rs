@@ -37,7 +37,7 @@ pub(crate) struct Query {
 }
 
 impl Query {
-    /// Records the beginning.
+    /// Records the beginning of the query.
     ///
     /// # Safety
     /// `commands` is being recorded, and the query is begun once, at the same level as its end: both inside
@@ -48,7 +48,7 @@ impl Query {
         unsafe { device.raw.cmd_begin_query(commands, pool, index, flags) };
     }
 
-    /// Records the end.
+    /// Records the end of the query.
     ///
     /// # Safety
     /// As for [`Query::begin`]; the query has begun.

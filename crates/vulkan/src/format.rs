@@ -224,7 +224,8 @@ pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
     }
 }
 
-/// Returns the bytes of an aspect's texel in a buffer (Vulkan, Copying Data Between Buffers and Images).
+/// Returns the size of an aspect's texel in a buffer, in bytes (Vulkan, Copying Data Between Buffers and
+/// Images).
 pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
     match (aspect, depth_encoding(raw)) {
         (Aspect::Color, _) => codes::texel_bytes(layout(raw)),

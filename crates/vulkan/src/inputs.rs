@@ -11,10 +11,10 @@ use etalon_scene::{Call, Contents, Draw, IndexFormat, Params, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 
-/// The bytes of the parameter block.
+/// The size of the parameter block in bytes.
 pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
-/// The bytes of the arguments of an indirect draw, indexed or not.
+/// The size of the arguments of an indirect draw in bytes, indexed or not.
 pub(crate) const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
 
 /// Assigns consecutive offsets in a buffer.

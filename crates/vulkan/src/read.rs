@@ -125,7 +125,7 @@ impl ReadPlan {
         Ok(())
     }
 
-    /// Returns the bytes of a texel in the output buffer.
+    /// Returns the size of a texel in the output buffer, in bytes.
     pub(crate) fn texel_bytes(&self) -> u64 {
         let texels = u64::from(self.size[0]) * u64::from(self.size[1]);
         self.bytes / texels.max(1)

@@ -6,7 +6,7 @@ use crate::counting::{Counting, RUNS_BYTES};
 use crate::tables::Lowering;
 use etalon_scene::{Draw, Params, Scene, Shader};
 
-/// The bytes of the parameter block.
+/// The size of the parameter block in bytes.
 const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
 /// The bindings of a shader, at the numbers that the suite's shaders use.

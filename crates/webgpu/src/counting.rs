@@ -9,9 +9,9 @@ use crate::tables::Lowering;
 use etalon_frame::{CounterKind, PathResults};
 use etalon_scene::{Query as SceneQuery, Scene};
 
-/// The bytes of a counter of shader runs.
+/// The size of a counter of shader runs in bytes.
 pub(crate) const RUNS_BYTES: u64 = 4;
-/// The bytes of a query result.
+/// The size of a query result in bytes.
 const RESULT_BYTES: u64 = 8;
 /// The alignment of the first result in a buffer, in bytes (resolveQuerySet).
 const RESOLVE_ALIGNMENT: u64 = 256;
@@ -231,7 +231,7 @@ impl Counting {
             .collect()
     }
 
-    /// Returns the bytes of all counts in the layout of [`Counting::copy`].
+    /// Returns the size of all counts in bytes, in the layout of [`Counting::copy`].
     pub(crate) fn bytes(&self) -> u64 {
         self.runs_start() + self.runs_bytes()
     }

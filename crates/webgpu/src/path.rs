@@ -1,8 +1,8 @@
 //! How WebGPU draws on a path: the values that a device has, and what each means for an attachment, a draw or
 //! a read.
 //!
-//! Other modules call the functions here and do not read the path. A new value needs a new answer of one of
-//! them.
+//! Other modules call the functions here and do not read the path, so a new value changes only these
+//! functions.
 
 use crate::calls::{Extent, TextureDimension};
 use crate::device::{Abilities, read_path};

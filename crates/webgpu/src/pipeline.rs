@@ -13,7 +13,7 @@ use etalon_scene::{
     PrimitiveTopology, Scene, Shader, Vertex,
 };
 
-/// The bytes of a vertex.
+/// The size of a vertex in bytes.
 const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 
 /// The slot of the colours of instances.

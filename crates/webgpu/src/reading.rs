@@ -5,7 +5,7 @@ use etalon_backend::codes::code_of_fetched;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-/// The bytes of an `rgba32uint` texel.
+/// The size of an `rgba32uint` texel in bytes.
 const SAMPLE_BYTES: usize = 16;
 
 /// The images and counters in a mapped buffer.
@@ -107,7 +107,7 @@ pub struct ImageReading {
 }
 
 impl ImageReading {
-    /// Returns the bytes of a texel in the buffer.
+    /// Returns the size of a texel in the buffer, in bytes.
     pub fn texel_bytes(&self) -> usize {
         match (self.method, self.aspect) {
             (ReadMethod::FetchSamples | ReadMethod::FetchTexel, _) => SAMPLE_BYTES,
@@ -129,12 +129,12 @@ impl ImageReading {
         }
     }
 
-    /// Returns the bytes of one of its images in the buffer.
+    /// Returns the size of one of its images in the buffer, in bytes.
     pub fn image_bytes(&self) -> u64 {
         u64::from(self.pitch) * u64::from(self.size[1])
     }
 
-    /// Returns the bytes of all of its images in the buffer.
+    /// Returns the size of all of its images in the buffer, in bytes.
     pub(crate) fn bytes(&self) -> u64 {
         match self.method {
             ReadMethod::Copy | ReadMethod::FetchDepth | ReadMethod::FetchTexel => {

@@ -49,7 +49,7 @@ struct Rows {
     offset: u64,
     /// The distance between rows.
     pitch: u32,
-    /// The bytes of a row that are texels.
+    /// The number of bytes of texels in a row.
     row: u32,
     /// The number of rows.
     rows: u32,

@@ -30,7 +30,7 @@ pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// Returns the bytes of a colour texel.
+/// Returns the size of a colour texel in bytes.
 pub(crate) fn bytes(format: TextureFormat) -> usize {
     codes::texel_bytes(layout(format))
 }

@@ -356,7 +356,7 @@ impl Drawing<'_, '_> {
         whole: bool,
         outcome: Option<TestResult>,
     ) {
-        // Before a part of a tile is drawn, every sample got its own planes.
+        // If the triangle covers only a part of the tile, every sample has its own planes by now.
         let planes = if self.same {
             1
         } else {
