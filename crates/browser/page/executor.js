@@ -405,7 +405,7 @@ class Executor {
   }
 }
 
-/** Waits for some milliseconds. */
+/** Waits for `PAUSE` milliseconds. */
 const pause = () =>
   new Promise((resolve) => {
     setTimeout(resolve, PAUSE);
