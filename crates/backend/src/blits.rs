@@ -1,12 +1,12 @@
 //! Blits that move the texels of an attachment, and the copies that bring them back to their places.
 //!
-//! The copies move texels without scaling, so a blit that is executed in another way leaves another picture. Each
-//! aspect has copies of its own: a blit of one aspect that reaches another is seen too.
+//! The copies move texels without scaling, so a blit that works differently leaves a different picture. Each
+//! aspect has copies of its own, so a blit of one aspect that also affects the other is noticed.
 
 use crate::halves;
 use etalon_frame::{Aspect, ChannelEncoding, PathEnd};
 
-/// One blit: corners of the source and the destination. Corners in reverse order mirror.
+/// One blit: two corners of the source and of the destination. Reversed corners mirror.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Blit {
     /// The aspects that the blit copies.
@@ -40,7 +40,7 @@ pub struct Blits {
 const SCALE: [u32; 2] = [2, 3];
 
 impl Blits {
-    /// Returns the blits of an attachment of this size; `None` if the way to the host moves no texels.
+    /// Returns the blits of an attachment of this size, or `None` if the path's end moves no texels.
     pub fn new(end: PathEnd, size: [u32; 2]) -> Option<Self> {
         let moves = matches!(
             end,
@@ -58,7 +58,7 @@ impl Blits {
         }
     }
 
-    /// Returns the blits in their order.
+    /// Returns the blits in the order of their execution.
     pub fn blits(&self, aspects: &[Aspect]) -> Vec<Blit> {
         let [width, height] = self.size;
         let whole = [[0, 0], self.size];
@@ -70,14 +70,14 @@ impl Blits {
             }]
         };
         match self.end {
-            // One direction is mirrored by the source, the other by the destination.
+            // The source mirrors one direction, the destination the other.
             PathEnd::BlitMirrored => blit([[0, height], [width, 0]], [[width, 0], [0, height]]),
             PathEnd::BlitScaled => blit(whole, [[0, 0], self.size()]),
             _ => self.parts(aspects),
         }
     }
 
-    /// Returns the blits of parts, each of one aspect. Neither aspect is always the later one.
+    /// Returns the blits of parts, each of one aspect. The order of the aspects alternates.
     fn parts(&self, aspects: &[Aspect]) -> Vec<Blit> {
         let mut blits = Vec::new();
         let each: Vec<Vec<Piece>> = aspects.iter().map(|aspect| self.pieces(*aspect)).collect();
@@ -107,7 +107,7 @@ impl Blits {
     pub fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
         let [width, height] = self.size;
         if self.end == PathEnd::BlitPart {
-            // Parts change places: columns, and rows unless the aspect is stencil.
+            // Parts are mirrored to their new places: columns always, rows unless the aspect is stencil.
             let place = |side: u32, (start, length): (u32, u32)| side - start - length;
             let rows = aspect != Aspect::Stencil;
             let mut pieces = Vec::new();
@@ -140,8 +140,9 @@ impl Blits {
     }
 }
 
-/// Returns the code of twice a code's value, and of the whole number that is at most a quarter away: a linear filter weighs
-/// texels by numbers of few bits. A value whose double has no code is no half, and stays no whole number.
+/// Returns the code of twice a code's value, for texels that a linear filter averaged with zeros. A double
+/// within a quarter of a whole number becomes that number, since filters weigh texels with few bits. A
+/// double beyond the encoding's range becomes 0.5: the texel was not halved.
 pub fn doubled(encoding: ChannelEncoding, code: u32) -> u32 {
     let value = encoding.value_of_order(encoding.order_of_code(code));
     let (twice, whole) = (2.0 * value, (2.0 * value).round());
@@ -163,7 +164,7 @@ mod tests {
         PathEnd::BlitPart,
     ];
 
-    /// Returns the source texel that a blit stores at a texel.
+    /// Returns the source texel that a blit stores at a texel, if the blit reaches it.
     fn source(blit: &Blit, texel: [u32; 2]) -> Option<[u32; 2]> {
         let mut found = [0; 2];
         for side in 0..2 {

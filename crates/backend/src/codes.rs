@@ -1,14 +1,14 @@
-//! Codes of texels in memory, and of the values that a shader fetches.
+//! Codes of texels in memory, and of values that a shader fetches.
 //!
-//! A frame holds codes, and a backend that reads floats or packed bytes back must recover them
-//! without rounding. The backends share this arithmetic, so that a code means the same on each.
+//! A frame holds codes, and a backend that reads back floats or packed bytes must recover the codes without
+//! rounding. The backends share this arithmetic, so that a code means the same on each.
 
 use etalon_frame::ChannelEncoding;
 
-/// The first bit and the width of each channel in a little-endian texel, red to alpha.
+/// The first bit and the width of each channel in a little-endian texel, in the order red to alpha.
 pub type TexelLayout = [(u32, u32)];
 
-/// Returns the size of a texel.
+/// Returns the size of a texel in bytes.
 pub fn texel_bytes(layout: &TexelLayout) -> usize {
     let bits: u32 = layout.iter().map(|(_, width)| width).sum();
     bits.div_ceil(8) as usize
@@ -23,7 +23,7 @@ pub fn pack(layout: &TexelLayout, codes: &[u32], out: &mut Vec<u8>) {
     out.extend_from_slice(&texel.to_le_bytes()[..texel_bytes(layout)]);
 }
 
-/// Appends the codes of a texel, which may end with padding.
+/// Appends the codes of a texel, which can end with padding.
 pub fn unpack(layout: &TexelLayout, texel: &[u8], out: &mut Vec<u32>) {
     if let Ok(word) = <[u8; 4]>::try_from(texel) {
         let word = u32::from_le_bytes(word);
@@ -42,8 +42,8 @@ pub fn unpack(layout: &TexelLayout, texel: &[u8], out: &mut Vec<u32>) {
     }));
 }
 
-/// Returns the code whose value the 32-bit float with these bits represents, exactly or as nearly
-/// as a float can: this undoes a conversion and adds no rounding.
+/// Returns the code whose value the 32-bit float with these bits represents, exactly or as nearly as a float
+/// can. This undoes a conversion and adds no rounding.
 pub fn code_of_float(encoding: ChannelEncoding, float: u32) -> u32 {
     match encoding {
         ChannelEncoding::Float32 => float,
@@ -56,8 +56,8 @@ pub fn code_of_float(encoding: ChannelEncoding, float: u32) -> u32 {
     }
 }
 
-/// Returns the code of a channel that a shader fetched as these bits through a view without
-/// conversion: integers are codes, and sRGB codes are fetched as normalized ones.
+/// Returns the code of a channel that a shader fetched as these bits through a view without conversion.
+/// Integers are codes, and sRGB codes are fetched as normalized values.
 pub fn code_of_fetched(encoding: ChannelEncoding, bits: u32) -> u32 {
     match encoding {
         ChannelEncoding::Uint(_) => bits,
@@ -66,14 +66,14 @@ pub fn code_of_fetched(encoding: ChannelEncoding, bits: u32) -> u32 {
     }
 }
 
-/// Returns a float of 5 exponent bits and this many mantissa bits with the value of a 32-bit one.
+/// Returns the float with 5 exponent bits and this many mantissa bits that has the value of a 32-bit float.
 fn short_float(float: u32, mantissa: u32) -> u32 {
     let exponent = (float >> 23 & 0xff) as i32 - 127;
     let fraction = float & 0x7f_ffff;
     let shift = 23 - mantissa;
     let infinity = 31 << mantissa;
     let magnitude = match exponent {
-        // A NaN stays a NaN whichever mantissa bits are lost.
+        // A NaN stays a NaN, whichever mantissa bits are lost.
         128 if fraction != 0 => infinity | (fraction >> shift).max(1),
         16.. => infinity,
         -14..=15 => ((exponent + 15) as u32) << mantissa | fraction >> shift,

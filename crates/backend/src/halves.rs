@@ -1,6 +1,6 @@
-//! The parts in which an image is read where its path says so.
+//! The parts in which an image is read, if its path reads it in parts.
 
-/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
+/// Returns the offset and length of two unequal parts of a side, or of the whole side if it is one texel.
 pub fn halves(side: u32) -> Vec<(u32, u32)> {
     match side * 2 / 5 {
         0 => vec![(0, side)],

@@ -1,7 +1,7 @@
 //! The interface between the suite and a graphics API.
 //!
-//! A backend draws a [`Scene`] and returns a [`Frame`]. It sees neither the expected result nor the
-//! case's name, so it cannot adapt to them.
+//! A backend draws a [`Scene`] and returns a [`Frame`]. It sees neither the expected result nor the case's
+//! name, so it cannot adapt to them.
 //!
 //! # Conventions
 //!
@@ -43,14 +43,13 @@ pub struct AdapterInfo {
     pub name: String,
     /// The backend: `cpu`, `vulkan`, `gl`, `wgpu`.
     pub backend: String,
-    /// The device as the driver names it.
+    /// The device's name, as the driver reports it.
     pub device: String,
-    /// The driver as it names itself.
+    /// The driver's name, as it reports itself.
     pub driver: String,
     /// The driver's version, if it reports one.
     pub driver_version: String,
-    /// The driver's identity for programs: `VkDriverId` and PCI ids in Vulkan. Empty if the API
-    /// reports none.
+    /// The driver's identity for programs: `VkDriverId` and PCI ids in Vulkan. Empty if the API reports none.
     #[serde(default)]
     pub driver_id: String,
     /// The API's version.
@@ -67,19 +66,19 @@ pub trait Backend {
     /// Returns the adapter's limits. They must be true, since the judge relies on them.
     fn limits(&self) -> &Limits;
 
-    /// Creates all objects that drawing the scene needs. Several prepared scenes may exist at once.
+    /// Creates all objects that drawing the scene needs. Several prepared scenes can exist at once.
     ///
     /// # Errors
     /// If the scene needs what the limits deny, or the driver fails.
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError>;
 
-    /// Returns the messages of a validation layer or of debug output since the last call, oldest
-    /// first; none if they are not enabled.
+    /// Returns the messages of a validation layer or debug output since the last call, oldest first. Empty if
+    /// these are not enabled.
     fn messages(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Returns the calls of the scene that was prepared first, up to now. `None` unless the backend was opened to
+    /// Returns the calls so far of the scene that was prepared first. `None` unless the backend was opened to
     /// record.
     fn recording(&self) -> Option<Recording> {
         None
@@ -88,14 +87,14 @@ pub trait Backend {
 
 /// A scene prepared for drawing.
 pub trait Prepared {
-    /// Initialises the attachments, draws all passes, and returns when the device is done. Each
-    /// submit starts from the same contents.
+    /// Initialises the attachments, draws all passes, and returns when the device is done. Each submit starts
+    /// from the same contents.
     ///
     /// # Errors
     /// If the driver fails.
     fn submit(&mut self) -> Result<FrameTime, BackendError>;
 
-    /// Reads back what the scene asks for, after at least one [`Prepared::submit`].
+    /// Reads back what the scene asks for. [`Prepared::submit`] must have succeeded at least once.
     ///
     /// # Errors
     /// If the driver fails.
@@ -105,18 +104,18 @@ pub trait Prepared {
 /// The duration of one submit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameTime {
-    /// From the first call until the API returned from submitting the last work.
+    /// The time from the first call until the API returned from submitting the last work.
     pub cpu: Duration,
-    /// Between GPU timestamps around the passes, if supported.
+    /// The time between GPU timestamps around the passes, if supported.
     pub gpu: Option<Duration>,
-    /// Until the device was done.
+    /// The time until the device was done.
     pub wall: Duration,
 }
 
 /// An error of a backend.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub enum BackendError {
-    /// The scene needs what the adapter's limits deny. The runner checks the limits first, so this
+    /// The scene needs something that the adapter's limits deny. The runner checks the limits first, so this
     /// occurs only if a driver denies what it advertises.
     #[error("not supported: {0}")]
     NotSupported(Requirement),
@@ -125,41 +124,42 @@ pub enum BackendError {
     Failed {
         /// The kind of the failure.
         kind: ErrorKind,
-        /// The driver's message, or what this scene adds to the kind; can be empty.
+        /// The driver's message, or a detail that differs between scenes; can be empty.
         message: String,
     },
 }
 
 impl BackendError {
-    /// The device was lost.
+    /// Returns the error of a lost device.
     pub fn lost(message: impl Into<String>) -> Self {
         Self::failed(ErrorKind::DeviceLost, message)
     }
 
-    /// The driver refused an object or an allocation.
+    /// Returns the error of an object or allocation that the driver refused.
     pub fn refused(object: impl Into<String>, message: impl Into<String>) -> Self {
         let object = object.into();
         Self::failed(ErrorKind::Resource { object, code: None }, message)
     }
 
-    /// A shader could not be translated or compiled. The message is the log of the translator or the driver.
+    /// Returns the error of a shader that could not be translated or compiled. The message is the log of the
+    /// translator or the driver.
     pub fn shader(shader: impl Into<String>, message: impl Into<String>) -> Self {
         Self::failed(ErrorKind::Shader(shader.into()), message)
     }
 
-    /// A condition that the backend's own logic rules out.
+    /// Returns the error of a condition that the backend's logic rules out.
     pub fn internal(condition: impl Into<String>) -> Self {
         Self::internal_of(condition, "")
     }
 
-    /// The same, with what is not the same in every scene.
+    /// Like [`BackendError::internal`], with a message that can differ between scenes.
     pub fn internal_of(condition: impl Into<String>, message: impl Into<String>) -> Self {
         let condition = condition.into();
         let code = None;
         Self::failed(ErrorKind::Internal { condition, code }, message)
     }
 
-    /// An error of this kind.
+    /// Returns an error of this kind.
     pub fn failed(kind: ErrorKind, message: impl Into<String>) -> Self {
         let message = message.into();
         Self::Failed { kind, message }

@@ -6,42 +6,42 @@ use serde::{Deserialize, Serialize};
 /// The calls of one scene, and where its texels and counts came back.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recording {
-    /// The context in which they were made.
+    /// The context in which the calls were made.
     pub context: RecordedContext,
-    /// The calls in their order. Queries of errors and limits are left out.
+    /// The calls in order, without queries of errors and limits.
     pub calls: Vec<Call>,
     /// The images that were read.
     pub images: Vec<RecordedImage>,
-    /// The counters, in the order of the scene's.
+    /// The counters, in the order of the scene's counters.
     pub counters: Vec<RecordedCounter>,
 }
 
 /// The context of recorded calls.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RecordedContext {
-    /// A context of EGL without a surface.
+    /// An EGL context without a surface.
     Egl {
         /// True for OpenGL ES.
         es: bool,
-        /// Major and minor version.
+        /// The major and minor version.
         version: [u32; 2],
         /// The EGL library, if it is not the system's.
         library: Option<String>,
-        /// The index of the EGL device; `None` for the platform without a surface.
+        /// The index of the EGL device; `None` for the surfaceless platform.
         device: Option<u32>,
     },
-    /// A device of Vulkan, and all that is made of it.
+    /// A Vulkan device; the recorded calls create the rest.
     Vulkan {
         /// The device's name.
         device: String,
-        /// The version of Vulkan that the instance asks for.
+        /// The Vulkan version that the instance requests.
         version: u32,
-        /// The abilities that the device must have besides features and extensions.
+        /// The abilities that the device must have in addition to features and extensions.
         needs: VulkanNeeds,
     },
-    /// A device of wgpu.
+    /// A wgpu device.
     Wgpu {
-        /// The backend of wgpu: `vulkan` or `gl`.
+        /// The API under wgpu: `vulkan` or `gl`.
         api: String,
         /// The adapter's name.
         device: String,
@@ -52,25 +52,25 @@ pub enum RecordedContext {
     },
 }
 
-/// The abilities of a device of Vulkan that a scene needs and that no feature or extension stands for.
+/// The abilities of a Vulkan device that a scene needs and that no feature or extension expresses.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VulkanNeeds {
     /// The formats that are blended into, as `VkFormat`.
     pub blended: Vec<u32>,
     /// The modes in which depth is resolved, as `VkResolveModeFlags`.
     pub depth_resolve: u32,
-    /// The modes in which stencil is resolved.
+    /// The modes in which stencil is resolved, as `VkResolveModeFlags`.
     pub stencil_resolve: u32,
     /// True if depth and stencil are resolved in different modes.
     pub independent_resolve: bool,
-    /// True if one of them is not resolved.
+    /// True if one of depth and stencil is resolved and the other is not.
     pub independent_resolve_none: bool,
 }
 
 /// The part of a scene's work that a call belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// Creating objects and uploading.
+    /// Creating objects and uploading data.
     Prepare,
     /// Drawing.
     Submit,
@@ -81,24 +81,24 @@ pub enum Phase {
 /// One call.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Call {
-    /// The part of the work.
+    /// The part of the work that the call belongs to.
     pub phase: Phase,
     /// The function's name in the API.
     pub function: String,
     /// Its arguments.
     pub arguments: Vec<Argument>,
-    /// The new object or place that it returns, if later calls may use it.
+    /// The new object or location that the call returns, if later calls can use it.
     pub result: Option<Argument>,
 }
 
 /// The value of an argument.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Argument {
-    /// A signed integer of 32 bits.
+    /// A 32-bit signed integer.
     Integer(i32),
-    /// An unsigned integer of 32 bits.
+    /// A 32-bit unsigned integer.
     Unsigned(u32),
-    /// True or false.
+    /// A boolean.
     Boolean(bool),
     /// A size or an offset, as wide as an address.
     Size(i64),
@@ -108,33 +108,33 @@ pub enum Argument {
     Double(u64),
     /// A constant of the API.
     Constant(Constant),
-    /// The bits of these constants.
+    /// A bit mask of these constants.
     Bits(Vec<Constant>),
-    /// The object of a kind that an earlier call made, by the API's number; 0 is none.
+    /// An object of a kind, by the API's number, or 0. An earlier call created it.
     Object(String, u64),
     /// The place where the call stores the numbers of new objects of a kind.
     Created(String, Vec<u64>),
-    /// An address of these bytes.
+    /// The address of these bytes.
     Bytes(Vec<u8>),
-    /// An address of these values, all of one kind.
+    /// The address of these values, which are of one kind.
     Array(Vec<Argument>),
-    /// A text that ends with a zero byte.
+    /// A zero-terminated string.
     Text(String),
     /// An offset, passed as an address.
     Offset(u64),
-    /// No address.
+    /// A null address.
     Null,
-    /// Memory of the program that the driver writes to, by its number in [`Recording`], and its size in bytes.
+    /// Memory of the program that the driver writes: its number in the [`Recording`], and its size in bytes.
     Output(u32, u64),
-    /// Values in place, all of one kind.
+    /// Values stored inline, which are of one kind.
     Values(Vec<Argument>),
     /// A structure.
     Struct {
-        /// The name of its type.
+        /// The name of the structure's type.
         kind: String,
         /// Its size in bytes.
         size: u64,
-        /// Its members, in their order.
+        /// The members in order.
         members: Vec<Member>,
     },
 }
@@ -142,22 +142,22 @@ pub enum Argument {
 /// A member of a structure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Member {
-    /// Its name.
+    /// The member's name.
     pub name: String,
-    /// Its value.
+    /// The member's value.
     pub value: Argument,
 }
 
 /// A constant of an API.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Constant {
-    /// The name; empty if the backend has none for the value.
+    /// The name, or empty if the backend has no name for the value.
     pub name: String,
     /// The value.
     pub value: u32,
 }
 
-/// An image of a scene, as it came back.
+/// An image of a scene, as it was read back.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordedImage {
     /// The attachment.
@@ -168,42 +168,43 @@ pub struct RecordedImage {
     pub channels: Vec<ChannelEncoding>,
     /// Width and height.
     pub size: [u32; 2],
-    /// One plane of texels for each sample.
+    /// The planes of texels, one per sample.
     pub planes: Vec<Plane>,
 }
 
-/// The texels of one sample in memory that calls wrote, rows from the top, without gaps.
+/// The texels of one sample in memory that calls wrote: rows from the top, without gaps.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Plane {
     /// The number of the memory.
     pub output: u32,
     /// The size of a texel in bytes.
     pub texel: u32,
-    /// Of each channel, the first bit in the texel, a little-endian number, and the number of bits.
+    /// The first bit and the number of bits of each channel in a texel, which is a little-endian number.
     pub channels: Vec<[u32; 2]>,
-    /// The form of the numbers there.
+    /// The form of the numbers.
     pub form: Form,
 }
 
-/// The form of a number that came back, of which a code is made.
+/// The form of a number that was read back, which determines its code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Form {
-    /// It is the code.
+    /// The number is the code.
     Code,
     /// The code was widened to a byte.
     Byte,
-    /// It is the code's value as the bits of an `f32`.
+    /// The number is the code's value as the bits of an `f32`.
     Float,
-    /// It is the code's share of the greatest code as the bits of an `f32`: sRGB that is read without conversion.
+    /// The number is the code divided by the largest code, as the bits of an `f32`: sRGB that is read without
+    /// conversion.
     Fraction,
 }
 
-/// A counter of a scene, as it came back.
+/// A counter of a scene, as it was read back.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordedCounter {
-    /// The parts that it is the sum of: memory and the first byte there, little-endian numbers of 4 or 8 bytes.
+    /// The parts whose sum is the counter.
     pub parts: Vec<CounterPart>,
-    /// True if each part counts as 1 at most, and so does their sum.
+    /// True if each part, and the sum, count as at most 1.
     pub any: bool,
 }
 
@@ -212,8 +213,8 @@ pub struct RecordedCounter {
 pub struct CounterPart {
     /// The number of the memory.
     pub output: u32,
-    /// The first byte.
+    /// The offset of the number in the memory, in bytes.
     pub offset: u32,
-    /// 4 or 8.
+    /// The size of the little-endian number: 4 or 8 bytes.
     pub bytes: u32,
 }

@@ -1,22 +1,22 @@
-// Executes lists of WebGPU calls. It knows nothing of scenes: a list names objects by their places in its tables, and
-// commands in the order in which they are recorded (crates/webgpu/src/calls.rs).
+// Executes lists of WebGPU calls, without knowing about scenes. A list refers to objects by their indices in
+// its tables, and its commands are in recording order (crates/webgpu/src/calls.rs).
 "use strict";
 
-/** The errors that a scope can catch. Of those of a step, one that comes first here is reported. */
+/** The errors that a scope can catch. Of several errors in a step, the first in this order is reported. */
 const FILTERS = ["out-of-memory", "validation", "internal"];
 
-/** The most bytes of timestamps: the begin and the end of a frame. */
+/** The bytes of the timestamps at the beginning and the end of a frame. */
 const CLOCK_BYTES = 16;
 
-/** Milliseconds between looks at a device that is not done. */
+/** The milliseconds between checks of a device that is not done. */
 const PAUSE = 2;
 
-/** A failure of the device, as the relay reports it. */
+/** A failure of the device, in the form that the worker expects. */
 class Failed extends Error {
   /**
    * @param {string} kind `lost`, `resource`, `shader` or `internal`
-   * @param {string} what what was done
-   * @param {string} message the device's words
+   * @param {string} what the operation that failed
+   * @param {string} message the device's message
    */
   constructor(kind, what, message) {
     super(message);
@@ -25,7 +25,7 @@ class Failed extends Error {
   }
 }
 
-/** Returns the name and the content of an enum's value that has a content. */
+/** Returns the name of an enum's variant, and its content if it has any. */
 const variant = (value) => (typeof value === "string" ? [value] : Object.entries(value)[0]);
 
 const bitsOfFloat = new DataView(new ArrayBuffer(4));
@@ -40,7 +40,7 @@ function floatOf(bits) {
 class Cache {
   #known = new Map();
 
-  /** Returns the object of a description, which `make` makes if it is new. */
+  /** Returns the object of a description. Calls `make` if it is new. */
   get(description, make) {
     const key = JSON.stringify(description);
     let known = this.#known.get(key);
@@ -56,7 +56,7 @@ class Cache {
   }
 }
 
-/** A device, and what outlives a list on it. */
+/** A device, and the objects on it that outlive a list. */
 class Executor {
   #device;
   #timed;
@@ -66,7 +66,7 @@ class Executor {
   #samplers = new Cache();
   #clock = null;
   #lost = null;
-  /** Steps whose errors are not known yet: nothing waits for the device before a frame is done. */
+  /** Steps whose errors are not known yet: nothing waits for the device until a frame is done. */
   #steps = [];
 
   /** @param {GPUDevice} device */
@@ -78,7 +78,7 @@ class Executor {
     });
   }
 
-  /** Makes the objects of a list and fills its buffers with `contents`, a pair of a buffer's place and bytes each. */
+  /** Creates the objects of a list, and fills its buffers with `contents`: pairs of a buffer's index and bytes. */
   prepare(list, contents) {
     const made = { list, begun: false };
     this.#step("making attachments", () => this.#memory(made, contents));
@@ -93,8 +93,8 @@ class Executor {
   }
 
   /**
-   * Draws a frame, and waits for the device. Returns its times in milliseconds, and the bytes that its list reads
-   * back if `read` asks for them: one wait serves all.
+   * Draws a frame and waits for the device. Returns its times in milliseconds, and, if `read` is true, the
+   * bytes that the list reads back. One wait serves both.
    */
   async submit(made, read) {
     const { list } = made;
@@ -132,20 +132,20 @@ class Executor {
     return [times, read ? bytesOf(made) : null];
   }
 
-  /** Returns the bytes of what a list reads back of its last frame. */
+  /** Returns the bytes that a list reads back from its last frame. */
   async read(made) {
     await this.#settled(this.#step("reading a frame back", () => this.#mapped(made)));
     return bytesOf(made);
   }
 
-  /** Destroys what belongs to a list alone. */
+  /** Destroys the objects that belong only to this list. */
   drop(made) {
     for (const object of [...(made.textures ?? []), ...(made.buffers ?? []), ...(made.querySets ?? [])]) {
       object.destroy();
     }
   }
 
-  /** Forgets everything that an error may have spoilt. */
+  /** Forgets everything whose state an error makes unknown. */
   forget() {
     for (const cache of [this.#shaders, this.#layouts, this.#pipelines, this.#samplers]) {
       cache.clear();
@@ -155,11 +155,11 @@ class Executor {
   }
 
   /**
-   * Returns the result of an action, whose errors are looked at when the step is settled.
+   * Returns the result of an action, whose errors are checked when the step is settled.
    * @param {string} what what the action does
    * @param {() => T} action
-   * @param {{[filter: string]: {kind: string, what: string}}} told how the errors of a filter are reported, where
-   *   this is not the rule
+   * @param {{[filter: string]: {kind: string, what: string}}} told how to report errors of a filter, if not
+   * as usual
    */
   #step(what, action, told = {}) {
     for (const filter of FILTERS) {
@@ -186,7 +186,7 @@ class Executor {
     return result;
   }
 
-  /** Waits for the device, and throws the first error of all steps until now. */
+  /** Waits for the device, and throws the first error of all steps so far. */
   async #settled(done) {
     let rejected = null;
     try {
@@ -197,7 +197,7 @@ class Executor {
     await this.check(rejected);
   }
 
-  /** Throws the first error of all steps until now, or else `thrown` if something was. */
+  /** Throws the first error of all steps so far, or else `thrown` if it is not null. */
   async check(thrown) {
     const steps = this.#steps.splice(0);
     for (const step of steps) {
@@ -220,7 +220,7 @@ class Executor {
     }
   }
 
-  /** Copies what a list reads into its output, and maps this. */
+  /** Copies what a list reads to its output buffer, and maps the buffer. */
   #mapped(made) {
     const { list } = made;
     const encoder = this.#device.createCommandEncoder();
@@ -230,8 +230,8 @@ class Executor {
   }
 
   /**
-   * Waits for the device. Firefox looks every 100 ms whether the device is done, and at each submission: empty ones
-   * make it look.
+   * Waits for the device. Firefox checks whether the device is done only every 100 ms and at each submission,
+   * so empty submissions make it check.
    */
   async #awaited(promise) {
     let settled = false;
@@ -317,7 +317,7 @@ class Executor {
       const module = this.#shader(shader);
       const layout = this.#layout(entries).pipeline;
       const make = () => this.#device.createRenderPipeline(descriptorOf(pipeline.state, module, layout));
-      // An internal error is of the shader, which the driver compiles now.
+      // An internal error is the shader's, because the driver compiles it now.
       return this.#step(`a pipeline of ${label}`, make, { internal: { kind: "shader", what: label } });
     });
   }
@@ -405,7 +405,7 @@ class Executor {
   }
 }
 
-/** Waits for some milliseconds. */
+/** Waits for `PAUSE` milliseconds. */
 const pause = () =>
   new Promise((resolve) => {
     setTimeout(resolve, PAUSE);
@@ -419,10 +419,10 @@ function bytesOf(made) {
   return bytes;
 }
 
-/** True if a command is a pass that is timed. */
+/** Returns true if a command is a pass that is timed. */
 const isTimed = (command) => (command.Pass?.timed ?? []).some(Boolean);
 
-/** Returns a binding of a layout. */
+/** Returns a layout's entry for a binding. */
 function layoutEntry({ binding, resource }) {
   const [kind, of] = variant(resource);
   const entry = { binding, visibility: GPUShaderStage.FRAGMENT };
@@ -516,7 +516,7 @@ function depthStencilOf(state) {
   return descriptor;
 }
 
-/** A location without an attachment has `null` for a target. */
+/** Returns a target, or `null` for a location without an attachment. */
 function target(state) {
   if (state === null) {
     return null;
@@ -562,7 +562,7 @@ function pass(made, encoder, described, clock) {
   rendering.end();
 }
 
-/** A location without an attachment has `null`. */
+/** Returns a colour attachment, or `null` for a location without an attachment. */
 function colorAttachment(made, color) {
   if (color === null) {
     return null;

@@ -1,15 +1,16 @@
-// Connects a device of this browser with the relay that served the page, and executes the lists that come over it.
+// Connects a device of this browser to the worker that served the page, and executes the lists that the
+// worker sends.
 "use strict";
 
 const PROTOCOL = 1;
 
-/** The feature of a device that keeps all that WebGPU promises. Browsers older than it have no other device. */
+/** The feature of devices with everything that WebGPU guarantees, which older browsers have without naming it. */
 const CORE = "core-features-and-limits";
 
-/** True if the address asks for a device in compatibility mode. */
+/** True if the address requests a device in compatibility mode. */
 const COMPATIBILITY = new URLSearchParams(location.search).has("compatibility");
 
-/** Features that a device is asked for, where it has them. */
+/** The features that are requested if the adapter has them. */
 const FEATURES = [
   CORE,
   "clip-distances",
@@ -27,15 +28,15 @@ const FEATURES = [
 /** The pause before another attempt to connect, in milliseconds. */
 const RECONNECTION = 500;
 
-/** What is told of the console with the next answer. */
+/** Uncaptured errors, to be sent with the next answer. */
 const messages = [];
 
-/** Shows a line to whoever looks at the page. */
+/** Shows a line on the page. */
 function show(text) {
   document.getElementById("state").textContent = text;
 }
 
-/** Returns what the browser says of its version. */
+/** Returns the browser's name and version, as it reports them. */
 async function browser() {
   const data = navigator.userAgentData;
   try {
@@ -46,25 +47,25 @@ async function browser() {
       return { name: brand.brand, version: brand.version };
     }
   } catch {
-    // The user agent tells less.
+    // The user agent has less detail.
   }
   const [, name, version] = /(Firefox|Chrome|Version)\/([\d.]+)/.exec(navigator.userAgent) ?? [];
   return { name: name === "Version" ? "Safari" : (name ?? "browser"), version: version ?? "" };
 }
 
-/** Opens a device. Returns it with its description, or throws the reason for which there is none. */
+/** Opens a device, and returns it with its description. Throws the reason if there is no device. */
 async function open() {
   if (navigator.gpu === undefined) {
     throw new Error(
       isSecureContext
-        ? "this browser has no WebGPU, or it is switched off"
+        ? "this browser has no WebGPU, or it is disabled"
         : "WebGPU needs a secure context: https, or an address of this machine (http://127.0.0.1)",
     );
   }
   const core = COMPATIBILITY ? null : await navigator.gpu.requestAdapter();
   const adapter = core ?? (await navigator.gpu.requestAdapter({ featureLevel: "compatibility" }));
   if (adapter === null) {
-    throw new Error("the browser has WebGPU and gives no adapter");
+    throw new Error("the browser has WebGPU but provides no adapter");
   }
   const { info } = adapter;
   const names = ["maxTextureDimension2D", "maxTextureDimension3D", "maxColorAttachments",
@@ -100,7 +101,7 @@ async function open() {
   return { device, hello };
 }
 
-/** Returns a message of a header and bytes behind it. */
+/** Returns a message that consists of a header and bytes. */
 function packed(header, bytes) {
   const text = new TextEncoder().encode(JSON.stringify(header));
   const message = new Uint8Array(4 + text.length + bytes.length);
@@ -110,14 +111,14 @@ function packed(header, bytes) {
   return message;
 }
 
-/** Returns the header of a message and the bytes behind it. */
+/** Returns the header of a message, and the bytes after it. */
 function unpacked(message) {
   const length = new DataView(message).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(message, 4, length)));
   return [header, new Uint8Array(message, 4 + length)];
 }
 
-/** Answers requests on a device, in their order. */
+/** Answers requests on a device, in order. */
 class Page {
   #executor;
   #scenes = new Map();
@@ -159,7 +160,7 @@ class Page {
     return packed(answer, output);
   }
 
-  /** Returns the report of an error, or of the one that came before it on the device. */
+  /** Returns the report of an error, or of an earlier error on the device. */
   async #failure(thrown) {
     try {
       await this.#executor.check(thrown);
@@ -170,7 +171,7 @@ class Page {
   }
 }
 
-/** Returns the contents of buffers: pairs of a place and its bytes, which stand one behind the other. */
+/** Returns the contents of buffers: pairs of an index and bytes. The bytes of all buffers are consecutive. */
 function contents(lengths, bytes) {
   let start = 0;
   return lengths.map(([place, length]) => {
@@ -214,11 +215,11 @@ async function serve() {
   }
   await closed;
   device?.destroy();
-  show("The run is over, or its worker starts again.");
+  show("The run has ended, or its worker is restarting.");
   return true;
 }
 
-/** Connects again and again: a worker that was lost is followed by another one at the same address. */
+/** Connects again and again: after a lost worker, another one listens at the same address. */
 async function main() {
   for (;;) {
     await serve();

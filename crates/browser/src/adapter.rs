@@ -6,7 +6,7 @@ use etalon_frame::Feature;
 use etalon_webgpu::{Abilities, Device, DeviceLimits, Level, Offer, standard_formats};
 use std::collections::BTreeSet;
 
-/// Words of the names of software rasterizers.
+/// Words in the names of software rasterizers.
 const SOFTWARE: [&str; 4] = ["swiftshader", "llvmpipe", "warp", "basic render"];
 
 /// Returns the adapter of a page.
@@ -45,13 +45,13 @@ pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
     }
 }
 
-/// Returns the device of a page as lowering sees it; the name of the limit that it does not tell, if there is one.
+/// Returns the facts about a page's device that lowering uses, or the reason if a limit is missing.
 pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
     let has = |name: &str| hello.features.iter().any(|feature| feature == name);
     let limit = |name: &str| {
         let value = hello.limits.get(name);
         let value = value.and_then(|value| u32::try_from(*value).ok());
-        value.ok_or_else(|| format!("the page does not tell the limit {name}"))
+        value.ok_or_else(|| format!("the page does not report the limit {name}"))
     };
     let storage = limit("maxStorageBuffersInFragmentStage")
         .or_else(|_| limit("maxStorageBuffersPerShaderStage"))?;
@@ -83,7 +83,7 @@ pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
     }))
 }
 
-/// Returns the features of scenes that a device has, beyond those of every device.
+/// Returns the features that a device has, beyond the ones that every device has.
 fn features(core: bool, has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<Feature> {
     let found = [
         (Feature::BaseVertex, true),

@@ -1,4 +1,4 @@
-//! The backend over a page.
+//! The backend that draws in a page.
 
 use crate::adapter;
 use crate::keeper::{Browser, Kept};
@@ -20,30 +20,30 @@ use std::{io, thread};
 
 /// The time in which a browser must open the page.
 const OPENING: Duration = Duration::from_secs(45);
-/// The time in which a person must open it.
+/// The time in which a person must open the page.
 pub const WAITING: Duration = Duration::from_secs(15 * 60);
-/// The time in which the worker before must have left its port.
+/// The time in which an earlier worker must leave the port.
 const LEAVING: Duration = Duration::from_secs(10);
 
 /// Options for [`open`].
 #[derive(Debug)]
 pub struct Options {
-    /// The way to a browser.
+    /// How a browser is reached.
     pub source: Source,
     /// Keeps the uncaptured errors of the device for [`Backend::messages`].
     pub validate: bool,
-    /// A fault that a test of the suite plants in what is read back.
+    /// A fault that a test plants in the calls, or in the values read back.
     pub fault: Option<Fault>,
     /// Records the calls, for [`Backend::recording`].
     pub record: bool,
 }
 
-/// The way to a browser.
+/// How a browser is reached.
 #[derive(Debug)]
 pub enum Source {
-    /// It is started, by a keeper with this command.
+    /// A browser that is started, by a keeper with this command.
     Started(Browser, Command),
-    /// A person opens the page at this address, behind this token.
+    /// A browser in which a person opens the page, at this address with this token in its path.
     Listening(SocketAddr, String),
 }
 
@@ -56,13 +56,13 @@ pub struct BrowserBackend {
     options: Options,
     next_slot: Cell<u64>,
     next_number: Cell<u64>,
-    /// Scenes that the page can forget.
+    /// Slots of scenes that the page can forget.
     dropped: RefCell<Vec<u64>>,
     messages: RefCell<Vec<String>>,
     recorded: RefCell<Option<CallList>>,
 }
 
-/// Serves the page, and waits until a browser has opened it.
+/// Serves the page, and waits until a browser opens it.
 ///
 /// # Errors
 /// If no page opens, or it has no device.
@@ -74,7 +74,7 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
     };
     let server = listening(address, &token).map_err(|error| {
         Unavailable::new(
-            format!("{address} cannot be listened at: {error}"),
+            format!("cannot listen at {address}: {error}"),
             "choose another port",
         )
     })?;
@@ -83,7 +83,8 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
             let url = format!("http://{}/{token}/", server.address);
             let keeper = std::mem::replace(keeper, Command::new(""));
             let kept = Kept::start(keeper, browser, &url);
-            let kept = kept.map_err(|error| failed(format!("no browser is started: {error}")))?;
+            let kept =
+                kept.map_err(|error| failed(format!("the browser cannot be started: {error}")))?;
             (Some(kept), OPENING)
         }
         Source::Listening(..) => (None, WAITING),
@@ -158,7 +159,7 @@ impl Backend for BrowserBackend {
     }
 }
 
-/// Starts a server, as soon as the worker before has left the port.
+/// Starts a server once an earlier worker has left the port.
 fn listening(address: SocketAddr, token: &str) -> io::Result<Server> {
     let begun = Instant::now();
     loop {
@@ -171,7 +172,7 @@ fn listening(address: SocketAddr, token: &str) -> io::Result<Server> {
     }
 }
 
-/// Returns a word that nobody guesses: 128 bits of the keys that the system gives for hash tables.
+/// Returns a token that cannot be guessed: 128 bits of the keys that the system gives for hash tables.
 pub fn token() -> String {
     let word = || RandomState::new().build_hasher().finish();
     format!("{:016x}{:016x}", word(), word())
@@ -181,7 +182,7 @@ fn step(counter: &Cell<u64>) -> u64 {
     counter.replace(counter.get() + 1)
 }
 
-/// A scene whose list the page knows once it was drawn.
+/// A scene. The page has its list after the first frame.
 struct PreparedScene<'a> {
     backend: &'a BrowserBackend,
     slot: u64,
@@ -192,12 +193,12 @@ struct PreparedScene<'a> {
     /// True if the page has the list.
     known: bool,
     submitted: bool,
-    /// The bytes of the last frame, if they came with its times.
+    /// The bytes of the last frame, if they came together with its times.
     frame: Option<Vec<u8>>,
 }
 
 impl PreparedScene<'_> {
-    /// Draws frames and reads the last one. A page that is opened again draws anew.
+    /// Draws frames, and reads the last one if `read` is true. A page that was opened again draws anew.
     fn ask(&mut self, frames: u32, read: bool) -> Result<(Vec<Times>, Vec<u8>), BackendError> {
         let backend = self.backend;
         loop {
@@ -208,7 +209,7 @@ impl PreparedScene<'_> {
                 slot: self.slot,
                 list: new.then_some(&self.list),
                 contents: if new { self.places.clone() } else { Vec::new() },
-                // A page that is new to the scene has no frame to read.
+                // A page without the list has no frame to read yet.
                 frames: frames.max(new.into()),
                 read,
             };
@@ -230,7 +231,7 @@ impl PreparedScene<'_> {
         }
     }
 
-    /// Waits until a person opens the page again, on the same device.
+    /// Waits until a person opens the page again on the same device.
     fn wait_for_page(&mut self) -> Result<(), BackendError> {
         let backend = self.backend;
         self.known = false;
@@ -241,7 +242,7 @@ impl PreparedScene<'_> {
             Ok(())
         } else {
             Err(BackendError::lost(format!(
-                "another device has opened the page: {}, {} {}",
+                "the page was opened on another device: {}, {} {}",
                 info.device, info.driver, info.driver_version
             )))
         }
@@ -250,12 +251,12 @@ impl PreparedScene<'_> {
 
 impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
-        // A frame that is drawn once is read in the same message.
+        // The first frame is read in the same message, since most scenes are drawn once.
         let read = !self.submitted;
         let (times, bytes) = self.ask(1, read)?;
         self.submitted = true;
         self.frame = read.then_some(bytes);
-        let none = || BackendError::internal("the page tells no time");
+        let none = || BackendError::internal("the page reported no frame time");
         let times = times.first().ok_or_else(none)?;
         Ok(FrameTime {
             cpu: duration(times.cpu),
@@ -297,7 +298,7 @@ impl Drop for PreparedScene<'_> {
     }
 }
 
-/// Milliseconds of the page's clock, which garbage cannot make negative.
+/// Returns a time of the page's clock. Invalid values become 0.
 fn duration(milliseconds: f64) -> Duration {
     Duration::try_from_secs_f64(milliseconds / 1e3).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! The process that keeps a browser: it ends the browser and removes its profile when the worker ends, however that
-//! ends.
+//! The process that keeps a browser. It ends the browser and removes its profile when the worker ends, for
+//! whatever reason.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -10,27 +10,27 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The time that a browser has to end when it is asked to.
+/// The time that a browser has to end on request.
 const GRACE: Duration = Duration::from_secs(2);
-/// The pause between looks at a browser.
+/// The pause between checks of a browser.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// The word of a command in place of which the page's address stands.
+/// The word of a command that is replaced by the page's address.
 const URL: &str = "{url}";
-/// The part of a word in place of which the profile's folder stands.
+/// The part of a word that is replaced by the profile's folder.
 const PROFILE: &str = "{profile}";
 
-/// A browser as an adapter's description names it.
+/// A browser, as an adapter's description defines it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Browser {
     /// The words of its command. `{url}` and `{profile}` are replaced.
     pub command: Vec<String>,
-    /// Files of its profile, which is a new folder: names and texts.
+    /// The files of its profile, which is a new folder: names and contents.
     pub profile: BTreeMap<String, String>,
 }
 
 impl Browser {
-    /// Returns what is wrong with it, if anything is.
+    /// Returns what is wrong with the description, if anything.
     pub fn fault(&self) -> Option<&'static str> {
         let has = |word: &str| self.command.iter().any(|w| w.contains(word));
         if self.command.first().is_none_or(String::is_empty) {
@@ -52,17 +52,17 @@ fn is_plain(name: &str) -> bool {
     !name.starts_with('.') && !name.is_empty() && name.chars().all(plain)
 }
 
-/// What a keeper is told.
+/// The message to a keeper.
 #[derive(Serialize, Deserialize)]
 struct Order {
     browser: Browser,
     url: String,
 }
 
-/// The worker's hold on a keeper. The keeper ends the browser when this is dropped.
+/// The worker's handle of a keeper. Dropping it makes the keeper end the browser.
 pub(crate) struct Kept {
     keeper: Child,
-    /// The pipe whose end tells the keeper that the worker has ended.
+    /// The pipe to the keeper. Its end shows that the worker ended.
     _input: ChildStdin,
 }
 
@@ -72,7 +72,7 @@ impl Kept {
     /// # Errors
     /// If the keeper cannot be started.
     pub(crate) fn start(mut keeper: Command, browser: &Browser, url: &str) -> io::Result<Self> {
-        // Its signals are not the worker's.
+        // A separate process group, so that the worker's signals do not reach it.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut keeper, 0);
         let mut keeper = keeper.stdin(Stdio::piped()).stdout(Stdio::null()).spawn()?;
@@ -91,12 +91,12 @@ impl Kept {
         })
     }
 
-    /// True while the browser lives.
+    /// Returns true while the browser runs.
     pub(crate) fn lives(&mut self) -> bool {
         matches!(self.keeper.try_wait(), Ok(None))
     }
 
-    /// Waits a moment for the keeper's last words on a browser that seems to have ended.
+    /// Waits a moment for the keeper's last messages about a browser that seems to have ended.
     pub(crate) fn wait(&mut self) {
         let begun = Instant::now();
         while self.lives() && begun.elapsed() < GRACE {
@@ -105,10 +105,10 @@ impl Kept {
     }
 }
 
-/// Keeps a browser until `input` ends or the browser does. What it has to say goes to standard error.
+/// Keeps a browser until `input` or the browser ends. Messages go to standard error.
 ///
 /// # Errors
-/// If the first line of `input` names no browser, or this one cannot be started.
+/// If the first line of `input` is not a valid order, or the browser cannot be started.
 pub fn keep(mut input: impl BufRead + Send + 'static) -> io::Result<()> {
     let mut line = String::new();
     input.read_line(&mut line)?;
@@ -122,7 +122,7 @@ pub fn keep(mut input: impl BufRead + Send + 'static) -> io::Result<()> {
     let mut browser = start(&browser.command, &url, profile.path())?;
     let (sender, ended) = channel::<()>();
     thread::Builder::new().spawn(move || {
-        // Nothing comes; the end does.
+        // Nothing is sent; only the end matters.
         let _ = io::copy(&mut input, &mut io::sink());
         drop(sender);
     })?;
@@ -155,7 +155,7 @@ fn start(words: &[String], url: &str, profile: &Path) -> io::Result<Child> {
         .args(words)
         .stdin(Stdio::null())
         .stdout(Stdio::null());
-    // Its processes are ended together.
+    // A process group, so that all processes of the browser can be ended together.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
@@ -171,7 +171,7 @@ fn end(browser: &mut Child) {
         thread::sleep(PAUSE);
     }
     signal(browser, true);
-    // It has ended, or nothing ends it.
+    // It has ended, or cannot be ended.
     let _ = browser.kill();
     let _ = browser.wait();
 }
@@ -180,13 +180,13 @@ fn waited(browser: &mut Child) -> Option<ExitStatus> {
     browser.try_wait().ok().flatten()
 }
 
-/// Asks the processes of a browser to end, or ends them.
+/// Asks the processes of a browser to end, or kills them if `at_once` is true.
 #[cfg(unix)]
 fn signal(browser: &Child, at_once: bool) {
     use rustix::process::{Pid, Signal, kill_process_group};
     let signal = if at_once { Signal::KILL } else { Signal::TERM };
     if let Some(group) = i32::try_from(browser.id()).ok().and_then(Pid::from_raw) {
-        // They may have ended by themselves.
+        // The processes might have ended by themselves.
         let _ = kill_process_group(group, signal);
     }
 }
@@ -194,7 +194,7 @@ fn signal(browser: &Child, at_once: bool) {
 #[cfg(not(unix))]
 fn signal(_: &Child, _: bool) {}
 
-/// Removes a profile. Processes that are ending may still write to it.
+/// Removes a profile. Processes that are ending can still write to it, so this retries.
 fn remove(profile: tempfile::TempDir) {
     let folder = profile.keep();
     let begun = Instant::now();

@@ -1,11 +1,11 @@
-//! WebGPU as a browser has it.
+//! WebGPU as browsers implement it.
 //!
-//! A worker serves a page on a port of this machine, waits for its WebSocket, and sends it lists of WebGPU calls
-//! ([`etalon_webgpu`]); the page executes them on its device and returns the bytes that are read. A scene is drawn by
-//! one message there and one back. The page knows nothing of scenes.
+//! A worker serves a page on a port of this machine, waits for its WebSocket, and sends it lists of WebGPU
+//! calls ([`etalon_webgpu`]). The page executes them on its device and returns the bytes that are read.
+//! Drawing a scene takes one message in each direction. The page knows nothing about scenes.
 //!
-//! The browser is started by the worker, or by a person who opens the page. A started one is kept by a process of its
-//! own ([`keep()`]), which ends it together with the worker however that ends.
+//! The worker starts the browser, or a person opens the page. A browser that the worker started is kept by a
+//! process of its own ([`keep()`]), which ends it when the worker ends, for whatever reason.
 
 mod adapter;
 mod backend;

@@ -1,7 +1,7 @@
 //! The messages between worker and page.
 //!
-//! The page greets with JSON. From then on a message is binary: the length of its header in four bytes, little-endian,
-//! the header as JSON, and bytes.
+//! The page sends a greeting as JSON. All later messages are binary: the length of a header as four
+//! little-endian bytes, the header as JSON, and bytes.
 
 use etalon_webgpu::CallList;
 use serde::de::DeserializeOwned;
@@ -15,13 +15,13 @@ pub(crate) const PROTOCOL: u32 = 1;
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Greeting {
-    /// It has a device.
+    /// The page has a device.
     Hello(Box<Hello>),
-    /// It has none.
+    /// The page has no device.
     Unavailable {
-        /// The version of its protocol.
+        /// The version of the page's protocol.
         protocol: u32,
-        /// The reason.
+        /// The reason why there is no device.
         unavailable: String,
     },
 }
@@ -49,7 +49,7 @@ pub(crate) struct Named {
     pub(crate) version: String,
 }
 
-/// GPUAdapterInfo. Browsers leave members empty that would tell a person's machine.
+/// GPUAdapterInfo. Browsers leave members empty that would identify a person's machine.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Adapter {
     pub(crate) vendor: String,
@@ -62,23 +62,23 @@ pub(crate) struct Adapter {
 /// A request to a page.
 #[derive(Debug, Serialize)]
 pub(crate) struct Request<'l> {
-    /// The number, which the answer repeats.
+    /// The number of the request, which the answer repeats.
     pub(crate) number: u64,
-    /// Scenes that are forgotten first.
+    /// The slots of scenes to forget first.
     pub(crate) dropped: Vec<u64>,
-    /// The scene.
+    /// The slot of the scene.
     pub(crate) slot: u64,
-    /// Its calls, if they are new to the page, with empty buffers.
+    /// The scene's calls, with empty buffers, if the page does not have them.
     pub(crate) list: Option<&'l CallList>,
-    /// The contents of its buffers: places and lengths. The bytes stand behind the header in this order.
+    /// The indices and lengths of the buffers with contents. The bytes follow the header in this order.
     pub(crate) contents: Vec<(usize, usize)>,
-    /// So many frames are drawn.
+    /// The number of frames to draw.
     pub(crate) frames: u32,
     /// True if the last frame is read.
     pub(crate) read: bool,
 }
 
-/// The header of a page's answer. What is read stands behind it.
+/// The header of a page's answer. The bytes that were read follow it.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Answer {
     pub(crate) number: u64,
@@ -100,9 +100,9 @@ pub(crate) struct Times {
 #[derive(Debug, Deserialize)]
 pub(crate) struct Failed {
     pub(crate) kind: FailedKind,
-    /// What was done.
+    /// The operation that failed.
     pub(crate) what: String,
-    /// The device's words.
+    /// The device's message.
     pub(crate) message: String,
 }
 
@@ -112,18 +112,18 @@ pub(crate) struct Failed {
 pub(crate) enum FailedKind {
     /// The device was lost.
     Lost,
-    /// It refused an object.
+    /// The device refused an object.
     Resource,
-    /// It refused a shader.
+    /// The device refused a shader.
     Shader,
-    /// Everything else.
+    /// Any other failure.
     Internal,
 }
 
 /// Returns a message.
 ///
 /// # Errors
-/// If the header holds a number that is not finite, or is longer than 4 GiB.
+/// If the header is longer than 4 GiB, or has a number that is not finite.
 pub(crate) fn packed<'b>(
     header: &impl Serialize,
     parts: impl Iterator<Item = &'b [u8]>,
@@ -136,10 +136,10 @@ pub(crate) fn packed<'b>(
     Ok(message)
 }
 
-/// Returns the header of a message and the bytes behind it.
+/// Returns the header of a message, and the bytes after it.
 ///
 /// # Errors
-/// If it is none.
+/// If the bytes are not a message.
 pub(crate) fn unpacked<T: DeserializeOwned>(message: &[u8]) -> Result<(T, &[u8]), String> {
     let short = || "a message ends in its header".to_owned();
     let (length, rest) = message.split_first_chunk().ok_or_else(short)?;

@@ -2,7 +2,7 @@
 
 /// A file that the worker serves.
 pub(crate) struct File {
-    /// The path behind the token.
+    /// The path after the token.
     pub(crate) path: &'static str,
     /// Its media type.
     pub(crate) media: &'static str,
@@ -10,7 +10,7 @@ pub(crate) struct File {
     pub(crate) text: &'static str,
 }
 
-/// All of them.
+/// All files.
 pub(crate) const FILES: [File; 3] = [
     File {
         path: "",

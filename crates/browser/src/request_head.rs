@@ -1,9 +1,9 @@
 //! The head of an HTTP request.
 
-/// The longest head in bytes.
+/// The largest length of a head in bytes.
 pub(crate) const MAX_BYTES: usize = 16 << 10;
 
-/// What a request asks for.
+/// The parts of a request that the server uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct RequestHead {
     /// The length of the head in bytes.
@@ -12,15 +12,15 @@ pub(crate) struct RequestHead {
     path: String,
     host: String,
     origin: Option<String>,
-    /// True if it asks for a WebSocket.
+    /// True if the request asks for a WebSocket.
     pub(crate) upgrades: bool,
 }
 
 impl RequestHead {
-    /// Reads a head from the first bytes of a request; `None` if it has not come whole.
+    /// Parses a head from the first bytes of a request. `None` if the head is not complete.
     ///
     /// # Errors
-    /// If the bytes are no request.
+    /// If the bytes are not a request.
     pub(crate) fn parse(bytes: &[u8]) -> Result<Option<Self>, httparse::Error> {
         let mut headers = [httparse::EMPTY_HEADER; 64];
         let mut request = httparse::Request::new(&mut headers);
@@ -42,17 +42,17 @@ impl RequestHead {
         }))
     }
 
-    /// Returns the path behind the token; `None` without the right token.
+    /// Returns the path after the token, or `None` without the right token.
     pub(crate) fn path_behind(&self, token: &str) -> Option<&str> {
         let path = self.path.strip_prefix('/')?.strip_prefix(token)?;
         let path = path.strip_prefix('/')?;
         (self.method == "GET").then(|| path.split('?').next().unwrap_or(path))
     }
 
-    /// True if a page of another origin asks.
+    /// Returns true if the request comes from a page of another origin.
     pub(crate) fn is_foreign(&self) -> bool {
         let Some(origin) = &self.origin else {
-            // Browsers send one with every WebSocket.
+            // Browsers send an origin with every WebSocket.
             return self.upgrades;
         };
         origin.split_once("://").map(|(_, host)| host) != Some(self.host.as_str())

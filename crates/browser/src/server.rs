@@ -13,14 +13,14 @@ use tungstenite::WebSocket;
 use tungstenite::handshake::server::{Request, Response};
 use tungstenite::protocol::WebSocketConfig;
 
-/// The longest wait for the head of a request: browsers open connections ahead of their needs.
+/// The longest wait for the head of a request: browsers open connections before they need them.
 const HEAD_TIMEOUT: Duration = Duration::from_secs(20);
-/// The pause between looks at a head that has not come whole.
+/// The pause between checks of an incomplete head.
 const PAUSE: Duration = Duration::from_millis(1);
-/// The longest message that a page may send.
+/// The largest message of a page in bytes.
 const MAX_MESSAGE: usize = 1 << 30;
 
-/// Headers of every answer. The last two let the page's clock tick in 5 µs and not in 100.
+/// The headers of every answer. The last two give the page's clock a resolution of 5 µs instead of 100.
 const HEADERS: &str = "Cache-Control: no-store\r\n\
     Connection: close\r\n\
     Content-Security-Policy: default-src 'none'; script-src 'self'; connect-src 'self'; img-src data:\r\n\
@@ -29,7 +29,7 @@ const HEADERS: &str = "Cache-Control: no-store\r\n\
     Cross-Origin-Opener-Policy: same-origin\r\n\
     Cross-Origin-Embedder-Policy: require-corp\r\n";
 
-/// The socket of a page. While it lives, no other page is served.
+/// The socket of a page. While it exists, no other page is served.
 pub(crate) struct Socket {
     pub(crate) socket: WebSocket<TcpStream>,
     taken: Arc<AtomicBool>,
@@ -43,16 +43,16 @@ impl Drop for Socket {
 
 /// A server on a port.
 pub(crate) struct Server {
-    /// Where it listens.
+    /// The address at which it listens.
     pub(crate) address: SocketAddr,
     sockets: Receiver<Socket>,
 }
 
 impl Server {
-    /// Starts to serve at an address, behind a token.
+    /// Starts serving at an address, at paths that begin with a token.
     ///
     /// # Errors
-    /// If the address cannot be had.
+    /// If the address is not available.
     pub(crate) fn start(address: SocketAddr, token: &str) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;
@@ -63,7 +63,7 @@ impl Server {
             for stream in listener.incoming().flatten() {
                 let (token, taken, sender) =
                     (Arc::clone(&token), Arc::clone(&taken), sender.clone());
-                // A connection that brings nothing must not keep others waiting. Its errors are its own.
+                // A connection without a request must not make others wait. Its errors affect nothing else.
                 let _ =
                     thread::Builder::new().spawn(move || serve(stream, &token, &taken, &sender));
             }
@@ -71,7 +71,7 @@ impl Server {
         Ok(Self { address, sockets })
     }
 
-    /// Returns the next socket of a page, if one comes before `deadline` and while `waits`.
+    /// Returns the next socket of a page, unless `deadline` passes or `waits` returns false first.
     pub(crate) fn socket(
         &self,
         deadline: Instant,
@@ -118,7 +118,7 @@ fn serve(
         #[expect(clippy::result_large_err, reason = "the signature is tungstenite's")]
         let admit = |_: &Request, response: Response| Ok(response);
         match tungstenite::accept_hdr_with_config(stream, admit, Some(config)) {
-            // A worker that has ended takes none.
+            // If the worker has ended, nothing receives the socket.
             Ok(socket) => drop(sockets.send(Socket { socket, taken })),
             Err(_) => taken.store(false, Ordering::SeqCst),
         }
@@ -133,8 +133,8 @@ fn serve(
     }
 }
 
-/// Returns the head of the request without taking it from the stream: the handshake of a WebSocket reads it again.
-/// `None` if it is none.
+/// Returns the head of the request without consuming it, since the handshake of a WebSocket reads it again.
+/// `None` if the bytes are not a request.
 fn peek_head(stream: &TcpStream) -> io::Result<Option<RequestHead>> {
     let mut bytes = vec![0; MAX_BYTES];
     let begun = Instant::now();
@@ -154,7 +154,7 @@ fn peek_head(stream: &TcpStream) -> io::Result<Option<RequestHead>> {
     }
 }
 
-/// Takes the head of a request from the stream: closing with bytes unread would cut off the answer.
+/// Consumes the head of a request: closing with unread bytes would cut off the answer.
 fn skip(stream: &mut TcpStream, length: usize) -> io::Result<()> {
     stream.read_exact(&mut vec![0; length])
 }

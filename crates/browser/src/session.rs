@@ -8,9 +8,9 @@ use std::cell::RefCell;
 use std::time::{Duration, Instant};
 use tungstenite::{Error, Message};
 
-/// The time without a message after which the page's browser is asked whether it is there.
+/// The time without a message after which the browser is pinged.
 const SILENCE: Duration = Duration::from_secs(10);
-/// The time in which a page must greet.
+/// The time in which a page must send its greeting.
 const GREETING: Duration = Duration::from_secs(40);
 
 /// A server, its page and the browser that shows it.
@@ -21,11 +21,11 @@ pub(crate) struct Session {
     kept: RefCell<Option<Kept>>,
 }
 
-/// Why a page does not answer.
+/// The reason why a page does not answer.
 enum Gone {
-    /// Its connection ended.
+    /// The connection ended.
     Closed,
-    /// It sent something else than an answer.
+    /// The page sent something that is not an answer.
     Garbage(String),
 }
 
@@ -38,7 +38,8 @@ impl Session {
         }
     }
 
-    /// Waits for a page until `deadline`. Returns its description of the device, or the reason for which there is none.
+    /// Waits for a page until `deadline`. Returns the description of its device, or the reason why there is
+    /// none.
     pub(crate) fn greeting(&self, deadline: Instant) -> Result<Hello, String> {
         let lives = || {
             let mut kept = self.kept.borrow_mut();
@@ -48,17 +49,19 @@ impl Session {
             return Err(if lives() {
                 "no page has opened its connection".to_owned()
             } else {
-                "the browser has ended before it opened the page".to_owned()
+                "the browser ended before it opened the page".to_owned()
             });
         };
         let message = receive(&mut socket, Some(GREETING));
         let text = match message {
             Ok(Message::Text(text)) => text,
-            Ok(_) => return Err("the page's first message is no greeting".to_owned()),
-            Err(_) => return Err("the page has closed its connection before a greeting".to_owned()),
+            Ok(_) => return Err("the page's first message is not a greeting".to_owned()),
+            Err(_) => {
+                return Err("the page closed its connection before sending a greeting".to_owned());
+            }
         };
         let greeting: Greeting = serde_json::from_str(&text)
-            .map_err(|error| format!("the page's first message is no greeting: {error}"))?;
+            .map_err(|error| format!("the page's first message is not a greeting: {error}"))?;
         let (protocol, hello) = match greeting {
             Greeting::Hello(hello) => (hello.protocol, Ok(*hello)),
             Greeting::Unavailable {
@@ -67,22 +70,23 @@ impl Session {
             } => (protocol, Err(unavailable)),
         };
         if protocol != PROTOCOL {
-            return Err("the page is of another version; load it again".to_owned());
+            return Err("the page has another version; reload it".to_owned());
         }
         let hello = hello?;
         self.socket.replace(Some(socket));
         Ok(hello)
     }
 
-    /// True if somebody else opened the page, who may open it again.
+    /// Returns true if a person opened the page, who can open it again.
     pub(crate) fn comes_back(&self) -> bool {
         self.kept.borrow().is_none()
     }
 
-    /// Sends a request and returns the header and the bytes of its answer; `None` if the connection ended before.
+    /// Sends a request and returns the header and the bytes of the answer, or `None` if the connection ended
+    /// first.
     ///
     /// # Errors
-    /// If the request cannot be sent, or the answer is none.
+    /// If the request cannot be sent, or the page's message is not its answer.
     pub(crate) fn ask(
         &self,
         request: &Request<'_>,
@@ -107,19 +111,19 @@ impl Session {
         }
     }
 
-    /// Ends this process: the browser that it started has ended, or its page has. What the browser said stands in
-    /// standard error.
+    /// Ends this process, because the browser that it started, or the page in that browser, has ended. The
+    /// browser's messages are in standard error.
     pub(crate) fn give_up(&self) -> ! {
         if let Some(kept) = self.kept.borrow_mut().as_mut() {
             kept.wait();
         }
-        eprintln!("the page has ended");
+        eprintln!("the page was closed");
         std::process::exit(1)
     }
 }
 
 fn garbage(why: &str) -> BackendError {
-    BackendError::internal_of("the page's answer is none", why)
+    BackendError::internal_of("the page's message is not an answer", why)
 }
 
 fn exchange(socket: &mut Socket, message: Vec<u8>) -> Result<(Answer, Vec<u8>), Gone> {
@@ -136,8 +140,8 @@ fn exchange(socket: &mut Socket, message: Vec<u8>) -> Result<(Answer, Vec<u8>), 
     }
 }
 
-/// Returns the next message that is no control frame. A browser that is silent is asked whether it is there: a phone
-/// that is locked closes nothing.
+/// Returns the next message that is not a control frame. Pings a silent browser, since a phone that is locked
+/// does not close the connection.
 fn receive(socket: &mut Socket, within: Option<Duration>) -> Result<Message, Error> {
     let begun = Instant::now();
     let stream = socket.socket.get_ref();

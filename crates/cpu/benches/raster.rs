@@ -1,5 +1,5 @@
-//! Frame times of three 16 by 16 cases, of five cases of `perf`, of sixteen blended full-screen quads, and of a million
-//! small triangles: dispatch, fill rate and setup. Beside them what memory allows.
+//! Frame times of three 16×16 cases, five cases of `perf`, sixteen blended full-screen quads, and a million
+//! small triangles: dispatch, fill rate and setup. Two memory benchmarks give the limit that memory sets.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
@@ -14,7 +14,7 @@ const IDS: [&str; 3] = [
     "blend/factors/dst=one-minus-src-alpha/operation=add/src=src-alpha",
 ];
 
-/// Large cases that are drawn in tiles.
+/// Large cases, which are drawn in tiles.
 const LARGE: [&str; 5] = [
     "perf/triangles-100k/size=1280x720",
     "perf/multisample-triangles-100k/size=1280x720",
@@ -29,7 +29,7 @@ fn built(text: &str) -> Scene {
     case.expect("the scene builds").scene
 }
 
-/// A million triangles of 2 by 1 texels, twice over 1280 by 720 texels, with a depth test.
+/// Returns a million triangles of 2 by 1 texels, which cover 1280 by 720 texels twice, with a depth test.
 fn small_triangles() -> Scene {
     let mut scene = built(
         r#"{"about":"b","spec":["b"],"scene":{"attachments":{"color":{"format":"rgba8unorm","size":[1280,720]},
@@ -94,7 +94,7 @@ fn raster(c: &mut Criterion) {
     bench("1280x720, 1000000 small triangles", &small_triangles(), 10);
 }
 
-/// The bytes of 1280 by 720 texels of four bytes, set and copied on one thread: what memory allows.
+/// Benchmarks setting and copying 1280 by 720 texels of four bytes on one thread, the limit that memory sets.
 fn memory(c: &mut Criterion) {
     let (from, mut to) = (vec![1_u32; 1280 * 720], vec![0_u32; 1280 * 720]);
     let mut group = c.benchmark_group("memory");

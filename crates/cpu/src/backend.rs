@@ -14,7 +14,7 @@ use etalon_frame::{
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
 
-/// The texels of the largest attachment from which a scene is drawn in tiles.
+/// The number of texels of the largest attachment from which on a scene is drawn in tiles.
 const LEAST_TEXELS: usize = 64 * 64;
 
 /// The rasterizer.
@@ -22,12 +22,12 @@ const LEAST_TEXELS: usize = 64 * 64;
 pub struct CpuBackend {
     info: AdapterInfo,
     limits: Limits,
-    /// The machine's means for kernels; `None` leaves every scene to the span code.
+    /// The machine's resources for kernels; `None` draws every scene with the span code.
     tiles: Option<Machine>,
 }
 
 impl CpuBackend {
-    /// Returns the rasterizer with an adapter name.
+    /// Returns the rasterizer with this adapter name.
     pub fn new(name: &str) -> Self {
         Self {
             tiles: Some(Machine::whole()),
@@ -35,8 +35,7 @@ impl CpuBackend {
         }
     }
 
-    /// Returns the rasterizer with an adapter name, without its kernels: every scene is drawn by the span code, on the
-    /// calling thread.
+    /// Returns the rasterizer without its kernels: the span code draws every scene, on the calling thread.
     pub fn spans(name: &str) -> Self {
         let formats = TextureFormat::ALL
             .into_iter()
@@ -71,7 +70,7 @@ impl CpuBackend {
                 max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
-                // A path leaves the picture as it is, so the scene is drawn in the one way there is.
+                // No path changes the picture, so every path is drawn in the same way.
                 paths: PathValue::all().into_iter().collect(),
                 exempt: BTreeSet::new(),
                 sample_positions: SAMPLES
@@ -84,8 +83,8 @@ impl CpuBackend {
     }
 }
 
-/// Returns how a scene is drawn, in words: a line with the kernels of each draw, or the reason why the scene is left to
-/// the span code.
+/// Returns how a scene is drawn, in words: a line with the kernels of each draw, or the reason why the span
+/// code draws the scene.
 pub fn kernels(scene: &Scene) -> Vec<String> {
     lines(scene, LEAST_TEXELS)
 }

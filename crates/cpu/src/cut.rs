@@ -1,7 +1,7 @@
-//! Primitives that reach behind the eye, or farther than vertices are snapped.
+//! Primitives that reach behind the eye, or beyond the positions to which vertices can be snapped.
 //!
-//! Triangles are not clipped: their edges are lines in homogeneous coordinates, and depths and attributes are those
-//! of the whole. Lines get new ends.
+//! Triangles are not clipped: their edges are lines in homogeneous coordinates, and depths and attributes are
+//! the whole triangle's. Lines get new ends.
 
 use crate::linear::{UNITS, Varying};
 use crate::planes::{Planes, Vertex, plane_bias, viewport};
@@ -13,20 +13,20 @@ use etalon_pipeline::{
 };
 use etalon_scene::{Draw, Interpolation};
 
-/// The texels beyond a viewport to which a line is drawn.
+/// The number of texels beyond a viewport up to which a line is drawn.
 const BEYOND: f64 = 64.0;
 
 fn window(draw: &Draw, vertex: &Vertex) -> WindowVertex {
     window_vertex(vertex.position, &draw.viewport, UNITS as f64)
 }
 
-/// True if a vertex lies behind the eye or too far out to be snapped.
+/// Returns true if a vertex is behind the eye or too far out to be snapped.
 pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
     etalon_pipeline::is_cut(window(draw, vertex))
 }
 
-/// True if all vertices of a point or line lie beyond one side of the view volume, so that it is discarded before it has a
-/// width.
+/// Returns true if all vertices of a point or line are beyond the same side of the view volume. It is then
+/// discarded before it is widened.
 pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
     let beyond: [fn([f32; 4]) -> bool; 4] = [
         |[x, _, _, w]| x < -w,
@@ -38,9 +38,9 @@ pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
     beyond.iter().any(all)
 }
 
-/// An edge with the side on which the triangle lies.
+/// An edge with the side that the triangle is on.
 enum Edge {
-    /// Between snapped vertices: clockwise on the screen.
+    /// An edge between snapped vertices, clockwise on the screen.
     Snapped([Point; 2]),
     Cut(CutEdge),
 }
@@ -53,7 +53,7 @@ pub(crate) struct CutTriangle {
 }
 
 impl CutTriangle {
-    /// Returns a triangle; `None` if all its vertices are snapped, or if it has no area.
+    /// Returns the triangle, or `None` if all its vertices are snapped, or if it has no area.
     pub(crate) fn new(draw: &Draw, vertices: [Vertex; 3]) -> Option<Self> {
         let cut = vertices.each_ref().map(|v| is_cut(draw, v));
         if cut == [false; 3] {
@@ -76,20 +76,20 @@ impl CutTriangle {
         })
     }
 
-    /// True if it faces front.
+    /// Returns true if the triangle faces front.
     pub(crate) fn is_front(&self, draw: &Draw) -> bool {
         let determinant = self.homogeneous.determinant;
-        // With y down it is negative where the area is positive.
+        // With y down, the determinant is negative if the area is positive.
         let area = i64::from(determinant < 0.0) - i64::from(determinant > 0.0);
         front_facing(area, draw.front_face)
     }
 
-    /// The flat colour.
+    /// Returns the flat colour.
     pub(crate) fn color(&self) -> [f32; 4] {
         self.vertices[0].color
     }
 
-    /// True if the sample at a point is covered.
+    /// Returns true if the sample at a point is covered.
     pub(crate) fn covers(&self, at: Point) -> bool {
         self.homogeneous.determinant != 0.0
             && self.edges.iter().all(|edge| match edge {
@@ -106,7 +106,7 @@ impl CutTriangle {
         self.homogeneous.over_w(values)
     }
 
-    /// Returns the greatest depth of what is seen, of clip space.
+    /// Returns the greatest clip-space depth of the visible part.
     fn greatest_depth(&self, draw: &Draw) -> f64 {
         let [left, top, right, bottom] = viewport(draw).map(|v| v as f64);
         let w = self.homogeneous.vertices.map(|v| v[2]);
@@ -152,7 +152,7 @@ impl CutTriangle {
                         self.over_w(|v| v.uv[axis]),
                         self.homogeneous.over_w([1.0; 3]),
                     ),
-                    // No place behind the eye has a value that could be linear in the window.
+                    // A position behind the eye has no value that could be linear in the window.
                     Interpolation::Linear => Varying::linear(DepthPlane::of(
                         f64::from(self.vertices[0].uv[axis]),
                         0.0,
@@ -179,8 +179,8 @@ impl CutTriangle {
     }
 }
 
-/// Returns a line with new ends where it reaches behind the eye, crosses the near or far plane or leads far out;
-/// `None` if nothing is left of it.
+/// Returns the line with new ends if it reaches behind the eye, crosses the near or far plane, or reaches far
+/// out. `None` if nothing of it is left.
 pub(crate) fn line(draw: &Draw, ends: [Vertex; 2]) -> Option<[Vertex; 2]> {
     let outside = |v: &Vertex| !draw.depth_clamp && !(0.0..=1.0).contains(&v.clip_z);
     if !ends.iter().any(|v| is_cut(draw, v) || outside(v)) {

@@ -1,7 +1,7 @@
-//! The pipeline as a rasterizer backend: plain arithmetic in lanes, no dispatch per texel.
+//! The pipeline as a rasterizer backend: plain arithmetic in lanes, without dispatch per texel.
 //!
-//! It draws every scene of the suite, follows Direct3D's top-left rule and nearest snapping at 8
-//! sub-pixel bits, and is judged like any driver, by Vulkan's rules.
+//! It draws every scene of the suite, follows Direct3D's top-left rule and snaps vertices to the nearest of
+//! 8-bit sub-pixel positions. It is judged by Vulkan's rules like any driver.
 
 mod backend;
 mod cut;

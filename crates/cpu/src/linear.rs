@@ -12,25 +12,25 @@ pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 /// A value over a primitive.
 #[derive(Clone, Copy)]
 pub(crate) struct Varying {
-    /// The value, or where `whole` is there, the value over w.
+    /// The value, or, if `whole` is present, the value over w.
     value: DepthPlane,
-    /// 1 over w, where the value is linear in space.
+    /// 1 over w, if the value is linear in space.
     whole: Option<DepthPlane>,
 }
 
 impl Varying {
-    /// A value that is linear over the window.
+    /// Returns a value that is linear over the window.
     pub(crate) fn linear(value: DepthPlane) -> Self {
         Self { value, whole: None }
     }
 
-    /// A value that is linear in space, from the planes of it over w and of 1 over w.
+    /// Returns a value that is linear in space, from the plane of the value over w and the plane of 1 over w.
     pub(crate) fn perspective(value: DepthPlane, whole: DepthPlane) -> Self {
         let whole = Some(whole);
         Self { value, whole }
     }
 
-    /// Returns the values at one point of each of a span's texels.
+    /// Returns the values at one point of each texel of a span.
     pub(crate) fn at(&self, x: usize, y: usize, points: &[Point; LANES]) -> [f32; LANES] {
         std::array::from_fn(|lane| {
             let at = position(x + lane, y, points[lane]);
@@ -49,7 +49,7 @@ pub(crate) const CENTER: Point = Point {
     y: UNITS / 2,
 };
 
-/// Returns a position in a texel in sub-texel units of the window.
+/// Returns a position in a texel, in sub-texel units of the window.
 pub(crate) fn position(x: usize, y: usize, sample: Point) -> Point {
     Point {
         x: x as i64 * UNITS + sample.x,

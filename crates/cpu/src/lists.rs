@@ -1,10 +1,10 @@
-//! The pool of fragments that shaders leave for later passes, in a list for each texel.
+//! The pool of fragments that shaders store for later passes, in one list per texel.
 
 use crate::lanes::{LANES, Mask, Real};
 use etalon_pipeline::shader::Node;
 use etalon_scene::Pool;
 
-/// A fragment, and the number of the node behind it; numbers start from 1.
+/// A fragment, and the number of the next node in its list. Numbers start from 1.
 #[derive(Clone, Copy, Debug)]
 struct Stored {
     color: [f32; 4],
@@ -16,7 +16,7 @@ struct Stored {
 #[derive(Debug, Default)]
 pub(crate) struct Lists {
     size: [usize; 2],
-    /// The number of each texel's first node; 0 for none.
+    /// The number of each texel's first node, or 0.
     heads: Vec<usize>,
     nodes: Vec<Stored>,
     most: usize,
@@ -42,8 +42,8 @@ impl Lists {
         (x < width && y < height).then(|| y * width + x)
     }
 
-    /// Adds the fragments of a span that starts at column `x` of row `y` in front of the lists of their texels, as
-    /// long as there is room.
+    /// Adds the fragments of a span, which starts at column `x` of row `y`, to the front of their texels'
+    /// lists, until the pool is full.
     pub(crate) fn add(&mut self, [x, y]: [usize; 2], node: &Node<Real>, mask: Mask) {
         for lane in (0..LANES).filter(|lane| mask[*lane]) {
             let Some(head) = self.head(x + lane, y) else {
@@ -61,7 +61,7 @@ impl Lists {
         }
     }
 
-    /// Returns the lists of a span's texels side by side. Behind the end of the shorter ones is nothing.
+    /// Returns the lists of a span's texels, one node per lane. Shorter lists are padded with empty nodes.
     pub(crate) fn of(&self, [x, y]: [usize; 2]) -> Vec<Node<Real>> {
         let nothing = Node {
             color: [[0.0; LANES]; 4],

@@ -8,7 +8,7 @@ use etalon_frame::CounterKind;
 /// A counter and its count.
 pub(crate) type Counted = (CounterKind, u64);
 
-/// The attachments, the counters and the pool, in the scene's order.
+/// The attachments and the counters, in the scene's order, and the pool.
 pub(crate) struct Memory<'m> {
     pub(crate) surfaces: &'m mut [Surface],
     pub(crate) counters: &'m mut [Counted],
@@ -16,7 +16,7 @@ pub(crate) struct Memory<'m> {
 }
 
 impl Memory<'_> {
-    /// Returns what a planted bug may change.
+    /// Returns the contents that a planted bug can change.
     pub(crate) fn stored(&mut self) -> Stored<'_> {
         Stored {
             surfaces: self.surfaces,

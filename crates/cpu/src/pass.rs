@@ -8,7 +8,7 @@ use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass, Scene};
 
-/// The value of what is discarded. No case clears or draws it.
+/// The value that replaces discarded contents. No case clears to it or draws it.
 pub(crate) const DISCARDED: f64 = 0.6;
 
 /// Runs a pass on its attachments.
@@ -85,7 +85,7 @@ pub(crate) fn run<S: Steps>(
     Ok(())
 }
 
-/// Clears what load operations clear.
+/// Performs the clears of load operations.
 fn load(scene: &Scene, pass: &Pass, surfaces: &mut [Surface], steps: &impl Steps) {
     let all = None;
     for (location, index) in pass.color.iter().enumerate() {
@@ -161,7 +161,7 @@ fn clear_color(
     }
 }
 
-/// Replaces what is discarded, so that nothing can depend on it unseen.
+/// Replaces discarded contents, so that a dependency on them shows.
 fn discard(scene: &Scene, index: usize, aspect: Aspect, surface: &mut Surface) {
     let code = |encoding: ChannelEncoding| encoding.nearest_code(DISCARDED);
     match aspect {

@@ -18,14 +18,14 @@ pub(crate) struct Vertex {
     pub(crate) clip_z: f32,
     pub(crate) color: [f32; 4],
     pub(crate) uv: [f32; 2],
-    /// The clip distances that clip, from the first on.
+    /// The active clip distances, from the first element on.
     pub(crate) distances: [f32; MOST_DISTANCES],
 }
 
-/// The most clip distances of a vertex (Vulkan, Required Limits; OpenGL 4.6, table 23.56).
+/// The largest number of clip distances of a vertex (Vulkan, Required Limits; OpenGL 4.6, table 23.56).
 const MOST_DISTANCES: usize = 8;
 
-/// The linear values over a primitive, window depth first, and its clipping.
+/// The linear values over a primitive, window depth first, and how it is clipped.
 pub(crate) struct Planes {
     pub(crate) window: DepthPlane,
     /// Texture coordinates, if the shader reads them.
@@ -38,9 +38,9 @@ pub(crate) struct Planes {
     pub(crate) bias: f64,
     pub(crate) clamp: Option<[f32; 2]>,
     pub(crate) clips: bool,
-    /// The clip distances that are negative somewhere.
+    /// The clip distances that are negative at some vertex.
     pub(crate) distances: Vec<DepthPlane>,
-    /// True if the primitive may extend beyond the viewport.
+    /// True if the primitive might extend beyond the viewport.
     pub(crate) leaves: bool,
     /// The viewport's left, top, right and bottom edges in sub-texel units.
     pub(crate) viewport: [i64; 4],
@@ -103,8 +103,8 @@ impl Planes {
         .reaching(points, wide)
     }
 
-    /// Points and lines are clipped before they are widened, so unclipped ones extend beyond the
-    /// edges.
+    /// Points and lines are clipped before they are widened, so if their vertices are inside, they can extend
+    /// beyond the edges.
     fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
         let [left, top, right, bottom] = self.viewport;
         let inside = |p: &Point| (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
@@ -114,11 +114,11 @@ impl Planes {
         self
     }
 
-    /// Returns the depths of a span's texels at one sample position.
+    /// Returns the depths of a span's texels at one sample position, biased and clamped.
     pub(crate) fn at(&self, x: usize, y: usize, sample: Point) -> [f32; LANES] {
         std::array::from_fn(|lane| {
             let depth = self.window.at(position(x + lane, y, sample)) as f32;
-            // Interpolation stays between the depths of the vertices.
+            // Interpolation stays within the depths of the vertices.
             let depth = depth.clamp(self.range[0], self.range[1]);
             let depth = (f64::from(depth) + self.bias) as f32;
             match self.clamp {
@@ -128,7 +128,8 @@ impl Planes {
         })
     }
 
-    /// Removes the texels that the viewport's edges, the near or the far plane clip from a mask.
+    /// Removes from a mask the texels that are clipped by the viewport's edges, the near or far plane, or a
+    /// clip distance.
     pub(crate) fn clip(&self, mask: &mut Mask, x: usize, y: usize, sample: Point) {
         if self.leaves {
             let [left, top, right, bottom] = self.viewport;
@@ -152,11 +153,11 @@ impl Planes {
     }
 }
 
-/// Returns the planes of the clip distances that are negative at a vertex of a triangle, or of a line or
-/// point, whose last vertices are its first again.
+/// Returns the planes of the clip distances that are negative at a vertex. The vertices are a triangle's, or
+/// a line's or point's with the first vertex repeated.
 fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<DepthPlane> {
     let count = draw.clipping_distances().count_ones() as usize;
-    // Over w they are linear in the window, and keep their signs.
+    // The distances over w are linear in the window, and have the same signs.
     let over_w = |v: Vertex, n: usize| f64::from(v.distances[n]) / f64::from(v.position[3]);
     let all = (0..count).map(|n| vertices.map(|v| over_w(v, n)));
     all.filter(|values| values.iter().any(|v| *v < 0.0))
@@ -169,7 +170,7 @@ fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<Dept
         .collect()
 }
 
-/// Returns the clip distances of a vertex that clip.
+/// Returns the active clip distances of a vertex.
 pub(crate) fn clipping(draw: &Draw, vertex: &etalon_scene::Vertex) -> [f32; MOST_DISTANCES] {
     let mut result = [0.0; MOST_DISTANCES];
     let all = clip_distances(draw.shader, vertex).into_iter().enumerate();
@@ -203,7 +204,7 @@ pub(crate) fn depth_bias(
     )
 }
 
-/// Returns the depth bias of a polygon of this plane and greatest depth.
+/// Returns the depth bias of a polygon with this plane and greatest depth.
 pub(crate) fn plane_bias(
     draw: &Draw,
     plane: impl FnOnce() -> DepthPlane,

@@ -10,7 +10,7 @@ use etalon_frame::{Aspect, ChannelEncoding, CounterKind, Frame, Image, ReadPath}
 use etalon_scene::Scene;
 use std::time::Instant;
 
-/// A scene with the steps that draw it.
+/// A scene and the steps that draw it.
 #[derive(Debug)]
 pub struct PreparedScene<S> {
     scene: Scene,
@@ -20,7 +20,7 @@ pub struct PreparedScene<S> {
 }
 
 impl<S> PreparedScene<S> {
-    /// Returns the scene, to be drawn by these steps.
+    /// Returns the scene, prepared to be drawn by these steps.
     pub fn new(scene: Scene, steps: S) -> Self {
         Self {
             scene,
@@ -31,11 +31,11 @@ impl<S> PreparedScene<S> {
     }
 }
 
-/// Returns the frame of a scene that was `drawn`, without its counters. `codes` returns those of an attachment's aspect of
-/// so many channels.
+/// Returns the frame of a scene, without its counters. `codes` returns the codes of an aspect of an
+/// attachment, given the number of channels.
 ///
 /// # Errors
-/// If nothing was drawn.
+/// If `drawn` is false.
 pub(crate) fn frame(
     scene: &Scene,
     drawn: bool,

@@ -16,13 +16,13 @@ use etalon_scene::{Draw, Interpolation, Pass, PolygonMode, PrimitiveVertices, Sc
 /// The supported sample counts.
 pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
 
-/// The most samples of a texel.
+/// The largest number of samples of a texel.
 const MOST_SAMPLES: usize = SAMPLES[SAMPLES.len() - 1] as usize;
 
-/// Left, top, right and bottom of the texels that a draw may write; the last two are exclusive.
+/// The left, top, right and bottom edges of the texels that a draw can write; right and bottom are exclusive.
 pub(crate) type Bounds = [usize; 4];
 
-/// Draws into the pass's attachments.
+/// Draws to the pass's attachments.
 pub(crate) fn draw<S: Steps>(
     scene: &Scene,
     pass: &Pass,
@@ -58,7 +58,7 @@ pub(crate) fn draw<S: Steps>(
         if is_beyond(draw, primitive) {
             continue;
         }
-        // The colour is flat.
+        // The colour is flat, so the provoking vertex gives it.
         let color = vertices[provoking].color;
         let vertex = |i: usize| Vertex {
             color,
@@ -124,7 +124,7 @@ impl<S: Steps> Raster<'_, S> {
         }
     }
 
-    /// Returns the planes of a point or a line, whose depth bias is 0.
+    /// Returns the planes of a point or line. Its depth bias is 0 unless a bug biases lines.
     fn flat_planes(&self, corners: [Vertex; 3]) -> Planes {
         let points = corners.map(|v| v.at);
         let bias = if self.steps.biases_lines() {
@@ -177,7 +177,7 @@ impl<S: Steps> Raster<'_, S> {
     }
 }
 
-/// Returns the intersection of scissor, attachments and the viewport with a texel around it.
+/// Returns the intersection of scissor rectangle, attachments, and the viewport extended by a texel.
 pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     let [x, y, w, h] = draw.viewport.area();
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
@@ -193,7 +193,7 @@ pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     [left, top, right, bottom]
 }
 
-/// A triangle to fill, with its flat values.
+/// A triangle to fill, and its flat values.
 struct Inside<'a> {
     triangle: &'a SnappedTriangle,
     front: bool,
@@ -219,7 +219,7 @@ fn fill<S: Steps>(
     };
     let (left, right) = bound(|p| p.x, bounds[0], bounds[2]);
     let (top, bottom) = bound(|p| p.y, bounds[1], bounds[3]);
-    // Enough for any sample count.
+    // Enough masks for any sample count.
     let mut all = [[false; LANES]; MOST_SAMPLES];
     let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
     for y in top..bottom {
@@ -227,7 +227,7 @@ fn fill<S: Steps>(
             let mut any = false;
             for (mask, sample) in masks.iter_mut().zip(samples) {
                 let edges = triangle.edges_at(position(x, y, *sample));
-                // An edge function is linear: equal signs at both ends hold for the whole span.
+                // An edge function is linear, so if both ends have the same sign, the whole span has it.
                 let last = |(value, dx): &(i64, i64)| value + dx * (LANES as i64 - 1) * UNITS;
                 if edges.iter().any(|edge| edge.0 < 0 && last(edge) < 0) {
                     *mask = [false; LANES];
@@ -260,7 +260,7 @@ fn fill<S: Steps>(
     }
 }
 
-/// Runs the spans of a triangle that is cut.
+/// Runs the spans of a cut triangle.
 fn fill_cut<S: Steps>(
     cut: &CutTriangle,
     front: bool,
@@ -298,7 +298,7 @@ fn fill_cut<S: Steps>(
     }
 }
 
-/// Runs the texels of which a point covers samples, at most four.
+/// Runs the texels in which a point covers samples, at most four.
 fn point<S: Steps>(
     vertex: Vertex,
     front: bool,
@@ -325,9 +325,8 @@ fn point<S: Steps>(
     }
 }
 
-/// Runs the texels of a line: one per column or row, along the longer direction, all samples of
-/// each. The last texel belongs to the next line (the diamond-exit rule where the line does not
-/// pass through corners).
+/// Runs the texels of a line: one per column, or per row if the line is steep, with all samples of each. The
+/// last texel belongs to the next line (the diamond-exit rule, if the line does not pass through corners).
 fn line<S: Steps>(
     ends: [Vertex; 2],
     front: bool,

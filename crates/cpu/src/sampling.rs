@@ -39,7 +39,7 @@ fn tap(surface: &Surface, sampler: Sampler, at: [i64; 2]) -> [f32; 4] {
     })
 }
 
-/// Returns the weighted average at a position counted from the centre of the first texel.
+/// Returns the weighted average at a position that is relative to the centre of the first texel.
 fn weighted(surface: &Surface, sampler: Sampler, at: [f32; 2]) -> [f32; 4] {
     let first = at.map(f32::floor);
     let weight = [at[0] - first[0], at[1] - first[1]];

@@ -17,11 +17,11 @@ use etalon_scene::{Draw, EarlyTests, InterpolationSampling, Pass, Scene, Shader,
 pub(crate) struct Span<'a> {
     pub(crate) x: usize,
     pub(crate) y: usize,
-    /// Coverage, sample by sample.
+    /// The coverage, one mask per sample.
     pub(crate) masks: &'a [Mask],
     pub(crate) front: bool,
     pub(crate) color: [f32; 4],
-    /// Window depths at one sample.
+    /// Returns the window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
     /// Texture coordinates, if the shader reads them.
     pub(crate) uv: Option<[Varying; 2]>,
@@ -37,12 +37,13 @@ pub(crate) struct SpanState<'a, S> {
     samples: &'a [Point],
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
-    /// True for each target that logic operations apply to.
+    /// True for each target to which logic operations apply.
     logic: Vec<bool>,
     size: [u32; 2],
-    /// True if the fragment tests run before the shader: if forced, or if the result is the same.
+    /// True if the fragment tests run before the shader, because they are forced to or the result is the
+    /// same.
     early: bool,
-    /// True if a test or the shader uses the fragment's own depth.
+    /// True if a test or the shader uses the fragment's depth.
     asks_depth: bool,
     surfaces: &'a mut [Surface],
     counters: &'a mut [Counted],
@@ -50,18 +51,18 @@ pub(crate) struct SpanState<'a, S> {
     steps: &'a S,
 }
 
-/// The stencil state of a span's face, and the references that a shader wrote for it.
+/// The stencil state of a span's face, and the references that a shader wrote.
 struct Face {
     face: StencilFace,
     front: bool,
     written: Option<WrittenReferences>,
 }
 
-/// The references that a shader wrote, and what of them it added for the sample.
+/// The references that a shader wrote, and the part of them that it added for the sample.
 type WrittenReferences = ([i32; LANES], i32);
 
 impl Face {
-    /// Returns the state of one texel, for the stencil test or the update on a path.
+    /// Returns the state of one texel: for the stencil test, or, with a path, for the update.
     #[inline(always)]
     fn of<S: Steps>(
         &self,
@@ -89,7 +90,7 @@ impl Face {
     }
 }
 
-/// The number of texels for which an expensive shader's loop runs at once.
+/// The number of texels for which an expensive shader's loop runs together.
 const TOGETHER: usize = 4;
 
 fn and(a: Mask, b: Mask) -> Mask {
@@ -124,7 +125,7 @@ fn four(channels: &[ChannelEncoding]) -> [ChannelEncoding; 4] {
     })
 }
 
-/// Returns true if a draw's fragment tests run before its shader: if forced, or if the result is
+/// Returns true if a draw's fragment tests run before its shader, because they are forced to or the result is
 /// the same.
 fn tests_early(draw: &Draw) -> bool {
     let shader = draw.shader;
@@ -138,7 +139,7 @@ fn tests_early(draw: &Draw) -> bool {
     same || draw.early_tests == EarlyTests::Forced
 }
 
-/// Returns true if a shader may read its fragment's depth.
+/// Returns true if a shader can read its fragment's depth.
 fn reads_depth(shader: Shader) -> bool {
     !matches!(
         shader,
@@ -164,7 +165,7 @@ fn reads_depth(shader: Shader) -> bool {
     )
 }
 
-/// Returns the window coordinates of one point of each of a span's texels.
+/// Returns the window coordinates of one point of each texel of a span.
 fn window_position(span: &Span<'_>, point: Point) -> [Real; 2] {
     let within = |v: i64| v as f32 / UNITS as f32;
     [
@@ -228,7 +229,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let state = &self.draw.multisample;
         let runs = self.steps.shader_runs(self.draw.shader, state, samples);
         let mut shaded: Option<FragmentOutput<Real>> = None;
-        // A shader run for several samples sees the depth of the first covered one.
+        // A shader that runs for several samples gets the depth of the first covered sample.
         let mut seen: Option<Real> = None;
         let mut ran = [false; LANES];
         let mut run = 0;
@@ -258,7 +259,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             let new = and_not(mask, ran);
             ran = or(ran, mask);
-            // The depth is each sample's own unless the shader writes one.
+            // Each sample has its own depth unless the shader writes one.
             let mut output = match shaded {
                 Some(output) => output,
                 None => self.shade(span, sample, first_depth),
@@ -294,7 +295,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         self.count(|kind| !kind.is_occlusion(), ran);
     }
 
-    /// Runs the fragment shader without the loop of an expensive shader.
+    /// Runs the fragment shader, except the loop of an expensive shader.
     fn shade(&self, span: &Span<'_>, sample: usize, depth: Real) -> FragmentOutput<Real> {
         let state = &self.draw.multisample;
         let point = match self.steps.shaded_at(state, sample, self.samples.len()) {
@@ -341,7 +342,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
     }
 
-    /// Returns a bit of the sample mask that the run which shades a sample reads, texel by texel.
+    /// Returns, for each texel, a bit of the sample mask that the run for a sample reads.
     fn input_bit(&self, span: &Span<'_>, sample: usize, bit: usize) -> Real {
         let (state, samples) = (&self.draw.multisample, span.masks.len());
         let runs = self.steps.shader_runs(self.draw.shader, state, samples);
@@ -363,8 +364,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         })
     }
 
-    /// Runs the loop of an expensive shader for the texels that it shades, so that times depend on
-    /// their number.
+    /// Runs the loop of an expensive shader for the texels that it shades, so that the time depends on their
+    /// number.
     fn run_expensive_loop(&self, span: &Span<'_>, mask: Mask, output: &mut FragmentOutput<Real>) {
         let steps = self.draw.params.back_color[0];
         if !is_expensive(self.draw.shader) {
@@ -373,7 +374,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let lanes = mask.iter().enumerate().filter(|(_, set)| **set);
         let columns: Vec<u32> = lanes.map(|(lane, _)| (span.x + lane) as u32).collect();
         for some in columns.chunks(TOGETHER) {
-            // The remaining lanes repeat the last texel, at no cost.
+            // The remaining lanes repeat the last texel, at no extra cost.
             let at: [u32; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
             let zeros = cost(at, span.y as u32, steps);
             for (x, zero) in some.iter().zip(zeros) {
@@ -401,8 +402,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span.y * self.surfaces[index].stride + span.x
     }
 
-    /// Returns the texture coordinates at one point of each of a span's texels, given the sample that is shaded and
-    /// the point at which inputs are interpolated that name none.
+    /// Returns the texture coordinates at one point of each texel of a span. `sample` is the sample that is
+    /// shaded, and `point` is where inputs without a sampling qualifier are interpolated.
     fn uv(&self, span: &Span<'_>, sample: usize, point: Point) -> [Real; 2] {
         let Some(planes) = &span.uv else {
             return [[0.0; LANES]; 2];
@@ -410,7 +411,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let points = match self.steps.interpolation(self.draw.shader).1 {
             InterpolationSampling::Center => [point; LANES],
             InterpolationSampling::Sample => [self.samples[sample]; LANES],
-            // The first covered sample lies inside.
+            // The first covered sample is inside the primitive.
             InterpolationSampling::Centroid => std::array::from_fn(|lane| {
                 let covered = span.masks.iter().position(|mask| mask[lane]);
                 covered.map_or(point, |sample| self.samples[sample])
@@ -437,8 +438,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// Runs depth bounds, stencil and depth test and stores both, given the stencil references that the shader
-    /// wrote before, if it does. Returns where colour is written.
+    /// Runs the depth bounds, stencil and depth tests, and stores depth and stencil. `references` are the
+    /// stencil references that the shader wrote, if it writes them. Returns where colour is written.
     fn test_and_store(
         &mut self,
         span: &Span<'_>,
@@ -498,7 +499,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         and(mask, inside)
     }
 
-    /// The attachment that has stencil; a test without one passes.
+    /// Returns the attachment that has stencil. Without one, the test passes.
     fn stencil(&self) -> Option<usize> {
         let index = self.pass.depth_stencil?;
         (!self.surfaces[index].stencil.is_empty()).then_some(index)
@@ -537,7 +538,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// Returns the depth codes and where they pass, if the draw tests depth.
+    /// Returns the depth codes to write, and sets where the depth test passes. `None` if the draw does not
+    /// test or write depth.
     fn depth_test(
         &self,
         span: &Span<'_>,
@@ -546,7 +548,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         passes: &mut Mask,
     ) -> Option<Codes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
-        // Depths written by shaders and biased depths are clamped to the viewport's range.
+        // Depths are clamped to the viewport's range after a shader wrote them or a bias was added.
         let range = self.draw.viewport.depth;
         let depth = depth.map(|v| self.steps.held_to_range(v, range));
         let codes = self.steps.depth_codes(encoding, depth);
@@ -584,7 +586,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let at = self.at(*index, span);
             let surface = &mut self.surfaces[*index];
             let channels = surface.encodings.len();
-            // Missing colour channels of the destination are 0, a missing alpha is 1.
+            // Missing colour channels of the destination are 0, and a missing alpha is 1.
             let dst = |alpha: f32| {
                 std::array::from_fn(|c| match c {
                     _ if c < channels => {

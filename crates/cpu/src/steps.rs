@@ -1,7 +1,7 @@
 //! The steps of a draw, which planted bugs override.
 //!
-//! The rasterizer is generic over [`Steps`], so that the calls of [`Faithful`], which keeps every
-//! default, are inlined. Planted bugs, in another crate, override one step each.
+//! The rasterizer is generic over [`Steps`], so that the calls of [`Faithful`], which keeps every default,
+//! are inlined. Each planted bug, in another crate, overrides one step.
 
 pub use crate::lanes::{Codes, LANES, Mask, Real};
 
@@ -26,7 +26,7 @@ pub enum Path {
     Fail,
     /// The stencil test passes and the depth test fails.
     DepthFail,
-    /// Both pass.
+    /// Both tests pass.
     Pass,
 }
 
@@ -42,7 +42,7 @@ impl Path {
     }
 }
 
-/// A use of the stencil reference that a shader writes.
+/// A use of the stencil reference that a shader wrote.
 #[derive(Clone, Copy, Debug)]
 pub struct Exported {
     /// The state of the fragment's face, with the draw's reference.
@@ -51,11 +51,11 @@ pub struct Exported {
     pub front: bool,
     /// The outcome of the tests, for the update; `None` for the stencil test.
     pub path: Option<Path>,
-    /// What the shader writes, texel by texel.
+    /// The references that the shader wrote, one per texel.
     pub written: [i32; LANES],
-    /// What the shader added for the sample.
+    /// The part of the references that the shader added for the sample.
     pub plus: i32,
-    /// The texel among them.
+    /// The index of the texel.
     pub lane: usize,
     /// The sample.
     pub sample: usize,
@@ -64,7 +64,7 @@ pub struct Exported {
 /// A bit of the sample mask that a shader reads.
 #[derive(Clone, Copy, Debug)]
 pub struct InputBit {
-    /// Its number.
+    /// The number of the bit.
     pub bit: usize,
     /// The first covered sample of the run.
     pub sample: usize,
@@ -72,13 +72,13 @@ pub struct InputBit {
     pub samples: usize,
     /// True if the primitive covers the bit's sample.
     pub covered: bool,
-    /// True if the sample mask and sample coverage draw it.
+    /// True if the sample mask and sample coverage include it.
     pub drawn: bool,
-    /// True if the run shades it.
+    /// True if the run shades the bit's sample.
     pub shaded: bool,
 }
 
-/// The results of the tests of a span. A disabled test passes.
+/// The results of a span's tests. A disabled test passes.
 #[derive(Clone, Copy, Debug)]
 pub struct Tests {
     /// The covered texels.
@@ -117,7 +117,7 @@ pub enum Moment {
     Cleared {
         /// The index of the pass.
         pass: usize,
-        /// The command.
+        /// The clear command.
         clear: Clear,
     },
     /// A draw follows.
@@ -150,9 +150,9 @@ pub struct Stored<'a> {
     pub counters: &'a mut [(CounterKind, u64)],
 }
 
-/// The steps that a planted bug may override, with the pipeline's own as defaults.
+/// The steps that a planted bug can override. The defaults are the pipeline's.
 pub trait Steps {
-    /// Changes nothing. A planted bug of memory changes what is stored at this moment.
+    /// Does nothing. A planted bug of memory changes what is stored at this moment.
     #[inline(always)]
     fn reached(&self, _moment: Moment, _scene: &Scene, _stored: Stored<'_>) {}
 
@@ -162,7 +162,7 @@ pub trait Steps {
         mask
     }
 
-    /// Returns the texels of a texture under a span.
+    /// Returns the texels of a texture at a span.
     #[inline(always)]
     fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
         let at = y * surface.stride + x;
@@ -176,13 +176,13 @@ pub trait Steps {
         })
     }
 
-    /// Returns sampled values of a texture.
+    /// Returns the sampled values of a texture.
     #[inline(always)]
     fn sample(&self, surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
         sample(surface, sampler, u, v)
     }
 
-    /// Returns the fragments that a shader does not discard.
+    /// Returns the texels whose fragments the shader does not discard.
     #[inline(always)]
     fn kept(&self, kept: &Kept<Real>) -> Mask {
         let (value, limit) = (kept.value, kept.limit);
@@ -193,7 +193,7 @@ pub trait Steps {
         }
     }
 
-    /// Returns the texels whose sample the mask that a shader writes keeps. Of one sample, its first bit
+    /// Returns the texels for which the mask that a shader writes keeps the sample. With one sample, bit 0
     /// counts.
     #[inline(always)]
     fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, _samples: usize) -> Mask {
@@ -201,14 +201,14 @@ pub trait Steps {
             .map(|bits| mask.written(bits as u32) & (1 << sample) != 0)
     }
 
-    /// Returns the increment of a counter for a span of samples that passed, or of texels whose
+    /// Returns the increment of a counter for a span: the number of samples that passed, or of texels whose
     /// shader ran.
     #[inline(always)]
     fn counted(&self, _kind: CounterKind, mask: Mask) -> u64 {
         mask.iter().map(|set| u64::from(*set)).sum()
     }
 
-    /// Returns the reference of a fragment whose shader writes one.
+    /// Returns the stencil reference of a fragment whose shader writes one.
     #[inline(always)]
     fn exported(&self, of: &Exported) -> u8 {
         exported_reference(of.written[of.lane])
@@ -220,7 +220,7 @@ pub trait Steps {
         stencil_passes(face, stored)
     }
 
-    /// Returns the stencil value after a fragment.
+    /// Returns the stencil value that a fragment leaves.
     #[inline(always)]
     fn stencil_write(&self, face: &StencilFace, path: Path, stored: u8) -> u8 {
         stencil_write(face, path.operation(face), stored)
@@ -229,8 +229,8 @@ pub trait Steps {
     /// Returns the codes of depths, for comparing and storing.
     #[inline(always)]
     fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
-        // Codes of depths in 0..=1 have the order of the depths, also of floats. Adding 0 removes
-        // the sign of a negative zero.
+        // For depths in 0..=1, codes have the order of the depths, also for floats. Adding 0 removes the sign
+        // of a negative zero.
         Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0))
     }
 
@@ -240,7 +240,7 @@ pub trait Steps {
         compare(function, incoming, stored)
     }
 
-    /// Returns the texels whose colour and depth are written.
+    /// Returns the texels whose colour is written, and the texels whose depth is written.
     #[inline(always)]
     fn written(&self, tests: &Tests) -> WrittenTexels {
         let all: Mask =
@@ -262,13 +262,13 @@ pub trait Steps {
         blend(&mut Plain::<LANES>, state, encodings, input)
     }
 
-    /// Returns the stored codes of one colour channel.
+    /// Returns the codes to store in one colour channel.
     #[inline(always)]
     fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
         Plain::<LANES>.encode(encoding, value)
     }
 
-    /// Returns the stored code of one channel of a clear value, colour or depth.
+    /// Returns the code to store in one channel, colour or depth, for a clear value.
     #[inline(always)]
     fn clear_code(&self, encoding: ChannelEncoding, value: f32) -> u32 {
         let [code] = Plain::<1>.encode(encoding, [value]);
@@ -308,7 +308,7 @@ pub trait Steps {
         second
     }
 
-    /// Returns the codes after a logic operation; `obeys` is false for attachments that ignore it.
+    /// Returns the codes after a logic operation. `obeys` is false for attachments that ignore it.
     #[inline(always)]
     fn logic(
         &self,
@@ -325,7 +325,7 @@ pub trait Steps {
         }
     }
 
-    /// Returns the unit of a constant depth bias for a primitive with this largest depth.
+    /// Returns the unit of the constant depth bias for a primitive with this greatest depth.
     #[inline(always)]
     fn bias_unit(&self, encoding: ChannelEncoding, largest: f64) -> f64 {
         match encoding {
@@ -387,16 +387,16 @@ pub trait Steps {
         standard
     }
 
-    /// Returns the texels whose sample alpha-to-coverage covers: the first samples, in proportion
-    /// to alpha.
+    /// Returns the texels for which alpha-to-coverage covers the sample. It covers the first samples, in
+    /// proportion to alpha.
     #[inline(always)]
     fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
         let count = samples as f32;
         alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
     }
 
-    /// Returns true if the sample mask and sample coverage draw a sample: of the coverage, the first
-    /// samples, in proportion to its value, or the others.
+    /// Returns true if the sample mask and sample coverage include a sample. The coverage includes the first
+    /// samples, in proportion to its value, or, if inverted, the others.
     #[inline(always)]
     fn sample_drawn(&self, state: &Multisample, sample: usize, samples: usize) -> bool {
         let covered = match state.sample_coverage {
@@ -415,8 +415,7 @@ pub trait Steps {
         of.covered && of.drawn && of.shaded
     }
 
-    /// Returns the number of runs of a shader that share a texel's samples: those of each run lie side
-    /// by side.
+    /// Returns the number of shader runs that share a texel's samples. The samples of a run are consecutive.
     #[inline(always)]
     fn shader_runs(&self, shader: Shader, state: &Multisample, samples: usize) -> usize {
         if shader.runs_per_sample() {
@@ -426,32 +425,32 @@ pub trait Steps {
         }
     }
 
-    /// Returns the sample at whose position a run of a shader takes its inputs, given the run's first
-    /// covered one; `None` for the texel's centre.
+    /// Returns the sample at which a shader run takes its inputs, given the run's first covered sample.
+    /// `None` for the texel's centre.
     #[inline(always)]
     fn shaded_at(&self, state: &Multisample, first: usize, _samples: usize) -> Option<usize> {
         state.min_sample_shading.map(|_| first)
     }
 
-    /// Returns the way in which a shader's texture coordinates are interpolated, and at which points.
+    /// Returns how a shader's texture coordinates are interpolated, and at which points.
     #[inline(always)]
     fn interpolation(&self, shader: Shader) -> (Interpolation, InterpolationSampling) {
         (shader.interpolation(), shader.interpolation_sampling())
     }
 
-    /// Returns the sample whose stored value a sample's test or blend reads.
+    /// Returns the sample whose stored value the test or blend of a sample reads.
     #[inline(always)]
     fn stored_sample(&self, _aspect: Aspect, sample: usize) -> usize {
         sample
     }
 
-    /// Returns the sample at whose position a sample's depth is interpolated.
+    /// Returns the sample at which the depth of a sample is interpolated.
     #[inline(always)]
     fn depth_sample(&self, sample: usize, _samples: usize) -> usize {
         sample
     }
 
-    /// Returns the depth of a resolved texel. Codes of depths have the order of the depths.
+    /// Returns the depth of a resolved texel. Codes have the order of the depths.
     #[inline(always)]
     fn resolve_depth(&self, mode: ResolveMode, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
         match mode {
@@ -472,8 +471,7 @@ pub trait Steps {
         }
     }
 
-    /// Returns one channel of a resolved texel: the average of its samples, rounded to the nearest
-    /// code.
+    /// Returns one channel of a resolved texel: the average of its samples, rounded to the nearest code.
     #[inline(always)]
     fn resolve(&self, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
         let share = 1.0 / codes.len() as f32;
@@ -483,7 +481,7 @@ pub trait Steps {
     }
 }
 
-/// The pipeline as it is.
+/// The pipeline without bugs.
 #[derive(Clone, Copy, Debug)]
 pub struct Faithful;
 

@@ -1,5 +1,5 @@
-//! Attachments in memory: one plane of codes per channel and sample, with rows padded to whole
-//! spans, so that a span loads and stores contiguous codes.
+//! Attachments in memory: one plane of codes per channel and sample. Rows are padded to whole spans, so that
+//! a span loads and stores contiguous codes.
 
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
@@ -17,16 +17,17 @@ pub struct Surface {
     pub stride: usize,
     /// Samples per texel.
     pub samples: usize,
-    /// The colour channels, or depth: channel by channel, each sample by sample.
+    /// The planes of the colour channels, or of depth: channel by channel, and sample by sample within a
+    /// channel.
     pub planes: Vec<Vec<u32>>,
-    /// Stencil, sample by sample; empty if the format has none.
+    /// The planes of stencil, one per sample; empty if the format has no stencil.
     pub stencil: Vec<Vec<u8>>,
     /// The encodings of the colour channels.
     pub encodings: &'static [ChannelEncoding],
 }
 
 impl Surface {
-    /// Returns the attachment with its initial contents. `clear_code` converts a clear value.
+    /// Returns the attachment with its initial contents. `clear_code` converts a clear value to a code.
     pub(crate) fn new(
         attachment: &Attachment,
         clear_code: impl Fn(ChannelEncoding, f32) -> u32,
@@ -86,7 +87,7 @@ impl Surface {
         &mut self.planes[channel * self.samples + sample]
     }
 
-    /// Sets one channel, or depth, in a rectangle of all samples.
+    /// Sets one colour channel, or depth, in a rectangle of all samples.
     pub(crate) fn fill(&mut self, channel: usize, code: u32, rect: Option<[u32; 4]>) {
         let (rows, columns) = self.area(rect);
         for sample in 0..self.samples {
@@ -98,7 +99,7 @@ impl Surface {
         }
     }
 
-    /// Sets the masked bits of stencil in a rectangle of all samples.
+    /// Sets the stencil bits of a mask in a rectangle of all samples.
     pub(crate) fn fill_stencil(&mut self, value: u8, mask: u8, rect: Option<[u32; 4]>) {
         let (rows, columns) = self.area(rect);
         for plane in &mut self.stencil {
@@ -110,7 +111,7 @@ impl Surface {
         }
     }
 
-    /// Returns the rows and columns of a rectangle, or all.
+    /// Returns the rows and columns of a rectangle; without one, all of them.
     fn area(&self, rect: Option<[u32; 4]>) -> (Range<usize>, Range<usize>) {
         match rect.map(|r| r.map(|v| v as usize)) {
             Some([x, y, w, h]) => (y..y + h, x..x + w),
@@ -118,8 +119,7 @@ impl Surface {
         }
     }
 
-    /// Resolves another surface into this one. `resolve` returns one code for the codes of all
-    /// samples.
+    /// Resolves another surface into this one. `resolve` returns the code for the codes of all samples.
     pub(crate) fn resolve_from(
         &mut self,
         source: &Self,
@@ -141,7 +141,7 @@ impl Surface {
         }
     }
 
-    /// Resolves the depths of another surface into this one. `resolve` returns one code for those of all
+    /// Resolves the depths of another surface into this one. `resolve` returns the code for the codes of all
     /// samples.
     pub(crate) fn resolve_depth_from(
         &mut self,
@@ -192,7 +192,7 @@ impl Surface {
     }
 }
 
-/// Makes one plane of those of all samples.
+/// Sets each value of a plane to a function of the values of all samples.
 fn fold<T: Copy>(samples: &[Vec<T>], target: &mut [T], resolve: impl Fn(&[T]) -> T) {
     let mut values = Vec::with_capacity(samples.len());
     for (at, one) in target.iter_mut().enumerate() {
@@ -202,7 +202,7 @@ fn fold<T: Copy>(samples: &[Vec<T>], target: &mut [T], resolve: impl Fn(&[T]) ->
     }
 }
 
-/// Returns the encoding in which the rasterizer stores a format's depth.
+/// Returns the encoding in which the rasterizer stores a format's depth, if the format has depth.
 pub(crate) fn depth_encoding(format: TextureFormat) -> Option<ChannelEncoding> {
     format.depth_encodings().first().copied()
 }

@@ -55,8 +55,8 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
     }
 }
 
-/// Draws three layers over the whole picture with one shader, nearest first, under a depth test.
-/// Returns the number of shaded fragments and the picture.
+/// Draws three layers over the whole picture with one shader, nearest first, with a depth test. Returns the
+/// number of shaded fragments and the picture.
 fn layers(shader: &str) -> (u64, Vec<u32>) {
     let layer = |z: f32, color: &str| {
         format!(
@@ -120,8 +120,8 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
     }
 }
 
-/// What `start` and `draws` make of a scene is drawn as the scene is: the rasterizer executes neither, so
-/// both are drawn by the one way that it has.
+/// The rasterizer does not execute the path values `start` and `draws`, so a scene on its path must draw the
+/// same picture as the scene.
 #[test]
 fn a_scene_on_its_path_is_the_same_picture() {
     let library = Library::built_in().expect("built-in files parse");

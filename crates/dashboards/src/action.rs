@@ -20,10 +20,11 @@ struct ActionResult<'a> {
     extra: &'a str,
 }
 
-/// Writes wall medians in nanoseconds. The file has one direction; every time is better when smaller.
+/// Returns wall medians in nanoseconds. The format has one direction for all results; smaller times are
+/// better.
 ///
 /// # Errors
-/// When a value has no JSON form.
+/// If a value has no JSON form.
 pub fn action(benchmarks: &[Benchmark]) -> serde_json::Result<Vec<u8>> {
     let each = benchmarks.iter().filter_map(|benchmark| {
         let wall = benchmark.times.get(&Time::Wall)?;

@@ -29,7 +29,7 @@ impl Metric {
     }
 }
 
-/// Bencher's name of a time: `latency` is built in, the others are created by their first use.
+/// Returns Bencher's name of a time. `latency` is built in; first use creates the others.
 fn measure(time: Time) -> String {
     match time {
         Time::Wall => "latency".to_owned(),
@@ -37,10 +37,10 @@ fn measure(time: Time) -> String {
     }
 }
 
-/// Writes benchmark to measure to metric: medians in nanoseconds with their intervals.
+/// Returns a map from benchmark to measure to metric: medians in nanoseconds, with their intervals.
 ///
 /// # Errors
-/// When a value has no JSON form.
+/// If a value has no JSON form.
 pub fn bencher(benchmarks: &[Benchmark]) -> serde_json::Result<Vec<u8>> {
     let mut all: BTreeMap<&str, BTreeMap<String, Metric>> = BTreeMap::new();
     for benchmark in benchmarks {

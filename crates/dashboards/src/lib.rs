@@ -1,7 +1,7 @@
-//! Frame times in the formats of services that keep a history of their own.
+//! Frame times in the formats of services that keep their own history.
 //!
-//! [`bencher()`] writes Bencher's format and [`action()`] that of github-action-benchmark, both from the same
-//! [benchmarks](Benchmark): those of one bench, or the latest of a history.
+//! [`bencher()`] writes Bencher's format, and [`action()`] github-action-benchmark's. Both write the same
+//! [benchmarks](Benchmark): of one bench, or the latest of a history.
 
 #![cfg_attr(
     test,

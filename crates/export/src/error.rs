@@ -12,13 +12,13 @@ pub enum ExportError {
     /// The history cannot be read.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// No run of the history is selected.
+    /// The selection contains no run of the history.
     #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
     NoRuns {
         /// The history.
         path: PathBuf,
     },
-    /// The folder holds something.
+    /// The folder is not empty.
     #[error("{} is not empty; name another folder, or remove it first", path.display())]
     NotEmpty {
         /// The folder.
@@ -32,7 +32,7 @@ pub enum ExportError {
         /// The system's error.
         source: io::Error,
     },
-    /// A file has no JSON form.
+    /// A value has no JSON form.
     #[error("cannot write {} as JSON: {source}", path.display())]
     Json {
         /// The file.

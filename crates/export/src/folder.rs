@@ -1,14 +1,15 @@
-//! The folder of an export, and names in it.
+//! The folder of an export, and the names in it.
 
 use crate::error::ExportError;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// The bytes of a name up to which it is written in full. File systems take 255 in one part of a path.
+/// The length in bytes up to which a name is written in full. File systems allow 255 bytes in one part of a
+/// path.
 const LONGEST: usize = 180;
 
-/// Creates the folder of an export, or takes an empty one.
+/// Creates the folder of an export. An existing folder must be empty.
 pub(crate) fn empty(path: &Path) -> Result<(), ExportError> {
     fs::create_dir_all(path).map_err(ExportError::io(path))?;
     let mut entries = fs::read_dir(path).map_err(ExportError::io(path))?;
@@ -20,8 +21,9 @@ pub(crate) fn empty(path: &Path) -> Result<(), ExportError> {
     }
 }
 
-/// A name as one part of a path: letters, digits, `.`, `_` and `-` as they are, every other byte as `%` and two digits,
-/// which readers of Hive partitions undo. A very long name is cut, and told from others by `place`.
+/// Returns a name as one part of a path. Letters, digits, `.`, `_` and `-` are unchanged; every other byte
+/// becomes `%` and two digits, which readers of Hive partitions decode. A very long name is cut and made
+/// unique by `place`.
 pub(crate) fn part(name: &str, place: usize) -> String {
     let mut part = String::new();
     for byte in name.bytes() {

@@ -7,14 +7,14 @@ use crate::{folder, latest, openmetrics, otava, tables};
 use etalon_history::History;
 use std::path::Path;
 
-/// A format.
+/// A format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Tables in Parquet, partitioned by date and adapter.
+    /// Parquet tables, partitioned by date and adapter.
     Parquet,
     /// Samples for Prometheus.
     OpenMetrics,
-    /// One CSV file per series of frame times, and the configuration for Apache Otava.
+    /// One CSV file per series of frame times, and a configuration for Apache Otava.
     Otava,
     /// The latest times of each series in Bencher's format.
     Bencher,
@@ -22,10 +22,10 @@ pub enum Format {
     ActionBenchmark,
 }
 
-/// Writes the selected runs of a history into a folder, which is created. It must be empty.
+/// Writes the selected runs of a history to a folder. The folder is created; if it exists, it must be empty.
 ///
 /// # Errors
-/// When the history cannot be read or no run is selected, or the folder holds something or cannot be written to.
+/// If the history cannot be read, no run is selected, or the folder is not empty or cannot be written to.
 pub fn export(
     history: &History,
     format: Format,

@@ -1,4 +1,4 @@
-//! The latest times of each series, for services that keep a history of their own.
+//! The latest times of each series, for services that keep their own history.
 
 use crate::error::ExportError;
 use crate::tables::machine_text;
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::Path;
 
-/// `bencher.json`: every time in Bencher's metric format.
+/// Writes `bencher.json`: every time in Bencher's metric format.
 pub(crate) fn write_bencher(
     history: &History,
     runs: &HashSet<RunId>,
@@ -20,7 +20,7 @@ pub(crate) fn write_bencher(
     write(dir, BENCHER_FILE, benches.len(), bencher(&benches))
 }
 
-/// `benchmark-action.json`: wall times for github-action-benchmark's `customSmallerIsBetter`.
+/// Writes `benchmark-action.json`: wall times for github-action-benchmark's `customSmallerIsBetter`.
 pub(crate) fn write_action(
     history: &History,
     runs: &HashSet<RunId>,
@@ -31,7 +31,7 @@ pub(crate) fn write_action(
     write(dir, ACTION_FILE, benches.len(), action(&benches))
 }
 
-/// The times of each series in the latest of these runs that has it.
+/// Returns the times of each series in the latest of these runs that has the series.
 fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>, ExportError> {
     let mut benches = Vec::new();
     for key in history.series_keys()? {
@@ -65,7 +65,7 @@ fn benchmarks(history: &History, runs: &HashSet<RunId>) -> Result<Vec<Benchmark>
     Ok(benches)
 }
 
-/// Machines differ in speed, so each has its own benchmark.
+/// Returns a benchmark's name. Machines differ in speed, so each machine has its own benchmark.
 fn name(history: &History, key: &SeriesKey) -> Result<String, ExportError> {
     let machine = history.machine(key.machine).map(machine_text);
     let (case, machine) = (history.case_name(key.case)?, machine.unwrap_or_default());

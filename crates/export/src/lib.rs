@@ -1,7 +1,8 @@
 //! A history as files for other programs.
 //!
-//! [`export`] writes a history into a folder: Parquet for engines that query tables, OpenMetrics for Prometheus, CSV for
-//! Apache Otava, or the frame times of the last benches for Bencher and github-action-benchmark.
+//! [`export`] writes a history to a folder: Parquet for engines that query tables, OpenMetrics for
+//! Prometheus, CSV for Apache Otava, or the frame times of the latest benches for Bencher and
+//! github-action-benchmark.
 
 #![cfg_attr(
     test,

@@ -10,17 +10,17 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// The number of records.
+/// The metric of the number of records.
 pub(crate) const RECORDS: &str = "etalon_records";
-/// The median frame time.
+/// The metric of the median frame time.
 pub(crate) const FRAME: &str = "etalon_frame_seconds";
-/// The median of the ruler beside it.
+/// The metric of the median time of the ruler that was measured with the case.
 pub(crate) const RULER: &str = "etalon_ruler_seconds";
 
-/// Seconds since 1970 and a value, in ascending time.
+/// Samples in ascending time: seconds since 1970, and a value.
 type Samples = Vec<(i64, f64)>;
 
-/// The times of which medians are written.
+/// The times whose medians are written.
 const TIMES: [Time; 4] = [Time::Wall, Time::Cpu, Time::Gpu, Time::ReadBack];
 
 pub(crate) fn write(
@@ -33,7 +33,7 @@ pub(crate) fn write(
     let mut out = BufWriter::new(File::create(&path).map_err(&wrong)?);
     let mut rows = 0;
 
-    // Two samples of one series and one time are an error to Prometheus: the later run stands for both.
+    // Prometheus refuses two samples of one series at one time, so the later run is used.
     let mut latest: BTreeMap<(&str, MachineId, i64), RunId> = BTreeMap::new();
     let counted = || {
         let runs = history
@@ -50,7 +50,7 @@ pub(crate) fn write(
         "# TYPE {RECORDS} gauge\n# HELP {RECORDS} Records of a run."
     )
     .map_err(&wrong)?;
-    // The samples of a series stand together.
+    // The samples of a series must be consecutive.
     let mut series: BTreeMap<String, Vec<(i64, u32)>> = BTreeMap::new();
     for (run, adapter) in counted() {
         if latest.get(&(&*adapter.timeline, run.machine, run.time())) != Some(&run.id) {
@@ -82,7 +82,10 @@ pub(crate) fn write(
 
     for (metric, help) in [
         (FRAME, "Median frame time of a bench."),
-        (RULER, "Median time of a bench's ruler beside a case."),
+        (
+            RULER,
+            "Median time of the ruler measured with a case of a bench.",
+        ),
     ] {
         writeln!(
             out,
@@ -103,8 +106,8 @@ pub(crate) fn write(
     Ok(ExportSize { files: 1, rows })
 }
 
-/// The samples of one metric in one series, by their labels. Times beside different rulers do not compare, so that the
-/// ruler is one of the labels.
+/// Returns the samples of one metric in one series, with their labels. Times measured with different rulers
+/// are not comparable, so the ruler is one of the labels.
 fn samples(
     history: &History,
     key: &SeriesKey,
@@ -115,7 +118,7 @@ fn samples(
     let machine = machine(history, key.machine);
     let mut found = Vec::new();
     for (ruler, points) in history.series_by_ruler(key)? {
-        // The later of two runs at one time stands for both.
+        // If two runs have the same time, the later one is used.
         let mut by_time: BTreeMap<i64, FrameTimes> = BTreeMap::new();
         for point in points {
             if let Some(run) = history.run(point.run).filter(|r| runs.contains(&r.id)) {
@@ -151,7 +154,7 @@ fn machine(history: &History, id: MachineId) -> String {
     history.machine(id).map(machine_text).unwrap_or_default()
 }
 
-/// A label with its value in quotes.
+/// Returns a label with its value in quotes.
 fn label(name: &str, value: &str) -> String {
     let value = value
         .replace('\\', "\\\\")

@@ -1,4 +1,4 @@
-//! Series of frame times as CSV, and the configuration by which Apache Otava imports them.
+//! Series of frame times as CSV, and the configuration with which Apache Otava imports them.
 
 use crate::error::ExportError;
 use crate::folder::part;
@@ -62,7 +62,7 @@ pub(crate) fn write(
             tests.insert(title, test);
         }
     }
-    // JSON is YAML.
+    // JSON is valid YAML.
     let path = dir.join("otava.yaml");
     let text = format!("{:#}\n", json!({"tests": tests}));
     fs::write(&path, text).map_err(ExportError::io(&path))?;
@@ -70,7 +70,7 @@ pub(crate) fn write(
     Ok(written)
 }
 
-/// The text of a file and its rows.
+/// Returns the text of a file and its number of rows.
 fn table(
     history: &History,
     runs: &HashSet<RunId>,
@@ -106,7 +106,7 @@ fn table(
     (csv, rows)
 }
 
-/// A field of CSV, quoted where it must be.
+/// Returns a CSV field, quoted if necessary.
 fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))

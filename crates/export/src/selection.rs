@@ -1,19 +1,19 @@
-//! Which runs are exported.
+//! The choice of runs to export.
 
 use etalon_history::{History, RunId};
 use std::collections::HashSet;
 
-/// Which runs are exported. Runs that were resumed later are always left out.
+/// The choice of runs to export. Runs that were resumed later are always left out.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Selection {
-    /// Leave out runs before this time, in seconds since 1970.
+    /// Leaves out runs before this time, in seconds since 1970.
     pub since: Option<i64>,
-    /// Take this many of the latest runs.
+    /// Takes this many of the latest runs.
     pub last: Option<usize>,
 }
 
 impl Selection {
-    /// The selected runs.
+    /// Returns the selected runs.
     pub(crate) fn runs(&self, history: &History) -> HashSet<RunId> {
         let late = |time: i64| self.since.is_none_or(|since| time >= since);
         history

@@ -15,11 +15,11 @@ pub(crate) enum Column {
     Text(Vec<ByteArray>),
     Integer(Vec<i64>),
     Flag(Vec<bool>),
-    /// `None` is a null.
+    /// Numbers; `None` is null.
     Number(Vec<Option<f64>>),
 }
 
-/// A Parquet file as it is written.
+/// A Parquet file that is being written.
 pub(crate) struct Table {
     path: PathBuf,
     writer: SerializedFileWriter<File>,
@@ -68,7 +68,7 @@ impl Table {
         Ok(())
     }
 
-    /// Ends the file.
+    /// Completes the file.
     pub(crate) fn close(self) -> Result<(), ExportError> {
         let wrong = ExportError::table(&self.path);
         self.writer.close().map_err(wrong)?;

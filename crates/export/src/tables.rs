@@ -1,7 +1,7 @@
 //! The tables `records` and `frame_times` in Parquet.
 //!
-//! A run of an adapter is one file, so that no more than its records is in memory. The partitions `date` and `adapter`
-//! are columns for readers of Hive partitions; the adapter there is the timeline.
+//! Each run of an adapter has its own file, so that only its records are in memory. The partitions `date` and
+//! `adapter` are columns to readers of Hive partitions; `adapter` is the timeline.
 
 use crate::error::ExportError;
 use crate::folder::part;
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
-/// The columns of a run of an adapter.
+/// The columns that both tables share, which describe a run of an adapter.
 const SHARED: &str = "
     required binary run (UTF8);
     required int64 time;
@@ -28,7 +28,7 @@ const SHARED: &str = "
     required binary driver (UTF8);
     required binary version (UTF8);";
 
-/// The texts among the shared columns.
+/// The number of texts among the shared columns.
 const SHARED_TEXTS: usize = 10;
 
 const RECORDS: &str = "
@@ -54,7 +54,7 @@ const TIMES: &str = "
     optional double read_back;
     optional double ruler;";
 
-/// Rows of a row group of frame times.
+/// The number of rows in a row group of frame times.
 const GROUP: usize = 65_536;
 
 pub(crate) fn write(
@@ -92,10 +92,10 @@ fn schema(name: &str, columns: &str) -> String {
     format!("message {name} {{{SHARED}{columns}\n}}")
 }
 
-/// The shared columns, each of one value.
+/// Returns the texts of the shared columns, each as one value.
 fn shared(history: &History, run: &RunInfo, adapter: &AdapterRun) -> [ByteArray; SHARED_TEXTS] {
     let machine = history.machine(run.machine).map(machine_text);
-    // Labels are a map of strings, which serializes.
+    // A map of strings always serializes.
     let labels = serde_json::to_string(&run.labels).unwrap_or_default();
     [
         run.digest_text(),
@@ -112,7 +112,7 @@ fn shared(history: &History, run: &RunInfo, adapter: &AdapterRun) -> [ByteArray;
     .map(|text| text.into_bytes().into())
 }
 
-/// A machine in words.
+/// Returns a description of a machine.
 pub(crate) fn machine_text(machine: &Machine) -> String {
     format!("{}, {}, {} cores", machine.os, machine.cpu, machine.cores)
 }
@@ -162,7 +162,7 @@ fn records(
     Ok((columns, n as u64))
 }
 
-/// The shared columns of `n` rows of one run.
+/// Returns the shared columns for `n` rows of one run.
 fn repeated(values: &[ByteArray; SHARED_TEXTS], time: i64, n: usize) -> Vec<Column> {
     let mut columns: Vec<Column> = values
         .iter()
@@ -172,7 +172,7 @@ fn repeated(values: &[ByteArray; SHARED_TEXTS], time: i64, n: usize) -> Vec<Colu
     columns
 }
 
-/// Rows of frame times that wait for their row group.
+/// Rows of frame times that are not in a row group yet.
 #[derive(Default)]
 struct Times {
     texts: [Vec<ByteArray>; SHARED_TEXTS],
@@ -194,7 +194,7 @@ impl Times {
     }
 }
 
-/// The table of frame times: one file per adapter, since a history gives them by series.
+/// Writes the table of frame times, with one file per adapter, since a history returns times by series.
 fn frame_times(
     history: &History,
     runs: &HashSet<RunId>,
@@ -203,7 +203,7 @@ fn frame_times(
     written: &mut ExportSize,
 ) -> Result<(), ExportError> {
     let mut keys = history.series_keys()?;
-    // Stable: the cases of an adapter stay sorted.
+    // The sort is stable, so the cases of an adapter stay sorted.
     keys.sort_by(|a, b| a.timeline.cmp(&b.timeline));
     for of_adapter in keys.chunk_by(|a, b| a.timeline == b.timeline) {
         let mut table = None;

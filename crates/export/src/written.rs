@@ -3,8 +3,8 @@
 /// The size of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExportSize {
-    /// Files.
+    /// The number of files.
     pub files: u64,
-    /// Rows or samples in them.
+    /// The number of rows or samples in them.
     pub rows: u64,
 }

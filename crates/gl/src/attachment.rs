@@ -10,16 +10,17 @@ pub(crate) struct Attachment {
     pub(crate) name: String,
     pub(crate) format: TextureFormat,
     pub(crate) surface: Surface,
-    /// The framebuffer of all layers, if passes have several.
+    /// The framebuffer with all layers, if passes have several.
     pub(crate) layers: Option<Target>,
-    /// The framebuffer of the last pass that draws to it, or its own, and its point there.
+    /// The framebuffer of the last pass that draws to it, or else the surface's, and its attachment point
+    /// there.
     pub(crate) drawn: (glow::Framebuffer, u32),
     pub(crate) initial: InitialContents,
 }
 
 /// The initial contents of an attachment at each submit.
 pub(crate) enum InitialContents {
-    /// Uploaded once, since no pass draws to it.
+    /// Uploaded once. No pass draws to it.
     Uploaded,
     Upload(Vec<u8>),
     Color([f32; 4]),
@@ -28,20 +29,21 @@ pub(crate) enum InitialContents {
 }
 
 impl Attachment {
-    /// Returns the framebuffer whose clears set the initial contents: of all layers, if passes have several.
+    /// Returns the framebuffer whose clears set the initial contents. It has all layers, if passes have
+    /// several.
     fn cleared(&self) -> glow::Framebuffer {
         let layers = self.layers.as_ref().map(|target| target.framebuffer);
         layers.unwrap_or(self.surface.framebuffer)
     }
 }
 
-/// Sets the initial contents of all attachments. Masks and scissor are open (`state::reset`).
+/// Sets the initial contents of all attachments. `state::reset` must have opened masks and scissor.
 pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]) {
     let gl = &context.gl;
     for attachment in attachments {
         let surface = &attachment.surface;
         let format = attachment.format;
-        // SAFETY: the context is current and all objects are its own.
+        // SAFETY: the context is current and owns all objects.
         unsafe {
             match &attachment.initial {
                 InitialContents::Uploaded => {}

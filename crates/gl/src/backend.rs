@@ -72,9 +72,9 @@ pub(crate) fn open_with(
         .context
         .check("opening the adapter")
         .map_err(unusable)?;
-    // Messages about probing are not the scenes'.
+    // Drops the messages that the probes caused.
     backend.context.messages();
-    // A probe that meets the fault would deny what the scenes shall find broken.
+    // Arms the fault after the probes, which would otherwise deny what the scenes must find broken.
     planted::arm(options.fault);
     Ok(backend)
 }
@@ -105,7 +105,7 @@ fn version((major, minor): (u32, u32)) -> ApiVersion {
 fn limits(context: &Context, probed: &Probed) -> Limits {
     let gl = &context.gl;
     let [width, height] = context.caps.max_viewport;
-    // SAFETY: the context is current and has these limits since version 3.
+    // SAFETY: the context is current, and has had these limits since version 3.
     let (bits, sides) = unsafe {
         (
             gl.get_parameter_i32(glow::SUBPIXEL_BITS),

@@ -1,7 +1,7 @@
-//! Blits that move or filter the texels of an attachment on its way to the host.
+//! Blits that move or filter the texels of an attachment before the host reads them.
 //!
-//! The source is the framebuffer that was drawn to: its read buffer is the attachment. A color attachment is copied to
-//! two draw buffers, the second of which is read.
+//! The source is the framebuffer that was drawn to; its read buffer is the attachment. A colour attachment is
+//! copied to two draw buffers, and the second is read.
 
 use crate::pool::Target;
 use crate::read::{Reading, Source, bits, spoil};
@@ -11,14 +11,14 @@ use etalon_backend::{BackendError, Blit, Blits};
 use etalon_frame::{Aspect, Image, PathEnd, PathValue, Requirement};
 use glow::HasContext;
 
-/// The destination of blits: a framebuffer and its surfaces, the last of which is read.
+/// The destination of blits: a framebuffer and its surfaces. The last surface is read.
 struct Destination {
     target: Target,
     surfaces: Vec<Surface>,
 }
 
 impl Reading<'_> {
-    /// Returns the images of an attachment behind blits that move its texels.
+    /// Returns the images of an attachment after blits that move its texels.
     pub(crate) fn moved(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         let Some(blits) = Blits::new(source.end, source.size) else {
             return self.images_of(source);
@@ -39,14 +39,14 @@ impl Reading<'_> {
         self.read(source, destination, Some(blits))
     }
 
-    /// Returns the images of a color attachment behind a blit with linear filter: each texel is weighed with another one
-    /// of zeros by half, and doubled.
+    /// Returns the images of a colour attachment after a blit with a linear filter. The filter averages each
+    /// texel with a texel of zeros, and the result is doubled.
     pub(crate) fn filtered(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         let [width, height] = source.size;
         let wide = self.destination(source, [2 * width, height], 1)?;
         let narrow = self.destination(source, source.size, 1)?;
         let gl = &self.context.gl;
-        // SAFETY: the context is current, the framebuffer is its own, and masks and scissor are open.
+        // SAFETY: the context is current and owns the framebuffer, and masks and scissor are open.
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(wide.target.framebuffer));
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &[0.0; 4]);
@@ -80,7 +80,7 @@ impl Reading<'_> {
         Ok(images)
     }
 
-    /// Returns a destination with so many surfaces of the source's format.
+    /// Returns a destination with `count` surfaces of the source's format.
     fn destination(
         &mut self,
         source: &Source<'_>,
@@ -107,7 +107,7 @@ impl Reading<'_> {
         })
     }
 
-    /// Blits from a framebuffer, whose read buffer is at a point, to another.
+    /// Blits from a framebuffer, whose read buffer is set to an attachment point, to another.
     fn blit(
         &self,
         from: (glow::Framebuffer, u32),
@@ -121,7 +121,7 @@ impl Reading<'_> {
         let [[left, top], [right, bottom]] = blit.from.map(|corner| corner.map(number));
         let [[to_left, to_top], [to_right, to_bottom]] = blit.to.map(|corner| corner.map(number));
         let mask = bits(&blit.aspects);
-        // SAFETY: the context is current, the framebuffers are its own, and the source has the point.
+        // SAFETY: the context is current and owns the framebuffers, and the source has the attachment point.
         unsafe {
             gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
             if blit.aspects.contains(&Aspect::Color) {

@@ -3,16 +3,16 @@
 use glow::HasContext;
 use naga::back::glsl;
 
-/// The extension by which vertex shaders name a viewport.
+/// The extension that lets vertex shaders select a viewport.
 pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 
-/// The extensions by which vertex shaders name a layer.
+/// The extensions that let vertex shaders select a layer.
 const VERTEX_LAYER: [&str; 2] = [SECOND_VIEWPORT, "GL_AMD_vertex_shader_layer"];
 
-/// The extension by which fragment shaders allow advanced blend equations.
+/// The extension that lets fragment shaders allow advanced blend equations.
 pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
 
-/// The extension by which fragment shaders write the stencil reference.
+/// The extension that lets fragment shaders write the stencil reference.
 pub(crate) const STENCIL_EXPORT: &str = "GL_ARB_shader_stencil_export";
 
 /// The capabilities that this backend uses.
@@ -23,9 +23,9 @@ pub(crate) struct Caps {
     pub(crate) glsl: glsl::Version,
     /// `glClipControl` sets WebGPU's conventions; otherwise the shaders adapt.
     pub(crate) clip_control: bool,
-    /// Blend functions and write masks may differ between colour targets.
+    /// Blend functions and write masks can differ between colour targets.
     pub(crate) indexed_blend: bool,
-    /// Blend factors may use the fragment shader's second source.
+    /// Blend factors can use the fragment shader's second source.
     pub(crate) dual_source: bool,
     /// Advanced blends see the writes of earlier draws without a barrier.
     pub(crate) coherent_blend: bool,
@@ -55,19 +55,20 @@ pub(crate) struct Caps {
     pub(crate) clip_distances: bool,
     /// Shaders have cull distances.
     pub(crate) cull_distances: bool,
-    /// The lines of a tessellation shader that name its extensions; `None` if there are none such.
+    /// The `#extension` lines of a tessellation shader, empty if it needs none; `None` if tessellation is not
+    /// supported.
     pub(crate) tessellation: Option<&'static str>,
     /// Shaders can declare conservative depth.
     pub(crate) conservative_depth: bool,
-    /// The offset alignment of storage buffers; `None` if fragment shaders have none.
+    /// The offset alignment of storage buffers; `None` if fragment shaders have no storage buffers.
     pub(crate) storage_alignment: Option<usize>,
-    /// Draws take arguments from buffers.
+    /// Draws can take their arguments from buffers.
     pub(crate) indirect: bool,
     /// `glCopyImageSubData` exists.
     pub(crate) copy_image: bool,
-    /// Vertex shaders name a viewport ([`SECOND_VIEWPORT`]).
+    /// Vertex shaders can select a viewport ([`SECOND_VIEWPORT`]).
     pub(crate) second_viewport: bool,
-    /// The extension by which vertex shaders name a layer; `None` without one.
+    /// The extension that lets vertex shaders select a layer, if there is one.
     pub(crate) vertex_layer: Option<&'static str>,
     /// `glInvalidateFramebuffer` exists.
     pub(crate) invalidate: bool,
@@ -84,7 +85,7 @@ pub(crate) struct Caps {
 }
 
 impl Caps {
-    /// Queries the current context. The caller sets `clip_control`, and checks that queries work.
+    /// Queries the current context. The caller sets `clip_control` and checks that queries work.
     pub(crate) fn query(gl: &glow::Context, es: bool, version: (u32, u32)) -> Self {
         let known = gl.supported_extensions();
         let has = |name: &str| known.contains(name);
@@ -105,7 +106,7 @@ impl Caps {
             dual_source.then(|| integer(glow::MAX_DUAL_SOURCE_DRAW_BUFFERS)) >= Some(1);
         let viewport_bits =
             viewports.then(|| u32::try_from(integer(glow::VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
-        // naga writes bindings from GLSL 4.20 on, and names the extension.
+        // naga writes bindings from GLSL 4.20 on, and enables the extension by name.
         let storage = since((4, 2), (3, 1)) && (es || has("GL_ARB_shader_storage_buffer_object"));
         let storage = storage && integer(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
         let storage_alignment = storage.then(|| {
@@ -113,7 +114,7 @@ impl Caps {
             usize::try_from(alignment).unwrap_or(0).max(1)
         });
         let mut max_viewport = [0; 2];
-        // SAFETY: the context is current and the pair has room.
+        // SAFETY: the context is current, and the array has room for both values.
         unsafe { gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut max_viewport) };
         Self {
             es,
@@ -127,7 +128,7 @@ impl Caps {
             snorm_attachments: !es || has("GL_EXT_render_snorm"),
             depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),
             alpha_to_one: since(ALWAYS, NEVER) || has("GL_EXT_multisample_compatibility"),
-            // naga names the ES extension, which version 3.2 need not list.
+            // naga enables the ES extension by name, and version 3.2 need not list it.
             sample_variables: since((4, 0), NEVER) || (es && has("GL_OES_sample_variables")),
             multisample_textures: since(ALWAYS, (3, 1)),
             fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
@@ -137,7 +138,7 @@ impl Caps {
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),
             early_tests: since((4, 2), (3, 1)) || has("GL_ARB_shader_image_load_store"),
-            // naga names the ES extension.
+            // naga enables the ES extension by name.
             conservative_depth: since((4, 2), NEVER)
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
@@ -170,7 +171,7 @@ impl Caps {
     }
 }
 
-/// Returns the GLSL version of a context, at most the newest that naga knows.
+/// Returns the GLSL version of a context, but no newer version than naga supports.
 fn glsl_version(es: bool, (major, minor): (u32, u32)) -> glsl::Version {
     let number = (major * 100 + minor * 10) as u16;
     if es {

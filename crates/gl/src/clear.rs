@@ -1,8 +1,9 @@
 //! Clears of a pass, and contents that it discards.
 //!
-//! Load operations and commands differ in their moment alone. The scissor test, masks and rasterizer discard of the last
-//! draw would affect a clear, so each sets them; draws set their own. A clear is a call for one attachment, or with others
-//! the older call that clears all draw buffers, where the path says so.
+//! Load operations and clear commands differ only in when they are executed. The scissor test, masks and
+//! rasterizer discard of the last draw would affect a clear, so each clear sets them; draws set their own.
+//! One call clears one attachment. If the path asks for it, the older call that clears all draw buffers
+//! clears several attachments together.
 
 use crate::context::Context;
 use crate::state;
@@ -10,10 +11,10 @@ use etalon_frame::PathClears;
 use etalon_scene::{Clear, ClearTarget, Pass};
 use glow::HasContext;
 
-/// Clears that one call, or several, execute on the pass's framebuffer.
+/// Clears of the pass's framebuffer that one or several calls execute.
 pub(crate) struct ClearCall {
     targets: Vec<ClearTarget>,
-    /// For each color attachment of the pass, true if it holds integers.
+    /// For each colour attachment of the pass, true if it holds integers.
     integers: Vec<bool>,
     rect: Option<[i32; 4]>,
     way: PathClears,
@@ -21,8 +22,8 @@ pub(crate) struct ClearCall {
     packed: bool,
 }
 
-/// Returns clear commands with the draws before which they are executed. `integers` tells for each color attachment if
-/// it holds integers.
+/// Returns clear commands, each with the index of the draw that it precedes. `integers` says of each
+/// colour attachment whether it holds integers.
 pub(crate) fn commands<'c>(
     clears: impl Iterator<Item = &'c Clear>,
     integers: &[bool],
@@ -49,7 +50,7 @@ pub(crate) fn commands<'c>(
 }
 
 impl ClearCall {
-    /// Returns the clears that a pass's load operations stand for.
+    /// Returns the clears that perform a pass's load operations.
     pub(crate) fn loads(
         pass: &Pass,
         integers: &[bool],
@@ -61,8 +62,8 @@ impl ClearCall {
         calls.into_iter().map(|(_, call)| call).collect()
     }
 
-    /// True if one call clears what both of two calls clear: the same texels of different attachments, and colors of one
-    /// value under one mask.
+    /// Returns true if one call can replace both: they clear the same texels of different attachments, and
+    /// colours to one value under one mask.
     fn takes(&self, other: &Self) -> bool {
         let color = |target: &ClearTarget| match *target {
             ClearTarget::Color {
@@ -85,7 +86,7 @@ impl ClearCall {
             && colors().all(|(location, _)| self.integers.get(location) == Some(&false))
     }
 
-    /// True if the call for all draw buffers can clear the targets: integers have no value there.
+    /// Returns true if the call for all draw buffers can clear the targets. It has no values for integers.
     fn is_plain(&self) -> bool {
         self.targets.iter().all(|target| match *target {
             ClearTarget::Color { location, .. } => self.integers.get(location) == Some(&false),
@@ -98,13 +99,13 @@ impl ClearCall {
         let gl = &context.gl;
         state::set(gl, glow::RASTERIZER_DISCARD, false);
         let together = self.way == PathClears::Together && self.is_plain();
-        // A rectangle beyond the framebuffer on all sides leaves nothing out.
+        // A rectangle that extends beyond the framebuffer on all sides has no effect.
         let rect = self.rect.or(together.then_some([-9, -7, 0x4000, 0x4000]));
         state::set(gl, glow::SCISSOR_TEST, rect.is_some());
-        // SAFETY: the context is current; the entry points are of version 3, or known.
+        // SAFETY: the context is current; the entry points are part of version 3, or known.
         unsafe {
             match (rect, context.entry_points.scissor_array) {
-                // Of several, clears obey the first (OpenGL 4.5, 14.9.2).
+                // Clears obey the first of several rectangles (OpenGL 4.5, 14.9.2).
                 (Some(rect), Some(scissors)) if together => {
                     let rects = [rect, [1, 0, 2, 1]];
                     scissors(0, 2, rects.as_ptr().cast());
@@ -125,14 +126,14 @@ impl ClearCall {
         }
     }
 
-    /// Clears by the call for all draw buffers, of which others than the targets are taken away.
+    /// Clears by the call for all draw buffers, with only the targets left as draw buffers.
     ///
     /// # Safety
     /// The context is current, and the scissor is set.
     unsafe fn clear_together(&self, gl: &glow::Context, es: bool) {
         let mut buffers = vec![glow::NONE; self.integers.len().max(1)];
         let mut mask = 0;
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe {
             for target in &self.targets {
                 match *target {
@@ -183,10 +184,10 @@ impl ClearCall {
         }
     }
 
-    /// Leaves undefined what is cleared, if no mask keeps a part of it.
+    /// Leaves undefined what the clear will overwrite, unless a mask keeps a part of it.
     ///
     /// # Safety
-    /// The context is current and has the functions.
+    /// The context is current and has the invalidation functions.
     unsafe fn invalidate(&self, context: &Context) {
         if self.targets.iter().any(ClearTarget::is_masked) {
             return;
@@ -206,7 +207,7 @@ impl ClearCall {
                 }
             }
         }
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe {
             match self.rect {
                 None => context
@@ -226,7 +227,7 @@ impl ClearCall {
     /// # Safety
     /// The context is current, and the scissor is set.
     unsafe fn clear(&self, gl: &glow::Context, target: &ClearTarget) {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe {
             match *target {
                 ClearTarget::Color {
@@ -269,17 +270,17 @@ impl ClearCall {
     }
 }
 
-/// Sets the mask of colors.
+/// Sets the colour write mask.
 ///
 /// # Safety
 /// The context is current.
 unsafe fn color_mask(gl: &glow::Context, write_mask: u8) {
     let [r, g, b, a] = [1, 2, 4, 8].map(|bit| write_mask & bit != 0);
-    // SAFETY: the caller's.
+    // SAFETY: upheld by the caller.
     unsafe { gl.color_mask(r, g, b, a) };
 }
 
-/// Returns the attachment points of depth, stencil or both.
+/// Returns the attachment points of depth, stencil, or both. `packed` is true if they are one attachment.
 fn depth_stencil_points(depth: bool, stencil: bool, packed: bool) -> Vec<u32> {
     if depth && stencil && packed {
         return vec![glow::DEPTH_STENCIL_ATTACHMENT];
@@ -307,8 +308,8 @@ pub(crate) fn discards(pass: &Pass, packed: bool) -> Vec<u32> {
     points
 }
 
-/// Discards attachments of the bound framebuffer. Without the function they stay as they are, which is one
-/// of the contents that they may have.
+/// Discards attachments of the bound framebuffer. Without the function they keep their contents, which is
+/// also allowed.
 pub(crate) fn discard(context: &Context, points: &[u32]) {
     if context.caps.invalidate && !points.is_empty() {
         // SAFETY: the context is current and has the function.

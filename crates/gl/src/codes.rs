@@ -32,7 +32,7 @@ pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
     }
 }
 
-/// Returns, of each channel, the first bit in a texel of client memory and the number of bits.
+/// Returns, for each channel, its first bit in a texel of client memory and its number of bits.
 pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
     let channels = (0..).zip(format.color_channels());
     match layout(format) {
@@ -46,7 +46,7 @@ pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
     }
 }
 
-/// Returns the client image of codes.
+/// Returns codes as a client image.
 pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     match layout(format) {
@@ -79,7 +79,7 @@ pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
     }
 }
 
-/// Client integers have native byte order.
+/// Appends an integer. Client integers have native byte order.
 fn put(bytes: &mut Vec<u8>, word: u32, size: usize) {
     match size {
         1 => bytes.push(word as u8),

@@ -12,12 +12,12 @@ use glow::HasContext;
 use std::ffi::{CStr, c_char};
 use std::sync::PoisonError;
 
-/// A lost context may report errors forever.
+/// The largest number of errors fetched at once: a lost context can report errors forever.
 const MAX_ERRORS: usize = 16;
 
 const GPU_DISJOINT_EXT: u32 = 0x8FBB;
 
-/// A context with everything of the same lifetime.
+/// A context, and everything with the same lifetime.
 pub(crate) struct Context {
     pub(crate) gl: glow::Context,
     pub(crate) caps: Caps,
@@ -25,7 +25,7 @@ pub(crate) struct Context {
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
     pub(crate) entry_points: EntryPoints,
-    // Fields drop in order: the driver may write to the log until the context is destroyed.
+    // Fields drop in order: the driver can write to the log until the context is destroyed.
     egl: EglContext,
     log: Box<Log>,
 }
@@ -74,7 +74,7 @@ impl Context {
             egl,
             log: Box::default(),
         };
-        // A query of an unknown target would be an error.
+        // Querying an unknown target would be an error.
         let Caps {
             timer,
             samples_passed,
@@ -105,7 +105,7 @@ impl Context {
         })
     }
 
-    /// Returns EGL's name of the driver, if any, and the vendor.
+    /// Returns EGL's name of the driver, if it has one, and the vendor.
     pub(crate) fn driver_id(&self) -> String {
         match self.egl.driver() {
             Some(driver) => format!("{driver}, {}", self.names.vendor),
@@ -113,12 +113,12 @@ impl Context {
         }
     }
 
-    /// Returns true for a software rasterizer, by the names that Mesa, SwiftShader and ANGLE use.
+    /// Returns true for a software rasterizer, recognized by the names that Mesa, SwiftShader and ANGLE use.
     pub(crate) fn is_software(&self) -> bool {
         let renderer = self.names.renderer.to_lowercase();
         let known = ["llvmpipe", "softpipe", "swiftshader", "swrast", "lavapipe"];
         known.iter().any(|name| renderer.contains(name))
-            // With zink, EGL's device does not describe the Vulkan device behind it.
+            // With zink, EGL's device does not describe the Vulkan device that zink uses.
             || (self.egl.is_software() && !renderer.starts_with("zink"))
     }
 
@@ -147,7 +147,7 @@ impl Context {
 
     /// Returns the result of a finished counter query.
     pub(crate) fn query_result(&self, query: glow::Query) -> u64 {
-        // ES without timer queries has 32-bit results only, enough for a boolean.
+        // ES without timer queries has only 32-bit results, which suffice for a boolean.
         let Some(get) = self.entry_points.get_query_result else {
             // SAFETY: the context is current and the query has ended.
             return u64::from(unsafe {
@@ -192,7 +192,7 @@ impl Context {
         std::mem::take(&mut *self.log.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Fetches pending errors and returns the most severe.
+    /// Fetches pending errors and returns the most severe one.
     pub(crate) fn check(&self, what: &str) -> Result<(), BackendError> {
         let mut result = Ok(());
         for _ in 0..MAX_ERRORS {
@@ -242,7 +242,7 @@ impl Names {
         let get: Option<GetString> = unsafe { function_at(egl.proc_address(c"glGetString")) };
         let get = get.ok_or_else(|| unusable("glGetString"))?;
         let text = |name, what| {
-            // SAFETY: a context is current, and GL's strings are terminated.
+            // SAFETY: a context is current, and GL's strings are zero-terminated.
             let pointer = unsafe { get(name) };
             if pointer.is_null() {
                 return Err(unusable(what));

@@ -1,4 +1,4 @@
-//! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
+//! The counters of a scene: queries around draws, and a storage buffer in which shaders count.
 
 use crate::context::Context;
 use crate::pool::Pool;
@@ -13,7 +13,7 @@ use glow::HasContext;
 #[derive(Default)]
 pub(crate) struct Counters {
     kinds: Vec<CounterKind>,
-    /// The queries of all draws with the index of their counter.
+    /// The queries of all draws, with the index of their counter.
     queries: Vec<(usize, Query)>,
     /// The distance between two counters in the storage buffer, in bytes.
     stride: usize,
@@ -22,7 +22,7 @@ pub(crate) struct Counters {
 }
 
 impl Counters {
-    /// Returns a scene's counters, without queries yet.
+    /// Returns a scene's counters, still without queries.
     pub(crate) fn new(context: &Context, scene: &Scene) -> Self {
         let alignment = context.caps.storage_alignment.unwrap_or(1);
         Self {
@@ -33,7 +33,7 @@ impl Counters {
         }
     }
 
-    /// Returns the size of the storage buffer in bytes: one place per counter, of any kind.
+    /// Returns the size of the storage buffer in bytes. If shaders count, every counter has a place in it.
     pub(crate) fn storage_size(&self) -> usize {
         if self.kinds.contains(&CounterKind::ShaderRuns) {
             self.stride * self.kinds.len()
@@ -42,7 +42,7 @@ impl Counters {
         }
     }
 
-    /// Returns the queries of a scene.
+    /// Creates and returns the queries of a scene.
     pub(crate) fn queries(
         &mut self,
         context: &Context,
@@ -68,7 +68,7 @@ impl Counters {
         Some((index * self.stride) as i32)
     }
 
-    /// Returns the counts after the draws.
+    /// Returns the counts. The draws must be done.
     pub(crate) fn read(
         &self,
         context: &Context,
@@ -103,8 +103,8 @@ impl Counters {
     ) -> Result<Vec<u64>, BackendError> {
         let gl = &context.gl;
         let mut bytes = vec![0_u8; size];
-        // SAFETY: the context is current, has storage buffers, and the buffer is of this size; what
-        // is mapped is copied before it is unmapped.
+        // SAFETY: the context is current, has storage buffers, and the buffer has this size; the mapped bytes
+        // are copied before the buffer is unmapped.
         unsafe {
             gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
             let target = glow::SHADER_STORAGE_BUFFER;
@@ -132,23 +132,23 @@ impl Counters {
         Ok(bytes.chunks_exact(self.stride).map(first).collect())
     }
 
-    /// Returns the queries to the pool, or deletes them after a failure.
+    /// Returns the queries to the pool, or deletes them if they are not reusable.
     pub(crate) fn give_back(self, context: &Context, pool: &mut Pool, reusable: bool) {
         for (_, query) in self.queries {
             if reusable {
                 pool.put_query(context, query);
             } else {
-                // SAFETY: the context is current and the object is its own.
+                // SAFETY: the context is current and owns the object.
                 unsafe { context.gl.delete_query(query.object) };
             }
         }
     }
 }
 
-/// Zeroes the first bytes of a storage buffer, after all writes of earlier shaders.
+/// Sets the first bytes of a storage buffer to zero, after all writes of earlier shaders.
 pub(crate) fn zero(context: &Context, buffer: glow::Buffer, size: usize) {
     let gl = &context.gl;
-    // SAFETY: the context is current, has storage buffers, and the buffer is not smaller.
+    // SAFETY: the context is current, has storage buffers, and the buffer has at least this size.
     unsafe {
         gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
         gl.bind_buffer(glow::SHADER_STORAGE_BUFFER, Some(buffer));

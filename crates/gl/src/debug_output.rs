@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::sync::{Mutex, PoisonError};
 
-/// The most debug messages kept between two calls of [`crate::context::Context::messages`].
+/// The largest number of debug messages kept between two calls of [`crate::context::Context::messages`].
 const MAX_MESSAGES: usize = 1000;
 
 /// The messages collected since they were last taken.

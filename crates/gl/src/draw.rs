@@ -17,7 +17,7 @@ use glow::HasContext;
 
 const PARAMETER_BUFFER: u32 = 0x80EE;
 
-/// Buffers that all draws share, with their sizes in bytes.
+/// The buffers that all draws share, with their sizes in bytes.
 #[derive(Default)]
 pub(crate) struct Inputs {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
@@ -25,9 +25,9 @@ pub(crate) struct Inputs {
     pub(crate) params: Option<(glow::Buffer, usize)>,
     /// The arguments of indirect draws.
     pub(crate) arguments: Option<(glow::Buffer, usize)>,
-    /// The zeros that are bound as numbers of draws, beside calls that read none.
+    /// Zeros, bound as the number of draws during calls that do not read it.
     pub(crate) zeros: Option<(glow::Buffer, usize)>,
-    /// The storage buffer that shaders count in.
+    /// The storage buffer in which shaders count.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
     /// The scene's pool.
     pub(crate) pool: Option<(glow::Buffer, usize)>,
@@ -54,30 +54,30 @@ pub(crate) struct Pass {
     pub(crate) draws: Vec<DrawCall>,
     /// The clears of load operations.
     pub(crate) loads: Vec<ClearCall>,
-    /// Clear commands with the draws before which they are executed, in order.
+    /// Clear commands in order, each with the index of the draw that it precedes.
     pub(crate) clears: Vec<(usize, ClearCall)>,
-    /// True if state that does not change is not set again.
+    /// True if state that does not change between draws is set only once.
     pub(crate) keeps_state: bool,
-    /// The attachment points that are discarded at the end.
+    /// The attachment points that the pass discards at its end.
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<Resolve>,
-    /// The queries that begin before the pass, and those that end after it.
+    /// The queries that begin before the pass, and the queries that end after it.
     pub(crate) queries: Enclosing<Query>,
 }
 
-/// The resolve of an attachment.
+/// A resolve of an attachment to another.
 pub(crate) struct Resolve {
     pub(crate) from: usize,
     pub(crate) to: usize,
-    /// The surface that parts are resolved to, each to another place, and moved from; `None` if the attachment is resolved
-    /// at once.
+    /// The intermediate surface: parts are resolved to other places of it, and moved from there. `None` if
+    /// the attachment is resolved in one step.
     pub(crate) between: Option<Surface>,
 }
 
 pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
-    /// The program of another draw, the same to the other of two layers.
+    /// The program of a second draw, the same to the other of two layers.
     pub(crate) again: Option<glow::Program>,
     pub(crate) state: DrawState,
     /// State that is set before the draw's own.
@@ -85,21 +85,21 @@ pub(crate) struct DrawCall {
     pub(crate) textures: Vec<glow::Texture>,
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
-    /// The queries that begin before the draw, and those that end after it.
+    /// The queries that begin before the draw, and the queries that end after it.
     pub(crate) queries: Enclosing<Query>,
-    /// The offset of the counter, if the shader counts.
+    /// The offset of the counter in bytes, if the shader counts.
     pub(crate) runs: Option<i32>,
     /// True if the shader uses the pool.
     pub(crate) uses_pool: bool,
-    /// The offset of the parameter block, if the shader has one.
+    /// The offset of the parameter block in bytes, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
     pub(crate) fetched: Fetched,
-    /// True if primitive restart is on although nothing is indexed.
+    /// True if primitive restart is enabled although the draw has no indices.
     pub(crate) restarts_unindexed: bool,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
-    /// True if the commands are flushed behind the draw.
+    /// True if the commands are flushed after the draw.
     pub(crate) flushed: bool,
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn draw_all(
     attachments: &[Attachment],
 ) {
     let gl = &context.gl;
-    // SAFETY: the context is current and all objects are its own.
+    // SAFETY: the context is current and owns all objects.
     unsafe {
         gl.bind_vertex_array(Some(vertex_array));
         gl.bind_buffer(
@@ -127,7 +127,7 @@ pub(crate) fn draw_all(
         }
     }
     let mut closed = false;
-    // The draw whose state is set.
+    // The state that is set, if it is a draw's.
     let mut set: Option<&DrawState> = None;
     for pass in passes {
         if std::mem::take(&mut closed) {
@@ -137,7 +137,7 @@ pub(crate) fn draw_all(
         if inputs.indices.is_some() {
             state::set_restart(context);
         }
-        // SAFETY: the framebuffer is the context's own.
+        // SAFETY: the context owns the framebuffer.
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
         pass.queries.begun.iter().for_each(|q| q.begin(context));
         for clear in &pass.loads {
@@ -170,7 +170,7 @@ pub(crate) fn draw_all(
             }
         }
         if !pass.discards.is_empty() {
-            // SAFETY: as above. A resolve has bound other framebuffers.
+            // SAFETY: as above. A resolve bound other framebuffers.
             unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
             discard(context, &pass.discards);
         }
@@ -178,7 +178,7 @@ pub(crate) fn draw_all(
     }
 }
 
-/// Draws, with the draw's state if it `is_set` not yet.
+/// Draws, and sets the draw's state first unless `is_set` is true.
 fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
     let gl = &context.gl;
     if let Some(other) = &draw.other {
@@ -187,8 +187,8 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
     if !is_set {
         draw.state.apply(context);
     }
-    // SAFETY: the context is current and all objects are its own; vertices, indices and blocks
-    // were counted when the buffers were filled.
+    // SAFETY: the context is current and owns all objects; vertices, indices and blocks were counted when the
+    // buffers were filled.
     unsafe {
         gl.use_program(Some(draw.program));
         if let (Some(offset), Some((buffer, _))) = (draw.params, inputs.params) {
@@ -243,12 +243,12 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
         }
         draw.state.end_advanced(context);
         if numbers.is_some() {
-            // Mesa takes numbers of draws from a bound buffer for all indirect draws.
+            // Mesa takes the number of draws from a bound buffer for all indirect draws.
             gl.bind_buffer(PARAMETER_BUFFER, None);
         }
         draw.queries.ended.iter().for_each(|q| q.end(context));
         if storage.is_some() {
-            // The next draw may use the same counter, or read the pool.
+            // The next draw might use the same counter, or read the pool.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
         }
         if draw.flushed {
@@ -261,7 +261,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
 fn resolve(context: &Context, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [w, h] = from.size().map(|side| side as i32);
-    // SAFETY: the context is current and the framebuffers are its own.
+    // SAFETY: the context is current and owns the framebuffers.
     unsafe {
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
@@ -270,12 +270,13 @@ fn resolve(context: &Context, from: &Surface, to: &Surface) {
     }
 }
 
-/// Resolves the parts of a color attachment to other places of a surface, and copies each to its place in an attachment.
+/// Resolves the parts of a colour attachment to other places of an intermediate surface, and copies each part
+/// to its place in the target attachment.
 fn move_resolved(context: &Context, from: &Attachment, between: &Surface, to: &Attachment) {
     let pieces = Blits::new(PathEnd::BlitPart, to.surface.size());
     let pieces = pieces.map(|blits| blits.pieces(Aspect::Color));
     let pieces = pieces.unwrap_or_default();
-    // What a resolve that is lost leaves behind is seen.
+    // The spoiled values show if the driver loses a resolve.
     spoil(context, to.format, between);
     for piece in &pieces {
         let (source, target) = (&from.surface, between);
@@ -297,7 +298,7 @@ fn move_resolved(context: &Context, from: &Attachment, between: &Surface, to: &A
     }
 }
 
-/// Copies the colors of a part of a surface to a place of another.
+/// Copies the colours of a part of a surface to a place in another.
 fn copy_part(
     context: &Context,
     (from, start): (&Surface, [u32; 2]),
@@ -311,7 +312,7 @@ fn copy_part(
     };
     let ([left, top, right, bottom], [to_left, to_top, to_right, to_bottom]) =
         (corners(start), corners(place));
-    // SAFETY: the context is current and the framebuffers are its own.
+    // SAFETY: the context is current and owns the framebuffers.
     unsafe {
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));

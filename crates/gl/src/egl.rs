@@ -19,7 +19,7 @@ type Config = *mut c_void;
 type ContextHandle = *mut c_void;
 type Device = *mut c_void;
 
-/// Constants of extensions, which `khronos-egl` lacks.
+/// Constants of extensions that `khronos-egl` lacks.
 mod ext {
     pub(super) const CONTEXT_FLAGS_KHR: i32 = 0x30FC;
     pub(super) const CONTEXT_OPENGL_DEBUG_BIT_KHR: i32 = 0x0001;
@@ -36,11 +36,11 @@ mod ext {
 const SYSTEM: &str = "libEGL.so.1";
 const INSTALL_EGL: &str = "apt-get install libegl1 libgl1-mesa-dri";
 
-/// The EGL platform that selects a driver.
+/// The EGL platform, which selects the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Platform {
-    /// `EGL_MESA_platform_surfaceless`, or the default display without it. The environment selects
-    /// the driver.
+    /// `EGL_MESA_platform_surfaceless`, or the default display if EGL lacks it. The environment selects the
+    /// driver.
     Surfaceless,
     /// The device with this index in the order of `EGL_EXT_device_enumeration`.
     Device(usize),
@@ -57,8 +57,8 @@ pub struct EglDevice {
     pub drm_node: Option<String>,
     /// The renderer's name (`EGL_EXT_device_query_name`).
     pub renderer: Option<String>,
-    /// The driver's short name in lower case: `radeonsi`, `nvidia`. `None` if EGL has no name, and
-    /// for software devices, which are not opened.
+    /// The driver's short name in lower case: `radeonsi`, `nvidia`. `None` if EGL has no name, and for
+    /// software devices, which are not opened for it.
     pub driver: Option<String>,
 }
 
@@ -72,15 +72,15 @@ type QueryDeviceString = unsafe extern "system" fn(Device, i32) -> *const c_char
 type QueryDisplayAttrib = unsafe extern "system" fn(Display, i32, *mut isize) -> u32;
 type GetDisplayDriverName = unsafe extern "system" fn(Display) -> *const c_char;
 
-/// A loaded EGL library, never unloaded: some drivers do not survive it.
+/// A loaded EGL library. It is never unloaded, since some drivers do not survive that.
 pub(crate) struct Egl {
     functions: Dynamic<Arc<Library>, EGL1_4>,
-    /// `khronos-egl` declares that this returns a function, which null is not.
+    /// `khronos-egl` declares that this returns a function pointer, which cannot be null.
     get_proc_address: GetProcAddress,
     extensions: HashSet<String>,
 }
 
-/// Returns the entry points of a library, by default the system's, loaded at the first call.
+/// Returns the entry points of a library, loaded at the first call. The default is the system's.
 pub(crate) fn library(library: Option<&Path>) -> Result<&'static Egl, Unavailable> {
     type Loaded = (PathBuf, Result<&'static Egl, Unavailable>);
     static LOADED: Mutex<Vec<Loaded>> = Mutex::new(Vec::new());
@@ -113,7 +113,7 @@ impl OpenDisplay {
         self.extensions.contains(extension)
     }
 
-    /// Returns the attribute that asks for reset notification, if there is one.
+    /// Returns the attribute that requests reset notification, if EGL has one.
     fn robustness(&self, es: bool) -> Option<i32> {
         if self.is_1_5 && !es {
             Some(egl::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY)
@@ -124,7 +124,7 @@ impl OpenDisplay {
         }
     }
 
-    /// Returns the terminated list of a context's attributes.
+    /// Returns the terminated attribute list of a context.
     fn context_attributes(
         &self,
         request: ContextRequest,
@@ -174,7 +174,7 @@ impl Egl {
         // SAFETY: a library of this name has the types of the EGL headers.
         let functions = unsafe { Dynamic::<_, EGL1_4>::load_required(Arc::clone(&library)) }
             .map_err(|e| unusable(e.to_string()))?;
-        // SAFETY: the type is that of the EGL header, and `functions` keeps the library.
+        // SAFETY: the EGL header declares this type, and `functions` keeps the library loaded.
         let get_proc_address = *unsafe { library.get::<GetProcAddress>(b"eglGetProcAddress\0") }
             .map_err(|e| unusable(e.to_string()))?;
         let mut egl = Self {
@@ -186,29 +186,28 @@ impl Egl {
         Ok(egl)
     }
 
-    /// Returns the address of an EGL extension's or a GL entry point. An address is no proof of
-    /// support: dispatch libraries return stubs for unknown names.
+    /// Returns the address of an entry point of GL or of an EGL extension. An address does not prove support:
+    /// dispatch libraries return stubs for unknown names.
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
-        // SAFETY: the name is terminated.
+        // SAFETY: the name is zero-terminated.
         unsafe { (self.get_proc_address)(name.as_ptr()) }
     }
 
-    /// Returns a function, if EGL has one of the client extensions that define it.
+    /// Returns a function if EGL has one of the client extensions that define it.
     ///
     /// # Safety
     /// `F` is the type of the function of this name.
     unsafe fn function<F: Copy>(&self, extensions: &[&str], name: &CStr) -> Option<F> {
         let supported = extensions.iter().any(|e| self.extensions.contains(*e));
         let address = supported.then(|| self.proc_address(name))?;
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { function_at(address) }
     }
 
     fn display_extensions(&self, display: Display) -> HashSet<String> {
-        // SAFETY: EGL takes any display handle it made, and none for client extensions.
+        // SAFETY: EGL accepts any display handle that it returned, and null for client extensions.
         let text = unsafe { text(self.functions.eglQueryString(display, egl::EXTENSIONS)) };
-        // Without client extensions the query fails. Its error is cleared, so that no later call
-        // reports it.
+        // Without client extensions the query fails. This clears the error, so that no later call reports it.
         if text.is_none() {
             self.error();
         }
@@ -229,7 +228,7 @@ impl Egl {
             .ok_or_else(|| Unavailable::new("EGL lacks EGL_EXT_device_enumeration", INSTALL_EGL))?;
         let mut devices = [std::ptr::null_mut(); 64];
         let mut count = 0;
-        // SAFETY: the array is as long as it is said to be.
+        // SAFETY: the array has the length that is passed.
         let done = unsafe { query(devices.len() as i32, devices.as_mut_ptr(), &mut count) };
         if done == 0 {
             let reason = format!("eglQueryDevicesEXT failed: {}", self.error());
@@ -280,7 +279,7 @@ impl Egl {
             unsafe { self.function(&[extension], c"eglGetPlatformDisplayEXT") };
         let get =
             get.ok_or_else(|| Unavailable::new(format!("EGL lacks {extension}"), INSTALL_EGL))?;
-        // SAFETY: the native handle is what the platform asks for: none, or a device.
+        // SAFETY: the native handle is what the platform requires: null, or a device.
         let display = unsafe { get(platform, native, [egl::NONE].as_ptr()) };
         self.some_display(display, "EGL has no display for this platform")
     }
@@ -309,7 +308,7 @@ impl Egl {
         self.is_software(device as Device)
     }
 
-    /// Returns the driver's short name of an initialised display, or else the first word of its
+    /// Returns the short name of an initialised display's driver, or else the first word of the display's
     /// vendor.
     fn driver_name(&self, display: Display) -> Option<String> {
         let known = self.display_extensions(display);
@@ -333,7 +332,7 @@ impl Egl {
         Some(name)
     }
 
-    /// Returns the driver's short name of a device that is not open.
+    /// Returns the short name of the driver of a device that is not open.
     fn device_driver(&self, index: usize) -> Option<String> {
         let display = self.display(Platform::Device(index)).ok()?;
         // SAFETY: the display came from EGL; the version pointers may be null.
@@ -345,11 +344,11 @@ impl Egl {
             self.error();
             return None;
         }
-        // Terminating the display would invalidate other contexts of the process on it.
+        // The display is not terminated, which would invalidate the process's other contexts on it.
         self.driver_name(display)
     }
 
-    /// Opens the display and creates a context of the highest available version of `versions`.
+    /// Opens the display, and creates a context of the first version of `versions` that the driver supports.
     pub(crate) fn context(
         &'static self,
         platform: Platform,
@@ -362,12 +361,12 @@ impl Egl {
         let robust = opened.robustness(request.es);
         let mut failure = String::new();
         for &version in versions {
-            // A driver without reset notification refuses the first attempt only.
+            // A driver without reset notification refuses only the first attempt.
             let strategies = [robust, None];
             for &strategy in &strategies[usize::from(robust.is_none())..] {
                 let list = opened.context_attributes(request, version, strategy);
-                // SAFETY: the display is initialised, the config is its own or none, and the list
-                // is terminated.
+                // SAFETY: the display is initialised, the config is one of its own or null, and the list is
+                // terminated.
                 let context = unsafe {
                     self.functions.eglCreateContext(
                         display,
@@ -395,7 +394,7 @@ impl Egl {
         ))
     }
 
-    /// Initialises a display that has contexts without a surface.
+    /// Initialises a display. It must support contexts without a surface.
     fn open(&self, platform: Platform) -> Result<OpenDisplay, Unavailable> {
         let display = self.display(platform)?;
         let (mut major, mut minor) = (0, 0);
@@ -431,8 +430,7 @@ impl Egl {
         Ok(opened)
     }
 
-    /// Makes contexts be of OpenGL or OpenGL ES, and returns their configuration, or null where
-    /// they need none.
+    /// Selects OpenGL or OpenGL ES for new contexts. Returns their configuration, or null if they need none.
     fn bind_api(&self, opened: &OpenDisplay, es: bool) -> Result<Config, Unavailable> {
         let api = if es {
             egl::OPENGL_ES_API
@@ -541,15 +539,14 @@ pub(crate) struct EglContext {
 }
 
 impl EglContext {
-    /// Makes the context current on this thread. The error holds true if the context is lost, and
-    /// the name of EGL's error.
+    /// Makes the context current on this thread. The error consists of true if the context is lost, and the
+    /// name of EGL's error.
     pub(crate) fn make_current(&self) -> Result<(), (bool, String)> {
         let functions = &self.egl.functions;
         let none = std::ptr::null_mut();
         // SAFETY: display and context live; no surface is needed (EGL_KHR_surfaceless_context).
         unsafe {
-            // A query costs less than a cache, which other users of EGL in this process could
-            // invalidate.
+            // A query costs less than a cache, which other users of EGL in this process could invalidate.
             if functions.eglGetCurrentContext() == self.context
                 || functions.eglMakeCurrent(self.display, none, none, self.context) != 0
             {
@@ -580,8 +577,8 @@ impl Drop for EglContext {
     fn drop(&mut self) {
         let functions = &self.egl.functions;
         let none = std::ptr::null_mut();
-        // SAFETY: display and context live. The display is shared by all contexts of the process,
-        // so it is never terminated.
+        // SAFETY: display and context live. All contexts of the process share the display, so it is never
+        // terminated.
         unsafe {
             if functions.eglGetCurrentContext() == self.context {
                 functions.eglMakeCurrent(self.display, none, none, none);
@@ -591,7 +588,7 @@ impl Drop for EglContext {
     }
 }
 
-/// Returns the function at an address, if it is not null.
+/// Returns the function at an address, or `None` if the address is null.
 ///
 /// # Safety
 /// `F` is the type of the function there.
@@ -601,15 +598,15 @@ pub(crate) unsafe fn function_at<F: Copy>(address: *const c_void) -> Option<F> {
     (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
 }
 
-/// Returns a driver's string, if it is not null.
+/// Returns a driver's string, or `None` if it is null.
 ///
 /// # Safety
-/// The pointer is null or a terminated string.
+/// The pointer is null or points to a zero-terminated string.
 unsafe fn text(pointer: *const c_char) -> Option<String> {
     if pointer.is_null() {
         return None;
     }
-    // SAFETY: not null, and the caller promises a terminated string.
+    // SAFETY: not null, and the caller guarantees a zero-terminated string.
     let text = unsafe { CStr::from_ptr(pointer) };
     Some(text.to_string_lossy().into_owned())
 }

@@ -5,7 +5,7 @@ use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
 
-/// Offsets of indices are passed as pointers.
+/// The offset of indices, which is passed as a pointer.
 type Offset = *const c_void;
 
 type DebugCallback =
@@ -13,8 +13,8 @@ type DebugCallback =
 
 macro_rules! entry_points {
     ($($field:ident: fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// Entry points that glow lacks, or whose presence it takes for support; `None` if neither
-        /// the version nor an extension defines them.
+        /// Entry points that glow lacks, or whose presence it takes for support. `None` if neither the
+        /// version nor an extension defines them.
         #[derive(Default)]
         pub(crate) struct EntryPoints {
             $(pub(crate) $field: Option<unsafe extern "system" fn($($arg),*) $(-> $ret)?>,)*
@@ -63,8 +63,8 @@ impl EntryPoints {
         let mut loaded = Self::default();
         macro_rules! load {
             ($field:ident, $name:literal) => {
-                // SAFETY: the specification gives this name the field's type, and the version or
-                // extension that promises it has been seen.
+                // SAFETY: the specification gives this name the field's type, and the caller checked the
+                // version or extension that defines it.
                 loaded.$field = unsafe { function_at(egl.proc_address($name)) };
             };
         }

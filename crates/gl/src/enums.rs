@@ -1,4 +1,4 @@
-//! GL's values of the model's enumerations.
+//! GL's values of the scene model's enumerations.
 
 use etalon_scene::{
     AddressMode, AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, BlendState,
@@ -92,7 +92,7 @@ pub(crate) fn factor(factor: BlendFactor) -> u32 {
     }
 }
 
-/// The equation of an advanced mode (KHR_blend_equation_advanced, New Tokens).
+/// Returns the equation of an advanced blend mode (KHR_blend_equation_advanced, New Tokens).
 pub(crate) fn advanced_equation(mode: AdvancedBlend) -> u32 {
     match mode {
         AdvancedBlend::Multiply => 0x9294,
@@ -109,7 +109,7 @@ pub(crate) fn advanced_equation(mode: AdvancedBlend) -> u32 {
     }
 }
 
-/// The word of a mode in the layout qualifier that allows it (GLSL ES 3.20, 4.4.2.2).
+/// Returns the word of a mode in the layout qualifier that allows it (GLSL ES 3.20, 4.4.2.2).
 pub(crate) fn blend_support(mode: AdvancedBlend) -> &'static str {
     match mode {
         AdvancedBlend::Multiply => "multiply",

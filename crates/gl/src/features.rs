@@ -10,7 +10,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let known = |feature: &Feature| match feature {
         Feature::ClipDistances | Feature::ClipDistanceMask => caps.clip_distances,
         Feature::CullDistances => caps.cull_distances,
-        // There are no command buffers.
+        // OpenGL has no command buffers.
         Feature::InheritedQueries => false,
         // Part of version 3.
         Feature::CentroidInterpolation
@@ -41,7 +41,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::DepthClamp => caps.depth_clamp,
         Feature::DualSourceBlending => caps.dual_source,
         Feature::ForcedEarlyTests => caps.early_tests,
-        // In ES it is an error to write `gl_FragDepth` then (GLSL ES 3.20, 4.4.1, Fragment Shader Inputs).
+        // In ES, such a shader must not write `gl_FragDepth` (GLSL ES 3.20, 4.4.1, Fragment Shader Inputs).
         Feature::ForcedEarlyTestsWithDepth => caps.early_tests && !caps.es,
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
@@ -53,11 +53,11 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::LogicOperations => entry_points.logic_op.is_some(),
         Feature::MinSampleShading => entry_points.min_sample_shading.is_some(),
         Feature::Tessellation => caps.tessellation.is_some(),
-        // The origin of the domain is its lower left corner (OpenGL 4.6, figure 11.1).
+        // The origin of the domain is always its lower left corner (OpenGL 4.6, figure 11.1).
         Feature::UpperLeftDomain => false,
         // Viewport heights are positive.
         Feature::MirroredViewport => false,
-        // A blit leaves the sample open (OpenGL 4.6, 18.3.1; ES 3.2, 16.2.1).
+        // A blit leaves open which sample it takes (OpenGL 4.6, 18.3.1; ES 3.2, 16.2.1).
         Feature::DepthResolveAverage
         | Feature::DepthResolveMax
         | Feature::DepthResolveMin
@@ -73,7 +73,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::SampleMaskOutput
         | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::SampleShading => caps.sample_variables,
-        // A program of ES has a fragment shader, or does not link (OpenGL ES 3.2, 7.3).
+        // In ES, a program without a fragment shader does not link (OpenGL ES 3.2, 7.3).
         Feature::FragmentShaderAbsent | Feature::FragmentShaderAbsentWithColor => !caps.es,
         Feature::StencilExport => caps.stencil_export,
         Feature::FragmentStorage | Feature::StorageCounters => caps.storage_alignment.is_some(),

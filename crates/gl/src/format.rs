@@ -7,14 +7,14 @@ use etalon_frame::{PathViews, TextureFormat};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GlFormat {
     pub(crate) internal: u32,
-    /// Format and type of a client image that every version accepts.
+    /// The format and type of a client image that every version accepts.
     pub(crate) format: u32,
     pub(crate) kind: u32,
     pub(crate) attachment: u32,
 }
 
-/// Returns GL's description of a format. There is none of `bgra8unorm`: GL's `BGRA` is an order in
-/// client memory, and the order of channels in a texture is unspecified.
+/// Returns GL's description of a format. `bgra8unorm` has none: GL's `BGRA` is an order in client memory, and
+/// the order of channels in a texture is unspecified.
 pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     use glow::{
         BYTE, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL, DEPTH_STENCIL_ATTACHMENT, FLOAT,
@@ -85,8 +85,8 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     })
 }
 
-/// Returns the internal format of the textures that attachments of a format are views of; `None` if the path does not
-/// apply to the format (OpenGL 4.6, table 8.22).
+/// Returns the internal format of a texture whose attachment view has this format. `None` if the path does
+/// not apply to the format (OpenGL 4.6, table 8.22).
 pub(crate) fn viewed(format: TextureFormat, views: PathViews) -> Option<u32> {
     let in_class = !matches!(
         format,

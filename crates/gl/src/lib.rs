@@ -5,7 +5,7 @@
 //! selects the driver; a process should load only one. libEGL is loaded at run time.
 //!
 //! `glClipControl(UPPER_LEFT, ZERO_TO_ONE)` sets WebGPU's conventions: row 0 of every image is the
-//! top one, depth is computed as in Vulkan, and windings keep their sense. Without it the vertex
+//! top one, depth is computed as in Vulkan, and windings keep their meaning. Without it the vertex
 //! shaders mirror y and remap z, and the front face is inverted.
 //!
 //! Multisampled attachments are textures, which a shader reads back sample by sample.

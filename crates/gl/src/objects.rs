@@ -1,5 +1,5 @@
-//! The objects of a context that outlive a scene. They are apart from the backend, so that a
-//! prepared scene needs no more than it uses.
+//! The objects of a context that outlive a scene. They are apart from the backend because a prepared scene
+//! needs only these.
 
 use crate::context::Context;
 use crate::pool::Pool;
@@ -27,14 +27,15 @@ pub(crate) struct Objects {
 }
 
 impl Objects {
-    /// Creates the objects and asks about the formats.
+    /// Creates the objects and probes the formats and features.
     pub(crate) fn new(context: &Context) -> Result<(Self, Probed), Unavailable> {
         let gl = &context.gl;
         let refused = |message: String| Unavailable::new(message, "use another driver");
         let probed = probe::probe(context);
-        // The objects of scenes are made behind the probes, so that a recording has them and nothing else.
+        // The objects of scenes are created after the probes, so that a recording has these objects and
+        // nothing else.
         recording::begin(Phase::Prepare);
-        // SAFETY: the context is current and has the limit since version 3.
+        // SAFETY: the context is current, and has had the limit since version 3.
         let (alignment, vertex_array, no_vertices, timer) = unsafe {
             let no_vertices = gl.create_vertex_array().map_err(refused)?;
             let vertex_array = gl.create_vertex_array().map_err(refused)?;

@@ -1,4 +1,4 @@
-//! The options of an adapter: the API, and the way to its driver.
+//! The options of an adapter: the API, and how to reach the driver.
 
 use crate::egl::Platform;
 use etalon_backend::{Fault, RecordedContext};
@@ -24,7 +24,7 @@ pub struct Options {
     pub library: Option<PathBuf>,
     /// Enables debug output. Its messages are returned by [`etalon_backend::Backend::messages`].
     pub debug: bool,
-    /// A fault that a test of the suite plants in the calls to the driver or in what is read back.
+    /// A fault that a test plants in the calls to the driver or in the values read back.
     pub fault: Option<Fault>,
     /// Records the calls of the first scene that is prepared, for [`etalon_backend::Backend::recording`]. The context
     /// then has no timer.
@@ -32,7 +32,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Returns the context of recorded calls; `version` is its major and minor version.
+    /// Returns the context that recorded calls need. `version` is its major and minor version.
     pub(crate) fn recorded_context(&self, version: (u32, u32)) -> RecordedContext {
         RecordedContext::Egl {
             es: self.profile == Profile::Es,

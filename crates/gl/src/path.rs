@@ -1,7 +1,8 @@
-//! A path as OpenGL takes it: the values that a context has, and what each means for an attachment, a draw or
-//! a read.
+//! How OpenGL draws on a path: the values that a context has, and what each means for an attachment, a draw
+//! or a read.
 //!
-//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+//! Other modules call the functions here and do not read the path, so a new value changes only these
+//! functions.
 
 use crate::context::Context;
 use crate::support::{ReadPlan, Support};
@@ -17,8 +18,8 @@ use etalon_scene::{
 };
 use std::collections::BTreeSet;
 
-/// Returns the values that a context with these features has. Formats may lack some of them: [`target`] and
-/// [`end`] say so.
+/// Returns the path values that a context with these features has. A format can lack some of them, as
+/// [`target`] and [`end`] decide.
 pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
     let caps = &context.caps;
     let arrays = context.entry_points.viewport_array.is_some();
@@ -31,7 +32,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => {
             context.entry_points.draw_arrays_indirect_count.is_some()
         }
-        // Up to 4.4, an index also restarts draws without indices (OpenGL 4.2, 2.8.1).
+        // Before 4.5, an index also restarts draws without indices (OpenGL 4.2, 2.8.1).
         PathValue::Draws(PathDraws::RestartUnindexed) => caps.es || caps.version >= (4, 5),
         PathValue::Tests(_) | PathValue::Colors(_) => true,
         PathValue::Draws(_) => true,
@@ -44,12 +45,12 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Viewport(PathViewport::Array) => arrays && caps.second_viewport,
         PathValue::Viewport(_) => arrays,
         PathValue::Layers(PathLayers::Written) => caps.vertex_layer.is_some(),
-        // Several samples are resolved in their places in ES (OpenGL ES 3.2, 16.2.1).
+        // In ES, multisampled resolves cannot move texels (OpenGL ES 3.2, 16.2.1).
         PathValue::Resolves(PathResolves::Moved) => !caps.es,
         PathValue::Views(PathViews::Srgb | PathViews::Uint) => {
             context.entry_points.texture_view.is_some()
         }
-        // OpenGL has neither passes with objects, nor pipelines, nor command buffers, nor render areas.
+        // OpenGL has no pass objects, pipelines, command buffers or render areas.
         PathValue::Pass(
             PathPass::DynamicRendering | PathPass::RenderPass | PathPass::SecondSubpass,
         )
@@ -78,13 +79,13 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
     PathValue::all().into_iter().filter(has).collect()
 }
 
-/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
-/// samples, whose positions only textures with one layer promise; depth in three dimensions; texels of a
-/// renderbuffer that are uploaded or that a shader reads.
+/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
+/// plain: multisampled attachments, since only textures with one layer guarantee sample positions; depth in a
+/// 3D texture; and renderbuffers whose texels are uploaded or read by a shader.
 pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> PathTarget {
     let attachment = &scene.attachments[index];
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
-    // Shaders of scenes know textures of two dimensions only.
+    // The shaders of scenes read only 2D textures.
     let sampled = draws.any(|d| d.textures.contains(&index));
     let fetched = scene.read.contains(&index)
         && support.is_some_and(|s| by_shader(s.read) || reads_by_shader(scene, index, s));
@@ -94,7 +95,7 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
             PathTarget::Plain | PathTarget::MipLevel => true,
             PathTarget::ArrayLayer => !sampled,
             PathTarget::Slice3d => !sampled && attachment.format.is_color(),
-            // No shader fetches texels of a cube.
+            // No shader fetches texels of a cube map.
             PathTarget::CubeFace => {
                 !sampled && !fetched && attachment.size[0] == attachment.size[1]
             }
@@ -110,11 +111,12 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
     }
 }
 
-/// The layers that are drawn to where passes have three, one of which is read.
+/// The layers that passes draw to if they have three; one of them is read.
 pub(crate) const DRAWN_LAYERS: [u8; 2] = [1, 2];
 
-/// True if passes draw to several layers: a layer is another one for shaders that read it, and of several samples only
-/// textures with one layer promise positions.
+/// Returns true if passes draw to several layers. They do not if a shader reads a drawn attachment, since a
+/// layer needs a different sampler type, or if an attachment is multisampled, since only textures with one
+/// layer guarantee sample positions.
 pub(crate) fn is_layered(scene: &Scene) -> bool {
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
     let fetched = draws.any(|d| d.textures.iter().any(|index| is_drawn(scene, *index)));
@@ -122,13 +124,14 @@ pub(crate) fn is_layered(scene: &Scene) -> bool {
     scene.layers() == PathLayers::Written && !fetched && attachments.all(|a| a.samples == 1)
 }
 
-/// True if a pass draws to an attachment.
+/// Returns true if a pass draws to the attachment.
 fn is_drawn(scene: &Scene, index: usize) -> bool {
     let mut passes = scene.passes.iter();
     passes.any(|p| p.color.contains(&index) || p.depth_stencil == Some(index))
 }
 
-/// Returns the layer that is read of an attachment whose passes have several. They are read in turns.
+/// Returns the layer that is read of an attachment if passes have several layers. Attachments take turns in
+/// it.
 pub(crate) fn layer(scene: &Scene, index: usize) -> Option<u8> {
     let layered = is_layered(scene) && is_drawn(scene, index);
     layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])
@@ -142,8 +145,8 @@ fn reads_by_shader(scene: &Scene, index: usize, support: &Support) -> bool {
     end(scene, index, support) == PathEnd::ShaderRead
 }
 
-/// Returns the way of an attachment to the host. A blit of normalized colours may round, and a fetch does not
-/// determine the codes of some formats: these are read as they are by default.
+/// Returns how an attachment reaches the host. Formats whose values a blit can round, or whose codes a fetch
+/// does not determine, are read in the default way.
 pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
     let attachment = &scene.attachments[index];
     let format = attachment.format;
@@ -159,7 +162,7 @@ pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
             }
             PathEnd::BlitLinear => format.is_color() && channels.iter().all(halved),
             PathEnd::ReadBuffer => format.is_color(),
-            // Stencil alone is a renderbuffer where no shader has to read it.
+            // Stencil alone is a renderbuffer unless a shader must read it.
             PathEnd::ShaderRead if format.has_stencil() && !format.has_depth() => {
                 by_shader(support.read)
             }
@@ -171,15 +174,16 @@ pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
 /// The vertex shader's part of a draw's path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Variant {
-    /// The shader mirrors y, since the clip volume's origin is the lower left.
+    /// The shader mirrors y because the clip volume's origin is the lower left.
     pub(crate) mirrored: bool,
-    /// The shader names the second viewport.
+    /// The shader selects the second viewport.
     pub(crate) second_viewport: bool,
-    /// The layer that the shader names, if it names one.
+    /// The layer that the shader selects, if any.
     pub(crate) layer: Option<u8>,
 }
 
-/// Returns the variant of a pass's n-th draw. Every second one takes the other origin, where it changes.
+/// Returns the variant of a pass's draw with this index. If the path toggles the origin, every second draw
+/// has the other one.
 pub(crate) fn variant(path: &Path, number: usize) -> Variant {
     Variant {
         mirrored: path.clip == PathClip::Toggled && number % 2 == 1,
@@ -188,7 +192,7 @@ pub(crate) fn variant(path: &Path, number: usize) -> Variant {
     }
 }
 
-/// Returns a draw that differs in all state that every context can set, but not in what is drawn.
+/// Returns a draw that has the same shape but differs in all state that every context can set.
 pub(crate) fn other(draw: &Draw) -> Draw {
     let face = StencilFace {
         compare: CompareFunction::Never,
@@ -280,7 +284,7 @@ mod tests {
         }
     }
 
-    /// A scene that reads one attachment, by a path with a target and an end.
+    /// Returns a scene that reads one attachment, on a path with this target and end.
     fn scene(format: TextureFormat, samples: u32, target: PathTarget, end: PathEnd) -> Scene {
         Scene {
             attachments: vec![Attachment {

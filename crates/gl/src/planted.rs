@@ -1,8 +1,8 @@
 //! Entry points with a planted fault, for tests of the suite.
 //!
-//! A backend that is opened with one finds these functions where the driver's would be. They have the
-//! driver's signatures and nothing else to tell contexts apart, so the driver's own functions and what was
-//! seen of the calls are kept per thread: a context belongs to one thread.
+//! A backend that is opened with a fault finds these functions instead of the driver's. They have the
+//! driver's signatures, and cannot carry a state of their own. The driver's functions and the observed calls
+//! are therefore kept per thread: a context belongs to one thread.
 
 use etalon_backend::{CallFault, DrawNumbers, Fault, FaultyCalls};
 use std::cell::RefCell;
@@ -16,7 +16,7 @@ thread_local! {
 
 type Pointer = *const c_void;
 
-/// The driver's functions, and what was seen of the calls.
+/// The driver's functions, and what was observed of the calls.
 #[derive(Default)]
 struct Planted {
     driver: Driver,
@@ -27,36 +27,36 @@ struct Planted {
     framebuffer: u32,
     /// The framebuffer that is read from.
     source: u32,
-    /// The framebuffers of layers.
+    /// The framebuffers that have several layers.
     layered: HashSet<u32>,
-    /// The framebuffers of several samples.
+    /// The framebuffers that are multisampled.
     multisampled: HashSet<u32>,
-    /// True behind a clear of the framebuffer that is drawn to.
+    /// True after a clear of the framebuffer that is drawn to.
     cleared: bool,
-    /// True if restart is on at a number.
+    /// True if restart at a set index is enabled.
     restarts: bool,
     /// The buffer that is read.
     read: u32,
-    /// True before the first clear behind what leaves contents undefined.
+    /// True before the first clear after a call that leaves contents undefined.
     undefined: bool,
-    /// The format of the texture that was made last with storage that views share.
+    /// The format of the texture that was last created with immutable storage, which views share.
     stored: u32,
 }
 
-/// Prepares the thread for a context that is opened with a fault, or without.
+/// Prepares the thread for a context that is opened, with or without a fault.
 pub(crate) fn plant(fault: Option<Fault>) {
     let is_planted = matches!(fault, Some(Fault::Call(_)));
     PLANTED.set(is_planted.then(Planted::default));
 }
 
-/// Lets the fault act.
+/// Activates the fault.
 pub(crate) fn arm(fault: Option<Fault>) {
     if let Some(Fault::Call(fault)) = fault {
         with(|planted| planted.calls.fault = Some(fault));
     }
 }
 
-/// Returns the address under which the backend finds an entry point.
+/// Returns the address that the backend finds for an entry point.
 pub(crate) fn address(name: &CStr, address: Pointer) -> Pointer {
     PLANTED.with_borrow_mut(|planted| match planted {
         Some(planted) if !address.is_null() => replaced(planted, &name.to_string_lossy(), address),
@@ -72,25 +72,26 @@ fn with(call: impl FnOnce(&mut Planted)) {
 macro_rules! driver {
     ($driver:expr, $name:ident($($arg:expr),*)) => {
         if let Some(function) = $driver.$name {
-            // SAFETY: the function has the type of the driver's of its name, whose arguments the caller
-            // passes on as they are or made from valid ones.
+            // SAFETY: the function has the type of the driver's function of its name. The caller passes the
+            // arguments on unchanged, or made from valid ones.
             unsafe { function($($arg),*) }
         }
     };
 }
 
-/// Declares the functions that stand in the place of the driver's. Each does something `before` it calls the driver's
-/// with the arguments as they are then, or something `instead`.
+/// Declares the functions that replace the driver's. Each does something `before` it calls the driver's
+/// function with the arguments that result, or something `instead`.
 macro_rules! functions {
     ($($how:ident $name:ident $(| $alias:ident)* ($($arg:ident: $kind:ty),*) |$planted:ident| { $($body:tt)* })+) => {
-        /// The driver's own functions.
+        /// The driver's functions.
         #[derive(Clone, Copy, Default)]
         #[expect(non_snake_case, reason = "the names are the API's")]
         struct Driver {
             $($name: Option<unsafe extern "system" fn($($kind),*)>,)+
         }
 
-        /// Returns the address of a function with the fault in it, or the driver's.
+        /// Returns the address of the function that has the fault, or `address` if no function replaces this
+        /// name.
         fn replaced(planted: &mut Planted, name: &str, address: Pointer) -> Pointer {
             match name {
                 $(stringify!($name) $(| stringify!($alias))* => {
@@ -237,7 +238,7 @@ functions! {
     }
     before glColorMask(r: u8, g: u8, b: u8, a: u8) |planted| {}
     before glDrawBuffers(count: i32, buffers: *const u32) |planted| {
-        // SAFETY: there are so many.
+        // SAFETY: there are `count` buffers.
         let mut all = unsafe { slice::from_raw_parts(buffers, count as usize) }.to_vec();
         if planted.calls.has(CallFault::ClearAllBuffers) && count > 1 {
             for (buffer, point) in all.iter_mut().zip(glow::COLOR_ATTACHMENT0..) {
@@ -259,7 +260,7 @@ functions! {
     ) |planted| {
         planted.undefined = true;
         driver!(planted.driver, glInvalidateSubFramebuffer(target, count, points, x, y, w, h));
-        // SAFETY: there is one at least.
+        // SAFETY: there is at least one.
         let point = unsafe { *points };
         if planted.calls.has(CallFault::InvalidateAll) && point == glow::COLOR_ATTACHMENT0 {
             driver!(planted.driver, glDisable(glow::SCISSOR_TEST));
@@ -327,7 +328,7 @@ functions! {
         x0: i32, y0: i32, x1: i32, y1: i32, to_x0: i32, to_y0: i32, to_x1: i32, to_y1: i32, mask: u32, filter: u32
     ) |planted| {
         planted.blits += 1;
-        // Reading back comes after the end of a submission and blits too.
+        // Reading back comes after the end of a submission, and also blits.
         if planted.calls.has(CallFault::ResolveFirst) && planted.blits > 1 && planted.calls.passes > 0 {
             return;
         }
@@ -385,7 +386,7 @@ functions! {
     instead glGetQueryObjectui64v | glGetQueryObjectui64vEXT(query: u32, what: u32, result: *mut u64) |planted| {
         let answering = planted.answering(query);
         driver!(planted.driver, glGetQueryObjectui64v(answering, what, result));
-        // SAFETY: the caller's; the driver has written it.
+        // SAFETY: upheld by the caller; the driver wrote the result.
         unsafe { *result = planted.calls.result(0, query, *result) };
     }
     instead glGetQueryObjectuiv(query: u32, what: u32, result: *mut u32) |planted| {
@@ -464,7 +465,7 @@ functions! {
     }
 }
 
-/// Returns the numbers of a draw without indices, instances and offsets.
+/// Returns the numbers of a draw that has no indices, instances or offsets.
 fn arrays(mode: u32, count: i32) -> DrawNumbers {
     DrawNumbers {
         indexed: false,
@@ -477,7 +478,7 @@ fn arrays(mode: u32, count: i32) -> DrawNumbers {
     }
 }
 
-/// Returns the numbers of a draw with indices of this type from this place on.
+/// Returns the numbers of a draw with indices of this type, which begin at this place.
 fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
     DrawNumbers {
         indexed: true,
@@ -486,12 +487,12 @@ fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
     }
 }
 
-/// Returns the place of the first index.
+/// Returns the place of the first index, as a pointer.
 fn place(numbers: &DrawNumbers, kind: u32) -> Pointer {
     ptr::without_provenance(numbers.first as usize * index_bytes(kind))
 }
 
-/// Returns the size of an index.
+/// Returns the size of an index in bytes.
 fn index_bytes(kind: u32) -> usize {
     if kind == glow::UNSIGNED_SHORT { 2 } else { 4 }
 }
@@ -516,7 +517,7 @@ impl Planted {
         }
     }
 
-    /// Draws with the numbers that the fault leaves, in parts if it asks for it.
+    /// Draws with the numbers that the fault leaves, in parts if the fault asks for it.
     fn draw(&mut self, mut numbers: DrawNumbers, draw: impl Fn(&Driver, &DrawNumbers)) {
         if self.calls.draws == 0 {
             self.calls.begin_pass();
@@ -546,8 +547,8 @@ impl Planted {
         }
     }
 
-    /// Runs a clear, unless the fault skips it; `color` is the value of a colour clear. If the fault asks for it, the
-    /// clear has no rectangle.
+    /// Runs a clear unless the fault skips it. `color` is the value of a colour clear. If the fault asks for
+    /// it, the scissor test is disabled during the clear.
     fn clear(&mut self, color: Option<[u32; 4]>, clear: impl FnOnce(&Driver)) {
         if self.calls.has(CallFault::ClearSkipped) && self.calls.passes > 0 {
             return;
@@ -561,7 +562,7 @@ impl Planted {
         if color.is_some_and(|color| self.calls.skips_equal_clear(image, color)) {
             return;
         }
-        // What is read is another layer, or is cleared there too.
+        // The layer that is read is not the first, or it is cleared there too.
         if self.calls.has(CallFault::ClearFirstLayer) && self.layered.contains(&self.framebuffer) {
             return;
         }
@@ -576,7 +577,7 @@ impl Planted {
         }
     }
 
-    /// Returns the query whose result is that of another.
+    /// Returns the query whose result the driver returns for this query.
     fn answering(&self, query: u32) -> u32 {
         match self.calls.queries.first() {
             Some(first)

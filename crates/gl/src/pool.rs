@@ -9,14 +9,14 @@ use etalon_scene::{FilterMode, Sampler};
 use glow::HasContext;
 use std::collections::HashMap;
 
-/// The most unused surfaces, framebuffers, buffers and queries kept, and the most bytes of unused
-/// surfaces.
+/// The largest number of unused surfaces, framebuffers, buffers and queries kept, and the largest total size
+/// of unused surfaces in bytes.
 const MAX_FREE: usize = 64;
 const MAX_FREE_BYTES: u64 = 64 << 20;
-/// The size of the largest buffer kept.
+/// The size of the largest buffer kept, in bytes.
 const MAX_FREE_BUFFER: usize = 1 << 20;
 
-/// A pass's framebuffer and the surfaces it is made of.
+/// A pass's framebuffer, and the surfaces that it consists of.
 #[derive(Debug)]
 pub(crate) struct Target {
     pub(crate) framebuffer: glow::Framebuffer,
@@ -67,8 +67,7 @@ impl Pool {
         }
     }
 
-    /// Deletes all unused surfaces, and the targets with them, since targets must not refer to
-    /// deleted surfaces.
+    /// Deletes all unused surfaces, and all targets, since a target must not refer to a deleted surface.
     pub(crate) fn delete_surfaces(&mut self, context: &Context) {
         self.delete_targets(context);
         for surface in self.surfaces.drain().flat_map(|(_, list)| list) {
@@ -80,13 +79,13 @@ impl Pool {
 
     fn delete_targets(&mut self, context: &Context) {
         for framebuffer in self.targets.drain().flat_map(|(_, list)| list) {
-            // SAFETY: the context is current and the object is its own.
+            // SAFETY: the context is current and owns the object.
             unsafe { context.gl.delete_framebuffer(framebuffer) };
         }
     }
 
-    /// Returns a framebuffer of these surfaces, of all layers of each if it is `layered`; `None` if the driver does not support the
-    /// combination.
+    /// Returns a framebuffer of these surfaces, with all layers of each if `layered` is true. `None` if the
+    /// driver does not support the combination.
     pub(crate) fn target(
         &mut self,
         context: &Context,
@@ -113,12 +112,12 @@ impl Pool {
         if status == glow::FRAMEBUFFER_COMPLETE {
             return Ok(Some(Target { framebuffer, key }));
         }
-        // SAFETY: the context is current and the object is its own.
+        // SAFETY: the context is current and owns the object.
         unsafe { context.gl.delete_framebuffer(framebuffer) };
         Ok(None)
     }
 
-    /// Returns a target to the pool, before its surfaces.
+    /// Returns a target to the pool. Its surfaces must be returned after it.
     pub(crate) fn put_target(&mut self, context: &Context, target: Target) {
         if self.targets.values().map(Vec::len).sum::<usize>() >= MAX_FREE {
             self.delete_targets(context);
@@ -150,7 +149,7 @@ impl Pool {
         }
     }
 
-    /// Returns a query of a target.
+    /// Returns a query of this target.
     pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
         if let Some(index) = self.queries.iter().position(|q| q.target == target) {
             return Ok(self.queries.swap_remove(index));
@@ -161,12 +160,12 @@ impl Pool {
         Ok(Query { target, object })
     }
 
-    /// Returns an inactive query to the pool.
+    /// Returns a query to the pool. It must not be active.
     pub(crate) fn put_query(&mut self, context: &Context, query: Query) {
         if self.queries.len() < MAX_FREE {
             self.queries.push(query);
         } else {
-            // SAFETY: the context is current and the object is its own.
+            // SAFETY: the context is current and owns the object.
             unsafe { context.gl.delete_query(query.object) };
         }
     }
@@ -195,7 +194,7 @@ impl Pool {
             (glow::TEXTURE_WRAP_S, across),
             (glow::TEXTURE_WRAP_T, down),
         ] {
-            // SAFETY: the context is current and the object is its own.
+            // SAFETY: the context is current and owns the object.
             unsafe { gl.sampler_parameter_i32(object, name, value as i32) };
         }
         self.samplers.insert(sampler, object);
@@ -207,7 +206,7 @@ impl Pool {
         if self.buffers.len() < MAX_FREE && size <= MAX_FREE_BUFFER {
             self.buffers.push(buffer);
         } else {
-            // SAFETY: the context is current and the object is its own.
+            // SAFETY: the context is current and owns the object.
             unsafe { context.gl.delete_buffer(buffer) };
         }
     }
@@ -216,7 +215,7 @@ impl Pool {
 impl Target {
     /// Deletes the framebuffer.
     pub(crate) fn delete(self, context: &Context) {
-        // SAFETY: the context is current and the object is its own.
+        // SAFETY: the context is current and owns the object.
         unsafe { context.gl.delete_framebuffer(self.framebuffer) };
     }
 }

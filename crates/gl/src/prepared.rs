@@ -35,22 +35,22 @@ pub(crate) struct PreparedScene<'a> {
     passes: Vec<Pass>,
     path: Path,
     pool: Option<etalon_scene::Pool>,
-    /// The attachments that are read, and the way of each to the host.
+    /// The attachments that are read, and how each reaches the host.
     read: Vec<(usize, PathEnd)>,
     inputs: Inputs,
     /// The attachments that the path leaves out of passes.
     gaps: BTreeSet<usize>,
     counters: Counters,
     submitted: bool,
-    /// True if nothing has failed, so that other scenes may reuse the objects.
+    /// True if nothing has failed, so that other scenes can reuse the objects.
     reusable: bool,
 }
 
 /// The parts of the shared buffers that draws have not taken yet.
 struct Unused {
-    /// The places of draws, in order.
+    /// The geometry and arguments of the draws, in order.
     places: std::vec::IntoIter<(Fetched, Option<Arguments>)>,
-    /// The number of the next draw.
+    /// The index of the next draw.
     number: usize,
     /// The offset of the next parameter block.
     params: i32,
@@ -136,7 +136,7 @@ impl<'a> PreparedScene<'a> {
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
         let initial = match &attachment.contents {
-            // Only `rgba32float` is offered without being drawable.
+            // Only `rgba32float` is supported without being drawable.
             Contents::Color(color) if !complete => InitialContents::Upload(codes::pack(
                 format,
                 &color.map(f32::to_bits).repeat(texels),
@@ -198,8 +198,8 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks. Returns
-    /// the places of all draws and of their arguments, where they are indirect.
+    /// Fills one buffer with all vertices, one with all indices, and one with all parameter blocks. Returns
+    /// the place of each draw's geometry, and of its arguments if it is indirect.
     fn buffers(
         &mut self,
         pool: &mut Pool,
@@ -300,13 +300,13 @@ impl<'a> PreparedScene<'a> {
         let mut draws = Vec::new();
         let number = self.passes.len();
         for (index, draw) in pass.draws.iter().enumerate() {
-            // On error the target is not returned to the pool; it is deleted with the context.
+            // If this fails, the target is not returned to the pool, and is deleted with the context.
             draws.push(DrawCall {
                 queries: Enclosing::draw(&unused.queries, (number, index)),
                 ..self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?
             });
         }
-        // Of a framebuffer of layers, reads take the first.
+        // Reading a framebuffer with layers would read the first.
         if !layered {
             for (index, point) in pass.color.iter().zip(glow::COLOR_ATTACHMENT0..) {
                 self.attachments[*index].drawn = (target.framebuffer, point);
@@ -415,7 +415,7 @@ impl<'a> PreparedScene<'a> {
         for (buffer, size) in self.inputs.runs.into_iter().chain(pool) {
             counters::zero(context, buffer, size);
         }
-        // SAFETY: the context is current; a query exists only where timers count.
+        // SAFETY: the context is current; the query exists only if timers count.
         let (cpu, wall) = unsafe {
             if let Some(query) = objects.timer {
                 gl.begin_query(glow::TIME_ELAPSED, query);
@@ -492,7 +492,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-/// Returns the attachments that a scene reads, and the way of each to the host.
+/// Returns the attachments that a scene reads, and how each reaches the host.
 fn ends(objects: &Objects, scene: &Scene) -> Vec<(usize, PathEnd)> {
     let end = |index: &usize| {
         let format = scene.attachments.get(*index).map(|a| a.format);
@@ -519,7 +519,7 @@ impl Prepared for PreparedScene<'_> {
         let result = self.try_read_back();
         if result.is_err() {
             self.reusable = false;
-            // The objects used for reading may be what failed.
+            // The failure might come from the objects used for reading.
             self.objects.pool.borrow_mut().delete_surfaces(self.context);
         }
         result
@@ -530,7 +530,7 @@ impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
         let context = self.context;
         if context.make_current().is_err() {
-            // All objects are gone with the context.
+            // The objects ended with the context.
             return;
         }
         let mut pool = self.objects.pool.borrow_mut();
@@ -559,7 +559,7 @@ impl Drop for PreparedScene<'_> {
             if self.reusable {
                 pool.put_surface(context, attachment.surface);
             } else {
-                // Its storage may not exist.
+                // The surface's storage might not exist.
                 attachment.surface.delete(context);
             }
         }

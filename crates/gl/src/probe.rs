@@ -1,10 +1,9 @@
-//! The formats and features that a context offers, by its own word.
+//! The formats and features that a context reports.
 //!
-//! Nothing is drawn, uploaded or read here: a format is offered if a framebuffer with it is complete and
-//! the queries of its attachment report exactly the channels of the format's name, since a driver may
-//! use another internal format than the requested one. Whether its texels survive is for the cases to
-//! tell. Where GL has several ways to read a format, [`read_plan`] takes one that the specification
-//! says is exact.
+//! Probing draws, uploads and reads nothing. A format is supported if a framebuffer with it is complete and
+//! the queries of its attachment report exactly the channels of the format's name, since a driver can
+//! substitute another internal format. Whether texels survive is for the cases to test. If GL has several
+//! ways to read a format, [`read_plan`] takes one that the specification makes exact.
 
 use crate::context::Context;
 use crate::features;
@@ -18,7 +17,7 @@ use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
-/// Width and height of the surfaces that are asked about.
+/// The width and height of probed surfaces.
 const SIZE: [u32; 2] = [16, 16];
 
 /// Sample positions by sample count, in 1/256 texel from the top left corner.
@@ -30,18 +29,18 @@ pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
     pub(crate) positions: Positions,
     pub(crate) features: BTreeSet<Feature>,
-    /// Features that the driver can offer and this backend does not use.
+    /// Requirements that the driver might meet, but this backend does not use.
     pub(crate) exempt: BTreeSet<Requirement>,
 }
 
-/// Asks about every format and feature.
+/// Probes every format and feature.
 pub(crate) fn probe(context: &Context) -> Probed {
     let mut probed = Probed::default();
     for format in TextureFormat::ALL {
         let found = with_surface(context, format, 1, |surface| {
             Some((surface.is_complete(), examine(context, format, surface)))
         });
-        // A refused format leaves an error behind.
+        // A format that the driver refuses causes an error.
         let accepted = context.check("probing formats").is_ok();
         let (complete, support) = match found {
             Some(found) if accepted => found,
@@ -69,8 +68,8 @@ pub(crate) fn probe(context: &Context) -> Probed {
     probed
 }
 
-/// Returns true if naga can write the shaders of a feature in the context's GLSL. A driver that then
-/// refuses to compile them fails the feature's cases.
+/// Returns true if naga can write the shaders of a feature in the context's GLSL. If the driver then refuses
+/// to compile them, the feature's cases fail.
 fn can_be_written(context: &Context, feature: Feature) -> bool {
     let shader = Shader::FlatColorDepth;
     let needed: &[_] = match feature {
@@ -133,10 +132,11 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         })
     };
     if format == TextureFormat::Rgba32Float && !surface.is_complete() {
-        // Every version has it as a texture: an exact source of values even if it is not drawable.
+        // Every version has it as a texture, and thus as an exact source of values, even if it is not
+        // drawable.
         return done(&[], false, &[], ReadPlan::Fetched);
     }
-    // Without its extension ES has no rules for what is drawn to it.
+    // Without the extension, ES has no rules for drawing to it.
     if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
         return None;
     }
@@ -156,15 +156,15 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
     done(&[1], blendable, encoding.as_slice(), read)
 }
 
-/// Returns the way to read single-sample surfaces of a format; `None` if the context has no exact one.
+/// Returns how to read single-sample surfaces of a format; `None` if the context has no exact way.
 ///
-/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.6, 18.2.8, with
-/// read color clamping off). Before 4.2 a type other than a float clamps signed values to 0..=1 (3.3,
-/// 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one value.
+/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.6, 18.2.8, with read
+/// color clamping off). Before 4.2, types other than float clamp signed values to 0..=1 (3.3, 4.3.1, Final
+/// Conversion), so signed formats are read as floats, in which both codes of -1 are one value.
 ///
-/// ES has four bytes for normalized formats, the packed type for `rgb10a2unorm` and floats for floats
-/// (ES 3.2, 16.1.2). No type of it returns negative values (16.1.5), depth or stencil: a shader fetches
-/// them.
+/// ES returns four bytes for normalized formats, the packed type for `rgb10a2unorm`, and floats for floats
+/// (ES 3.2, 16.1.2). None of its types returns negative values (16.1.5), depth or stencil, so a shader
+/// fetches these.
 fn read_plan(
     context: &Context,
     format: TextureFormat,
@@ -226,7 +226,7 @@ fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
 /// Returns true if a complete surface has the channels that its format promises.
 fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     if format.has_depth() {
-        // A driver may store more bits than requested; the format is then not what its name says.
+        // A driver can store more bits than requested; the format is then not what its name promises.
         return depth_encoding(context, surface)
             .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
     }
@@ -277,7 +277,7 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// Returns the depth encoding that the driver reports.
+/// Returns the depth encoding that the driver reports, if it is a known one.
 fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
@@ -308,7 +308,7 @@ fn sample_counts(
         });
         let clean = context.check("probing samples").is_ok();
         if let (Some(found), true) = (found, clean) {
-            // Fixed sample locations are those of every format (OpenGL 4.6, 8.8).
+            // Fixed sample locations are the same for every format (OpenGL 4.6, 8.8).
             positions.entry(count).or_insert(found);
             counts.push(count);
         }
@@ -323,35 +323,35 @@ fn stencil_is_fetched(context: &Context, format: TextureFormat) -> bool {
         || caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8)
 }
 
-/// Returns true if a shader's fetch determines the code that a copy would return. Floating-point
-/// operations are accurate to 1 part in 10^5 (OpenGL 4.6, 2.3.4), less than what lies between two codes
-/// of colour, sRGB included. Codes of depth of up to 16 bits are told apart by rounding too, as in
-/// Vulkan; those of 24 bits are not.
+/// Returns true if a shader's fetch determines the code that a copy would return. Floating-point operations
+/// are accurate to 1 part in 10^5 (OpenGL 4.6, 2.3.4), which is less than the distance between two codes of a
+/// colour, sRGB included. Rounding also distinguishes depth codes of up to 16 bits, as in Vulkan, but not of
+/// 24 bits.
 fn fetch_is_exact(support: &Support) -> bool {
     let is_long = |e: &ChannelEncoding| matches!(e, ChannelEncoding::Unorm(17..));
     support.limits.read == ReadPath::Shader || !support.limits.depth.iter().any(is_long)
 }
 
-/// Returns the sample positions of a surface; `None` if it has another sample count.
+/// Returns the sample positions of a surface, or `None` if the surface has another sample count.
 fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<Vec<[u16; 2]>> {
     let get = context.entry_points.get_multisample?;
     let gl = &context.gl;
-    // SAFETY: the context is current, the surface lives, and the pair has room. The texture is
-    // bound to its target.
+    // SAFETY: the context is current, the surface lives, and the array has room for both values. The texture
+    // is bound to its target.
     unsafe {
         gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, surface.texture());
         let target = glow::TEXTURE_2D_MULTISAMPLE;
         let stored = gl.get_tex_level_parameter_i32(target, 0, glow::TEXTURE_SAMPLES);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         let drawn = gl.get_parameter_i32(glow::SAMPLES);
-        // A request for 2 samples may yield 4.
+        // A driver can give 4 samples for 2 requested ones.
         if [stored, drawn].map(u32::try_from) != [Ok(count); 2] {
             return None;
         }
         let position = |i| {
             let mut position = [0.0_f32; 2];
             get(glow::SAMPLE_POSITION, i, position.as_mut_ptr());
-            // Rows count upwards in window coordinates, and row 0 is the top one here: nothing is
+            // Rows count upwards in window coordinates, and row 0 is the top row here, so nothing is
             // mirrored.
             position.map(|v| (v * 256.0).round() as u16)
         };

@@ -1,4 +1,4 @@
-//! Programs of the suite's shaders, translated by naga, and of reading attachments back.
+//! Programs: the suite's shaders, translated by naga, and the shaders that read attachments back.
 
 use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT, STENCIL_EXPORT};
 use crate::context::Context;
@@ -27,7 +27,7 @@ const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
     .union(Capabilities::MULTISAMPLED_SHADING)
     .union(Capabilities::EARLY_DEPTH_TEST);
 
-/// The binding of storage in the suite's shaders.
+/// The binding of the storage buffer in the suite's shaders.
 const STORAGE: ResourceBinding = ResourceBinding {
     group: 0,
     binding: 3,
@@ -40,7 +40,7 @@ pub(crate) struct Programs {
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
-/// The needs of a draw that change its fragment shader.
+/// The properties of a draw that change its fragment shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct FragmentForm {
     pub(crate) tests: EarlyTests,
@@ -57,16 +57,16 @@ pub(crate) enum Reader {
     Integers,
 }
 
-/// The texture that a read-back program fetches from.
+/// The kind of texture that a read-back program fetches from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum View {
     /// One image.
     Plain,
-    /// Several samples.
+    /// A multisampled image.
     Samples,
-    /// An array.
+    /// An array texture.
     Layers,
-    /// Three dimensions.
+    /// A 3D texture.
     Slices,
 }
 
@@ -115,8 +115,8 @@ impl Programs {
         Ok(program)
     }
 
-    /// Returns a program that fetches texture unit 0 texel by texel, and the location of its sample
-    /// index.
+    /// Returns a program that fetches texture unit 0 texel by texel, and the location of the uniform for its
+    /// sample or layer.
     pub(crate) fn reader(
         &mut self,
         context: &Context,
@@ -173,15 +173,15 @@ impl Programs {
     }
 }
 
-/// Returns the stages that tessellate patches of three vertices, which is the number that contexts start
-/// with (OpenGL 4.6, 10.1.15; ES 3.2, 10.1.12).
+/// Returns the stages that tessellate patches of three vertices, the initial number of a context (OpenGL 4.6,
+/// 10.1.15; ES 3.2, 10.1.12).
 fn patches(context: &Context, order: FrontFace) -> [(u32, String); 2] {
     let (version, es) = (context.caps.glsl, context.caps.es);
     let extensions = context.caps.tessellation.unwrap_or_default();
     let precision = if es { "precision highp float;\n" } else { "" };
     let order = order.name();
     let stage = |text: &str| {
-        // The first line names another version.
+        // The first line declares another version.
         let body = text.split_once('\n').map_or(text, |(_, body)| body);
         format!("#version {version}\n{extensions}{precision}#define ORDER {order}\n{body}")
     };
@@ -191,7 +191,7 @@ fn patches(context: &Context, order: FrontFace) -> [(u32, String); 2] {
     ]
 }
 
-/// Returns a vertex shader in the form that a draw's path asks for.
+/// Returns a vertex shader in the variant of a draw's path.
 fn varied(context: &Context, vertex: String, variant: Variant) -> String {
     let Some((head, body)) = vertex.split_once('\n') else {
         return vertex;
@@ -218,12 +218,12 @@ fn varied(context: &Context, vertex: String, variant: Variant) -> String {
     made + "}\n"
 }
 
-/// Returns a fragment shader that allows an advanced blend equation, of which naga knows nothing.
+/// Returns a fragment shader that allows an advanced blend equation, which naga does not support.
 fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
     let Some((version, body)) = fragment.split_once('\n') else {
         return fragment.to_owned();
     };
-    // Directives stand before everything else.
+    // Directives must come first.
     let directives = body
         .split_inclusive('\n')
         .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
@@ -251,7 +251,7 @@ struct Translated {
     fragment: Option<String>,
     /// The names of uniform blocks.
     blocks: Vec<String>,
-    /// The names of textures with their units: the binding less one.
+    /// The names of textures with their units. A unit is the binding minus one.
     textures: Vec<(String, u32)>,
 }
 
@@ -270,7 +270,7 @@ impl Translated {
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
         if shader.cull_distances() > 0 {
-            // WGSL has no word for them.
+            // WGSL has no cull distances.
             translated.vertex = translated
                 .vertex
                 .replace("gl_ClipDistance", "gl_CullDistance");
@@ -279,7 +279,7 @@ impl Translated {
             return Ok(translated);
         }
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
-        // naga uses GLSL's signed sample index where WGSL's is unsigned; ES does not convert.
+        // naga puts GLSL's signed sample index where WGSL's is unsigned; ES does not convert it.
         let mut fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
         if shader.reads_mask() {
             fragment = with_input_mask(&fragment, context.caps.es)?;
@@ -290,7 +290,7 @@ impl Translated {
         if shader.writes_reference() {
             fragment = with_reference(&fragment)?;
         }
-        // naga omits qualifiers that the version lacks.
+        // naga omits qualifiers that the GLSL version lacks.
         if let Some(word) = qualifier(tests)
             && !fragment.contains(word)
         {
@@ -309,14 +309,13 @@ impl Translated {
     ) -> Result<String, String> {
         let options = glsl::Options {
             version: context.caps.glsl,
-            // Points are one texel wide; in ES the size is undefined unless the shader writes it.
+            // Points are one texel wide. In ES, their size is undefined unless the shader writes it.
             writer_flags: if context.caps.clip_control {
                 glsl::WriterFlags::FORCE_POINT_SIZE
             } else {
                 glsl::WriterFlags::FORCE_POINT_SIZE | glsl::WriterFlags::ADJUST_COORDINATE_SPACE
             },
-            // Other bindings are set by name, which all versions can; ES cannot for storage
-            // buffers.
+            // Other bindings are set by name, which all versions can do; ES cannot do it for storage buffers.
             binding_map: glsl::BindingMap::from([(STORAGE, STORAGE_BINDING)]),
             ..glsl::Options::default()
         };
@@ -357,8 +356,8 @@ impl Translated {
     }
 }
 
-/// Returns a fragment shader that assigns its sample mask as GLSL has it: naga assigns an unsigned number to
-/// what is an array of signed ones, and leaves the extension of ES out.
+/// Returns a fragment shader that assigns its sample mask in valid GLSL. naga assigns an unsigned number to
+/// an array of signed ones, and omits the extension of ES.
 fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     let assigned = fragment
         .split_once("gl_SampleMask = ")
@@ -368,13 +367,13 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     with_sample_variables(text, es)
 }
 
-/// Returns a fragment shader that reads its sample mask as GLSL has it, for the same reasons.
+/// Returns a fragment shader that reads its sample mask in valid GLSL, for the same reasons.
 fn with_input_mask(fragment: &str, es: bool) -> Result<String, String> {
     let text = fragment.replace("gl_SampleMaskIn", "uint(gl_SampleMaskIn[0])");
     with_sample_variables(text, es)
 }
 
-/// Returns a shader that names ES's extension of sample variables, if it is one of ES.
+/// Returns a shader that, in ES, enables the extension for sample variables.
 fn with_sample_variables(text: String, es: bool) -> Result<String, String> {
     const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
     let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
@@ -385,8 +384,8 @@ fn with_sample_variables(text: String, es: bool) -> Result<String, String> {
     })
 }
 
-/// Returns a fragment shader whose output at the stencil reference's location is GLSL's built-in, of which
-/// naga knows nothing.
+/// Returns a fragment shader whose output at the stencil reference's location is GLSL's built-in, which naga
+/// does not support.
 fn with_reference(fragment: &str) -> Result<String, String> {
     let declared = format!("layout(location = {STENCIL_REFERENCE}) out int ");
     let (before, behind) = fragment
@@ -419,7 +418,7 @@ fn link(
 ) -> Result<glow::Program, BackendError> {
     let gl = &context.gl;
     let fail = |message: String| BackendError::shader(name, message);
-    // SAFETY: the context is current and all objects are its own.
+    // SAFETY: the context is current and owns all objects.
     unsafe {
         let program = gl
             .create_program()
@@ -437,7 +436,7 @@ fn link(
                 return Err(fail(format!("{}\n{source}", log.trim())));
             }
             gl.attach_shader(program, shader);
-            // The program keeps the shader.
+            // The program keeps the shader alive.
             gl.delete_shader(shader);
         }
         gl.link_program(program);

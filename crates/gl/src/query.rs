@@ -4,7 +4,7 @@ use crate::context::Context;
 use etalon_frame::CounterKind;
 use glow::HasContext;
 
-/// A query object, which keeps the target that it was first used with.
+/// A query object with the target of its first use, which it keeps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Query {
     pub(crate) target: u32,
@@ -13,7 +13,7 @@ pub(crate) struct Query {
 
 impl Query {
     pub(crate) fn begin(self, context: &Context) {
-        // SAFETY: the context is current and the object is its own.
+        // SAFETY: the context is current and owns the object.
         unsafe { context.gl.begin_query(self.target, self.object) };
     }
 
@@ -23,7 +23,7 @@ impl Query {
     }
 }
 
-/// Returns the query target of a kind; `None` for counters that shaders increment.
+/// Returns the query target of a counter kind, or `None` if shaders increment the counter.
 pub(crate) fn query_target(kind: CounterKind) -> Option<u32> {
     match kind {
         CounterKind::SamplesPassed => Some(glow::SAMPLES_PASSED),

@@ -14,7 +14,7 @@ use etalon_backend::{BackendError, Blits, Fault, Form, Piece, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, ReadPath, TextureFormat};
 use glow::HasContext;
 
-/// The objects that reading needs besides the surface.
+/// The objects that reading needs in addition to the surface.
 pub(crate) struct Reading<'a> {
     pub(crate) context: &'a Context,
     pub(crate) pool: &'a mut Pool,
@@ -23,7 +23,7 @@ pub(crate) struct Reading<'a> {
     pub(crate) no_vertices: glow::VertexArray,
 }
 
-/// The codes of depth and of stencil, if the format has them.
+/// The codes of depth and stencil, each if the format has it.
 type DepthStencil = (Option<Vec<u32>>, Option<Vec<u32>>);
 
 /// An attachment to read.
@@ -35,16 +35,17 @@ pub(crate) struct Source<'a> {
     pub(crate) surface: &'a Surface,
     /// The size of the attachment.
     pub(crate) size: [u32; 2],
-    /// The framebuffer that the attachment is drawn in, and its point there.
+    /// The framebuffer that the attachment was drawn in, and its attachment point there.
     pub(crate) drawn: (glow::Framebuffer, u32),
-    /// The way to the host.
+    /// How it reaches the host.
     pub(crate) end: PathEnd,
-    /// The blits that the surface is read behind.
+    /// The blits that produced the surface's texels.
     pub(crate) blits: Option<Blits>,
 }
 
 impl Source<'_> {
-    /// True if a shader fetches the texels. Several samples are never copied, which would resolve them.
+    /// Returns true if a shader fetches the texels. Multisampled attachments always are, since a copy would
+    /// resolve them.
     fn is_fetched(&self) -> bool {
         self.surface.samples() > 1 || self.end == PathEnd::ShaderRead
     }
@@ -54,7 +55,7 @@ impl Source<'_> {
         self.size[0] as usize * self.size[1] as usize
     }
 
-    /// Returns the parts in which an aspect is read.
+    /// Returns the parts in which an aspect is read, each with its place in the result.
     fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
         match self.blits {
             Some(blits) => blits.pieces(aspect),
@@ -73,7 +74,7 @@ impl Source<'_> {
     }
 }
 
-/// Returns the part at a place that stays there.
+/// Returns a part that keeps its place.
 fn piece(place: [u32; 2], size: [u32; 2]) -> Piece {
     Piece {
         from: place,
@@ -90,7 +91,7 @@ impl Reading<'_> {
         Ok(images)
     }
 
-    /// Returns the images, in a copy where the path has one.
+    /// Returns the images, read from a copy if the path has one.
     fn images_at(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         match source.end {
             PathEnd::Copy | PathEnd::Blit => {}
@@ -147,7 +148,7 @@ impl Reading<'_> {
             images.push(image(Aspect::Depth, channels, path, codes));
         }
         if let Some(mut codes) = stencil {
-            // Both ways of reading integers are exact.
+            // Reading integers is exact in both ways.
             let channels = vec![ChannelEncoding::Uint(8)];
             self.plant(source, &channels, &mut codes);
             images.push(image(Aspect::Stencil, channels, ReadPath::Copy, codes));
@@ -169,7 +170,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Returns the codes of a colour surface. Several samples are always fetched.
+    /// Returns the codes of a colour surface. Multisampled surfaces are always fetched.
     fn stored_color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
         let format = source.format;
         let channels = format.color_channels();
@@ -238,8 +239,8 @@ impl Reading<'_> {
         Ok((depth, stencil))
     }
 
-    /// Fetches a surface into a scratch surface and reads that: four words per sample, the samples
-    /// of a texel in sequence.
+    /// Fetches a surface into a scratch surface and reads that: four words per sample, with the samples of a
+    /// texel in sequence.
     fn fetch(
         &mut self,
         source: &Source<'_>,
@@ -287,13 +288,12 @@ impl Reading<'_> {
         let mut codes = vec![0_u32; texels * samples as usize * 4];
         let mut wide = vec![0_u32; texels * 4];
         for sample in 0..samples as usize {
-            // SAFETY: the context is current, all objects are its own, and the draw reads no
-            // vertices.
+            // SAFETY: the context is current and owns all objects, and the draw reads no vertices.
             unsafe {
                 gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
                 gl.viewport(0, 0, size[0] as i32, size[1] as i32);
                 gl.use_program(Some(program));
-                // A texture has samples or layers: one of the two numbers is 0.
+                // A texture has samples or layers, so one of the two numbers is 0.
                 gl.uniform_1_i32(location.as_ref(), sample as i32 + part.layer);
                 gl.bind_vertex_array(Some(self.no_vertices));
                 gl.active_texture(glow::TEXTURE0);
@@ -320,7 +320,7 @@ impl Reading<'_> {
     }
 }
 
-/// Returns the codes of texels of four floats.
+/// Returns the codes of texels that are four floats each.
 fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
     let mut codes = Vec::with_capacity(wide.len() / 4 * channels.len());
     for texel in wide.chunks_exact(4) {
@@ -330,8 +330,8 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
     codes
 }
 
-/// Reads a single-sample surface by `glReadPixels`: colour, depth or else stencil, and the stencil
-/// beside depth.
+/// Reads a single-sample surface with `glReadPixels`: colour, depth, or else stencil, and the stencil if it
+/// is packed with depth.
 fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
     let (surface, format) = (source.surface, source.format);
     let first = match (format.is_color(), plan) {
@@ -342,7 +342,8 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
     let pieces = source.pieces(first);
     let gl = &context.gl;
     let (width, texels) = (source.size[0], source.texels());
-    // SAFETY: the context is current, the framebuffers are its own, and the one that was drawn to has the point.
+    // SAFETY: the context is current and owns the framebuffers, and the framebuffer that was drawn to has the
+    // attachment point.
     unsafe {
         if source.end == PathEnd::ReadBuffer {
             let (framebuffer, point) = source.drawn;
@@ -358,7 +359,7 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
         words
     };
     let words = |format, kind, per_texel| words_of(&pieces, format, kind, per_texel);
-    // Aspects that blits move in two ways are read one after the other.
+    // If blits move the two aspects differently, each is read alone.
     let stencil_words = |format, kind, per_texel| {
         let others = source.pieces(Aspect::Stencil);
         (others != pieces).then(|| words_of(&others, format, kind, per_texel))
@@ -434,7 +435,7 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
     codes
 }
 
-/// Tells the recording where the codes are that were just copied.
+/// Records where the codes are that were just copied.
 fn note_planes(plan: ReadPlan, format: TextureFormat) {
     let plane = |aspect, texel, channels, form| recording::plane(aspect, texel, channels, form);
     let place = |bit, bits| vec![[bit, bits]];
@@ -449,7 +450,7 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
         ReadPlan::Depth16 => plane(Aspect::Depth, 2, place(0, 16), Form::Code),
         ReadPlan::Depth24 => plane(Aspect::Depth, 4, place(8, 24), Form::Code),
         ReadPlan::DepthFloat => plane(Aspect::Depth, 4, place(0, 32), Form::Code),
-        // Depth is noted where it is read.
+        // `note_depth` records depth when it is read.
         ReadPlan::Depth24Stencil8 => plane(Aspect::Stencil, 4, place(0, 8), Form::Code),
         ReadPlan::DepthFloatStencil8 => plane(Aspect::Stencil, 8, place(32, 8), Form::Code),
         ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
@@ -458,7 +459,7 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
     }
 }
 
-/// Tells the recording where the depths are that were just copied beside stencil.
+/// Records where the depths are that were just copied with stencil.
 fn note_depth(plan: ReadPlan) {
     let (texel, place) = match plan {
         ReadPlan::DepthFloatStencil8 => (8, [0, 32]),
@@ -467,12 +468,12 @@ fn note_depth(plan: ReadPlan) {
     recording::plane(Aspect::Depth, texel, vec![place], Form::Code);
 }
 
-/// Returns the places of so many channels of so many bits, one behind the other.
+/// Returns the places of `channels` consecutive channels of `bits` bits each.
 fn each(channels: u32, bits: u32) -> Vec<[u32; 2]> {
     (0..channels).map(|c| [c * bits, bits]).collect()
 }
 
-/// Returns the code of at most 8 bits that was widened to a byte.
+/// Returns the code that was widened to a byte, if it has fewer than 8 bits, or else the byte.
 fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     match encoding.bits() {
         bits @ 1..8 => {
@@ -483,7 +484,7 @@ fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     }
 }
 
-/// Reads pieces of the bound framebuffer into a slice of exactly the size of an image with this width.
+/// Reads pieces of the bound framebuffer into a slice, which has exactly the size of an image of this width.
 fn read_pixels<T: bytemuck::Pod>(
     gl: &glow::Context,
     width: u32,
@@ -499,7 +500,7 @@ fn read_pixels<T: bytemuck::Pod>(
         let [wide, high] = piece.size.map(|length| length as i32);
         let bytes = bytemuck::cast_slice_mut(into);
         let pixels = glow::PixelPackData::Slice(Some(bytes));
-        // SAFETY: rows are as long as the image's and packed tightly, the pieces lie inside of it, and
+        // SAFETY: rows are as long as the image's and tightly packed, the pieces are inside the image, and
         // the callers size the slice by format and type.
         unsafe {
             gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
@@ -519,11 +520,11 @@ fn read_pixels<T: bytemuck::Pod>(
     }
 }
 
-/// Fills a surface with values that a copy which is lost would leave behind. Without it they could be those of
-/// an earlier scene with the same picture.
+/// Fills a surface with values that show a lost copy. Otherwise the texels of an earlier scene with the same
+/// picture could hide the loss.
 pub(crate) fn spoil(context: &Context, format: TextureFormat, surface: &Surface) {
     let gl = &context.gl;
-    // SAFETY: the context is current, the framebuffer is its own, and masks and scissor are open.
+    // SAFETY: the context is current and owns the framebuffer, and masks and scissor are open.
     unsafe {
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         match (
@@ -545,7 +546,7 @@ fn copy_image(context: &Context, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [width, height] = from.size().map(|side| side as i32);
     let (source, target) = (Place::of(from), Place::of(to));
-    // SAFETY: the context is current, has the function, and the images are its own and as large.
+    // SAFETY: the context is current, has the function, and owns the images, which are of equal size.
     unsafe {
         gl.copy_image_sub_data(
             source.name,
@@ -567,7 +568,7 @@ fn copy_image(context: &Context, from: &Surface, to: &Surface) {
     }
 }
 
-/// An image as copies name it: renderbuffers have names as textures do.
+/// An image as copies name it. Renderbuffers have names, as textures do.
 struct Place {
     name: glow::Texture,
     binding: u32,
@@ -599,7 +600,7 @@ fn blit(context: &Context, format: TextureFormat, from: &Surface, to: &Surface) 
     let gl = &context.gl;
     let [w, h] = from.size().map(|side| side as i32);
     let mask = bits(format.aspects());
-    // SAFETY: the context is current and the framebuffers are its own.
+    // SAFETY: the context is current and owns the framebuffers.
     unsafe {
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
@@ -607,7 +608,7 @@ fn blit(context: &Context, format: TextureFormat, from: &Surface, to: &Surface) 
     }
 }
 
-/// Returns the bits of aspects.
+/// Returns the buffer bits of aspects.
 pub(crate) fn bits(aspects: &[Aspect]) -> u32 {
     aspects.iter().fold(0, |mask, aspect| {
         mask | match aspect {

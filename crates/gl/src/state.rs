@@ -1,8 +1,8 @@
-//! Pipeline state. What is on or off is set for every draw, so that no cache can be stale.
+//! Pipeline state. Every draw sets what is enabled and disabled, so that no cache can be stale.
 //!
-//! The parameters of what is off are left as an earlier draw or [`reset`] set them. None of them may
-//! act, so `reset` chooses those that would be seen: a driver that forgets to ask whether a test is
-//! enabled must not pass by chance.
+//! The parameters of disabled state stay as an earlier draw or [`reset`] set them. They must not act, so
+//! `reset` chooses values whose effect would be visible: a driver that ignores the enable must not pass by
+//! chance.
 
 use crate::context::Context;
 use crate::enums::{advanced_equation, compare, equations, logic_operation, mask, operation};
@@ -29,14 +29,14 @@ pub(crate) struct DrawState {
     polygon_mode: u32,
     /// The convention of the provoking vertex.
     provoking: u32,
-    /// The capability that biases the draw's polygons.
+    /// The capability that enables depth bias for the draw's polygon mode.
     offset: u32,
     /// True if the draw has polygons.
     polygons: bool,
     rasterizer_discard: bool,
     viewport: Viewport,
     viewports: PathViewport,
-    /// The clip volume's origin, where the draws' differ.
+    /// The clip volume's origin, if it differs between draws.
     origin: Option<u32>,
     scissor: Option<[i32; 4]>,
     /// The bits of the clip distances that clip.
@@ -46,7 +46,7 @@ pub(crate) struct DrawState {
     depth_bounds: Option<[f32; 2]>,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
-    /// The pass writes neither depth nor stencil.
+    /// True if the pass writes neither depth nor stencil.
     read_only: bool,
     targets: Vec<ColorTarget>,
     logic: Option<u32>,
@@ -64,7 +64,7 @@ impl DrawState {
         variant: Variant,
     ) -> Result<Self, BackendError> {
         if !viewport_is_exact(context, &draw.viewport) {
-            // The requirement that is nearest to a viewport that GL cannot represent.
+            // The closest requirement to a viewport that GL cannot represent.
             let requirement = Requirement::Feature(Feature::ViewportOutside);
             return Err(BackendError::NotSupported(requirement));
         }
@@ -127,7 +127,7 @@ impl DrawState {
         })
     }
 
-    /// Sets the state. State that the context lacks is off, as the limits deny it.
+    /// Sets the state. State that the context lacks is off; the limits deny it.
     pub(crate) fn apply(&self, context: &Context) {
         self.apply_rasterization(context);
         self.apply_tests(context);
@@ -141,8 +141,8 @@ impl DrawState {
         set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
         set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
         self.apply_offset(context);
-        // SAFETY: the context is current; entry points are of version 3 or supported, and
-        // polygon modes are set in core profiles only.
+        // SAFETY: the context is current; entry points are part of version 3 or supported, and polygon modes
+        // are set only in core profiles.
         unsafe {
             if let Some(face) = self.cull {
                 gl.cull_face(face);
@@ -183,7 +183,7 @@ impl DrawState {
     /// The context is current.
     unsafe fn apply_viewport(&self, context: &Context) {
         let gl = &context.gl;
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe {
             let [x, y, w, h] = self.viewport.rect;
             match context.entry_points.viewport_indexed {
@@ -202,7 +202,8 @@ impl DrawState {
         }
     }
 
-    /// Sets the last of `count` viewports and scissor rectangles to the draw's, those before it to others.
+    /// Sets the last of `count` viewports and scissor rectangles to the draw's, and the ones before it to
+    /// others.
     ///
     /// # Safety
     /// The context is current.
@@ -220,7 +221,7 @@ impl DrawState {
         let rects = [[1.0, 1.0, 3.0, 2.0], [x, y, w, h]];
         let [near, far] = self.viewport.depth.map(f64::from);
         let depths = [[0.125, 0.25], [near, far]];
-        // SAFETY: the caller's; so many elements are left in each array.
+        // SAFETY: upheld by the caller; each array has `count` elements left.
         unsafe {
             viewports(0, count, rects[skipped..].as_ptr().cast());
             ranges(0, count, depths[skipped..].as_ptr().cast());
@@ -231,9 +232,9 @@ impl DrawState {
         }
     }
 
-    /// Sets the depth bias. It obeys the capability of the draw's polygon mode alone (OpenGL 4.6,
-    /// 14.6.5), so the others stay as they are. Points and lines are no polygons: no capability
-    /// biases them, so all are set.
+    /// Sets the depth bias. Only the capability of the draw's polygon mode enables it (OpenGL 4.6, 14.6.5),
+    /// so the others stay unchanged. Points and lines are not polygons and no capability biases them, so all
+    /// capabilities are set.
     fn apply_offset(&self, context: &Context) {
         let gl = &context.gl;
         let offset_of_mode = [self.offset];
@@ -267,7 +268,7 @@ impl DrawState {
         }
         set(gl, glow::DEPTH_TEST, self.depth.is_some());
         set(gl, glow::STENCIL_TEST, self.stencil.is_some());
-        // SAFETY: the context is current; the entry points are of version 3.
+        // SAFETY: the context is current; the entry points are part of version 3.
         unsafe {
             if let Some(depth) = self.depth {
                 gl.depth_func(compare(depth.compare));
@@ -318,7 +319,7 @@ impl DrawState {
         }
     }
 
-    /// Returns the advanced blend equation of a draw, which has one target.
+    /// Returns the draw's advanced blend equation, if its first target has one.
     fn advanced(&self) -> Option<u32> {
         let mode = self.targets.first().and_then(|t| t.advanced);
         mode.map(advanced_equation)
@@ -340,8 +341,8 @@ impl DrawState {
         }
     }
 
-    /// Takes the advanced blend equation back: with several targets or another shader it is an error even
-    /// where blending is off (OpenGL ES 3.2, 15.1.5.3, Errors).
+    /// Resets the advanced blend equation. With several targets or another shader, it would be an error even
+    /// if blending is disabled (OpenGL ES 3.2, 15.1.5.3, Errors).
     pub(crate) fn end_advanced(&self, context: &Context) {
         if self.advanced().is_some() {
             // SAFETY: the context is current.
@@ -358,8 +359,8 @@ impl DrawState {
                 unsafe { set_logic(operation) };
             }
         }
-        // SAFETY: the context is current; the entry points are of version 3, and targets
-        // differ only if the context supports it.
+        // SAFETY: the context is current; the entry points are part of version 3, and targets differ only if
+        // the context supports it.
         unsafe {
             let [r, g, b, a] = self.blend_constant;
             gl.blend_color(r, g, b, a);
@@ -374,13 +375,13 @@ impl DrawState {
                         gl.blend_equation_separate(color.0, alpha.0);
                         gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
                     }
-                    // With a second source as a factor, Mesa refuses several targets even if
-                    // blending is disabled. These factors would keep the destination.
+                    // If a factor is the second source, Mesa refuses several targets even if blending is
+                    // disabled. These factors would keep the destination.
                     None => gl.blend_func(glow::ZERO, glow::ONE),
                 }
                 return;
             }
-            // The same holds for draw buffers beyond the targets, which the loop does not reach.
+            // This also applies to draw buffers beyond the targets, which the loop does not reach.
             gl.blend_func(glow::ZERO, glow::ONE);
             for (i, target) in (0..).zip(&self.targets) {
                 let [r, g, b, a] = mask(target);
@@ -402,7 +403,7 @@ impl DrawState {
     }
 }
 
-/// The capabilities that bias polygons, that of filled ones first: ES has no other.
+/// The capabilities that enable depth bias, filled polygons first. ES has only that one.
 const POLYGON_OFFSETS: [u32; 3] = [
     glow::POLYGON_OFFSET_FILL,
     glow::POLYGON_OFFSET_LINE,
@@ -414,10 +415,10 @@ const POLYGON_OFFSETS: [u32; 3] = [
 /// # Safety
 /// The context is current.
 unsafe fn offset(context: &Context, constant: f32, slope: f32, clamp: f32) {
-    // SAFETY: the caller's, and the entry point is supported.
+    // SAFETY: upheld by the caller, and the entry point is supported.
     unsafe {
         match context.entry_points.polygon_offset_clamp {
-            // Without a clamp the older function is used, which sets the clamp to 0.
+            // Without a clamp, the older function is used; it sets the clamp to 0.
             Some(offset) if clamp != 0.0 => offset(slope, constant, clamp),
             _ => context.gl.polygon_offset(slope, constant),
         }
@@ -436,8 +437,8 @@ pub(crate) fn set(gl: &glow::Context, capability: u32, on: bool) {
     }
 }
 
-/// Returns true if GL represents a viewport exactly. It may round between its sub-pixel positions
-/// (OpenGL 4.6, 13.8.1) and clamp to its limit.
+/// Returns true if GL represents a viewport exactly. GL may round it to its sub-pixel positions (OpenGL 4.6,
+/// 13.8.1) and clamp it to its limit.
 fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
     let steps = 2_f32.powi(context.caps.viewport_bits.unwrap_or(0).min(16) as i32);
     let [_, _, w, h] = viewport.rect;
@@ -446,7 +447,7 @@ fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
     fits && viewport.rect.iter().all(|v| (v * steps).fract() == 0.0)
 }
 
-/// Returns the scissor in signed integers, as GL takes it.
+/// Returns the scissor rectangle in signed integers, which GL takes.
 fn scissor(rect: [u32; 4]) -> [i32; 4] {
     let [x, y, w, h] = rect.map(|v| i32::try_from(v).unwrap_or(i32::MAX));
     [x, y, w.min(i32::MAX - x), h.min(i32::MAX - y)]
@@ -464,13 +465,13 @@ pub(crate) fn set_restart(context: &Context) {
     }
 }
 
-/// Enables primitive restart, which acts on indices alone, for a draw without any: at the number of a vertex that it
-/// draws, where a context takes numbers.
+/// Enables primitive restart for a draw without indices, on which it must not act. If the context lets the
+/// restart index be set, it is the number of a vertex that is drawn.
 pub(crate) fn set_restart_unindexed(context: &Context, vertex: u32) {
     let gl = &context.gl;
     match context.entry_points.primitive_restart_index {
         Some(index) if !context.caps.es => {
-            // It would come before the number.
+            // The fixed index would take precedence over this index.
             set(gl, glow::PRIMITIVE_RESTART_FIXED_INDEX, false);
             set(gl, glow::PRIMITIVE_RESTART, true);
             // SAFETY: the context is current and has the function.
@@ -488,8 +489,8 @@ pub(crate) fn unset_restart_unindexed(context: &Context) {
     set_restart(context);
 }
 
-/// Sets primitive restart for one draw of indices of a type: on at the type's largest index, or off, so
-/// that this index names a vertex.
+/// Sets primitive restart for one draw with indices of a type: enabled at the type's largest index, or
+/// disabled, so that this index is a vertex.
 pub(crate) fn set_restart_of(context: &Context, kind: u32, on: bool) {
     let gl = &context.gl;
     if context.caps.fixed_restart {
@@ -524,11 +525,11 @@ fn stencil_face(gl: &glow::Context, face: u32, state: StencilFace) {
     }
 }
 
-/// Sets the state that no scene changes, and resets what scenes change, so that it does not affect
+/// Sets the state that no scene changes, and resets the state that scenes change, so that it does not affect
 /// clears and uploads.
 pub(crate) fn reset(context: &Context) {
     let gl = &context.gl;
-    // SAFETY: the context is current; state of one profile is set in that profile only.
+    // SAFETY: the context is current; state of one profile is set only in that profile.
     unsafe {
         for capability in [
             glow::SCISSOR_TEST,
@@ -577,7 +578,7 @@ pub(crate) fn reset(context: &Context) {
                 gl.disable(capability);
             }
             gl.enable(glow::MULTISAMPLE);
-            // As ES has it: the attachments' formats alone decide.
+            // As in ES, the attachments' formats alone then decide.
             gl.enable(glow::FRAMEBUFFER_SRGB);
             gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL);
         }
@@ -603,7 +604,7 @@ pub(crate) fn reset(context: &Context) {
     context.set_clip_control();
 }
 
-/// Sets the parameters of everything that is off to values that would be seen.
+/// Sets the parameters of all disabled state to values whose effect would be visible.
 fn set_idle_parameters(context: &Context) {
     let gl = &context.gl;
     let entry_points = &context.entry_points;
@@ -627,7 +628,7 @@ fn set_idle_parameters(context: &Context) {
             set_logic(glow::CLEAR);
         }
         if let Some(bounds) = entry_points.depth_bounds {
-            // No depth that a case stores lies here alone.
+            // No depth that a case stores is inside these bounds.
             bounds(0.999_999, 0.999_999_5);
         }
     }

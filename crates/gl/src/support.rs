@@ -1,13 +1,13 @@
-//! The support of formats by a driver, and the way to read each back.
+//! A driver's support for formats, and how each is read back.
 
 use etalon_frame::FormatSupport;
 
-/// The way in which an attachment's codes are read back.
+/// How an attachment's codes are read back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadPlan {
     /// `glReadPixels` of colours in the format and type of uploads.
     Packed,
-    /// `glReadPixels` of four bytes per texel, to which shorter channels are widened.
+    /// `glReadPixels` of four bytes per texel. Shorter channels are widened to bytes.
     Bytes,
     /// `glReadPixels` of four floats per texel.
     Floats,
@@ -17,7 +17,7 @@ pub(crate) enum ReadPlan {
     Fetched,
     /// `glReadPixels` of 16-bit codes.
     Depth16,
-    /// `glReadPixels` of 32-bit integers, whose upper 24 bits are the code.
+    /// `glReadPixels` of 32-bit integers; the upper 24 bits are the code.
     Depth24,
     /// `glReadPixels` of floats.
     DepthFloat,
@@ -31,12 +31,12 @@ pub(crate) enum ReadPlan {
     Shader {
         /// True if depth is fetched.
         depth: bool,
-        /// The way in which stencil is read.
+        /// How stencil is read.
         stencil: ShaderStencil,
     },
 }
 
-/// The way in which stencil is read beside a depth that a shader reads.
+/// How stencil is read if a shader reads depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ShaderStencil {
     /// No stencil.
@@ -47,12 +47,12 @@ pub(crate) enum ShaderStencil {
     Shader,
 }
 
-/// The support of a format by a driver.
+/// A driver's support for a format.
 #[derive(Clone, Debug)]
 pub(crate) struct Support {
     pub(crate) limits: FormatSupport,
-    /// For one sample; several are always fetched by a shader.
+    /// How one sample is read. A shader always fetches multisampled attachments.
     pub(crate) read: ReadPlan,
-    /// A shader's fetch determines the codes that `read` returns.
+    /// True if a shader's fetch determines the codes that `read` returns.
     pub(crate) fetched_exactly: bool,
 }

@@ -12,22 +12,23 @@ use std::cell::Cell;
 /// The use of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// A scene's attachment with this many samples per texel, the part of a texture that it is, and the texture's
-    /// format.
+    /// An attachment of a scene: its format, its number of samples per texel, the part of a texture that it
+    /// is, and how the texture's format is chosen.
     Attachment(TextureFormat, u32, PathTarget, PathViews),
-    /// An attachment of three layers, the one that is read, and the texture's format.
+    /// An attachment with three layers: its format, the layer that is read, and how the texture's format is
+    /// chosen.
     Layered(TextureFormat, u8, PathViews),
     /// The target of read-back shaders: four 32-bit unsigned integers per texel.
     Fetched,
 }
 
 impl SurfaceKind {
-    /// An attachment that is a whole texture of its format.
+    /// Returns an attachment that is a whole texture of its format.
     pub(crate) fn plain(format: TextureFormat, samples: u32) -> Self {
         Self::Attachment(format, samples, PathTarget::Plain, PathViews::Same)
     }
 
-    /// Returns the way in which the path chooses the texture's format; `same` if it leaves it.
+    /// Returns how the path chooses the texture's format; [`PathViews::Same`] if the path does not apply.
     pub(crate) fn views(self) -> PathViews {
         match self {
             Self::Attachment(format, _, _, views) | Self::Layered(format, _, views) => {
@@ -37,7 +38,7 @@ impl SurfaceKind {
         }
     }
 
-    /// Returns the internal format of the texture that the surface is a view of, if it is another.
+    /// Returns the internal format of the texture that the surface is a view of, if the surface is a view.
     fn stored(self) -> Option<u32> {
         match self.target() {
             PathTarget::Renderbuffer => None,
@@ -66,7 +67,7 @@ impl SurfaceKind {
         }
     }
 
-    /// Returns the approximate size of a texel.
+    /// Returns the approximate size of a texel in bytes.
     fn bytes(self) -> u64 {
         match self {
             Self::Attachment(format, samples, ..) if format.is_color() => {
@@ -87,7 +88,7 @@ impl SurfaceKind {
         }
     }
 
-    /// Returns the format of an attachment.
+    /// Returns the format, if the surface is an attachment.
     pub(crate) fn format(self) -> Option<TextureFormat> {
         match self {
             Self::Attachment(format, ..) | Self::Layered(format, ..) => Some(format),
@@ -112,12 +113,12 @@ pub(crate) struct Part {
     /// The target that the texture is bound to.
     pub(crate) binding: u32,
     pub(crate) level: i32,
-    /// The layer of an array, the slice of a three-dimensional texture or the face of a cube.
+    /// The layer of an array, slice of a 3D texture, or face of a cube map.
     pub(crate) layer: i32,
 }
 
 impl Part {
-    /// The only image of a texture.
+    /// Returns the only image of a texture.
     fn whole(texture: glow::Texture, binding: u32) -> Self {
         Self {
             texture,
@@ -132,7 +133,7 @@ impl Part {
         matches!(self.binding, glow::TEXTURE_2D_ARRAY | glow::TEXTURE_3D)
     }
 
-    /// Returns the target of the image, which is the face's in a cube.
+    /// Returns the target of the image. In a cube map, it is the face's.
     fn image(self) -> u32 {
         match self.binding {
             glow::TEXTURE_CUBE_MAP => glow::TEXTURE_CUBE_MAP_POSITIVE_X + self.layer as u32,
@@ -141,11 +142,11 @@ impl Part {
     }
 }
 
-/// A texture or renderbuffer with a framebuffer. Contents of a new one are undefined.
+/// A texture or renderbuffer with a framebuffer. A new one has undefined contents.
 #[derive(Debug)]
 pub(crate) struct Surface {
     pub(crate) storage: Storage,
-    /// The texture that the storage is a view of.
+    /// The texture that the storage is a view of, if it is a view.
     viewed: Option<glow::Texture>,
     pub(crate) framebuffer: glow::Framebuffer,
     status: u32,
@@ -161,7 +162,7 @@ thread_local! {
 }
 
 impl Surface {
-    /// Creates a surface. After an error its parts are deleted with the context.
+    /// Creates a surface. After an error, what it created is deleted with the context.
     pub(crate) fn new(
         context: &Context,
         kind: SurfaceKind,
@@ -170,7 +171,7 @@ impl Surface {
         let format = kind.gl()?;
         let samples = kind.samples();
         let stencil_only = kind.format() == Some(TextureFormat::Stencil8);
-        // A shader reads stencil in ES and if multisampled, which takes a texture.
+        // In ES, and if multisampled, a shader reads stencil, which needs a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
         let target = kind.target();
         let (storage, viewed) = match kind.stored() {
@@ -213,7 +214,7 @@ impl Surface {
         })
     }
 
-    /// Returns true if the surface alone is a complete framebuffer.
+    /// Returns true if the surface alone makes a complete framebuffer.
     pub(crate) fn is_complete(&self) -> bool {
         self.status == glow::FRAMEBUFFER_COMPLETE
     }
@@ -241,7 +242,7 @@ impl Surface {
     /// Deletes the surface.
     pub(crate) fn delete(self, context: &Context) {
         let gl = &context.gl;
-        // SAFETY: the context is current and the objects are its own.
+        // SAFETY: the context is current and owns the objects.
         unsafe {
             gl.delete_framebuffer(self.framebuffer);
             match self.storage {
@@ -331,17 +332,16 @@ fn texture(
     }
 }
 
-/// Sets the parameters of the texture that is bound.
+/// Sets the parameters of the bound texture.
 ///
 /// # Safety
 /// The context is current, and the texture has these parameters.
 unsafe fn set_parameters(gl: &glow::Context, shape: Shape) {
-    // SAFETY: the caller's.
+    // SAFETY: upheld by the caller.
     let set = |name, value: u32| unsafe {
         gl.tex_parameter_i32(shape.binding, name, value as i32);
     };
-    // Fetches require a complete texture, even if they do not use its filter.
-    // A shader sees the one level.
+    // Fetches require a complete texture, even if they do not use its filter. Shaders see only this level.
     set(glow::TEXTURE_BASE_LEVEL, shape.level as u32);
     set(glow::TEXTURE_MAX_LEVEL, shape.level as u32);
     set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
@@ -356,11 +356,11 @@ struct Shape {
     binding: u32,
     /// The size of level 0.
     size: [u32; 2],
-    /// The level, which is the last.
+    /// The level that is used, which is the last.
     level: i32,
     /// The number of layers, slices or faces.
     layers: i32,
-    /// The layer, slice or face.
+    /// The layer, slice or face that is used.
     layer: i32,
 }
 
@@ -386,7 +386,7 @@ impl Shape {
         match path {
             PathTarget::Plain | PathTarget::Renderbuffer => plain,
             PathTarget::MipLevel => Self {
-                // Odd sizes, which are rounded down from level to level.
+                // Odd sizes: each level's size is rounded down.
                 size: size.map(|side| 2 * side + 1),
                 level: 1,
                 ..plain
@@ -413,7 +413,7 @@ impl Shape {
     }
 }
 
-/// Checks that the context has textures as large as a part of one needs.
+/// Checks that the context supports textures of the size that the part needs.
 fn check_size(context: &Context, path: PathTarget, shape: Shape) -> Result<(), BackendError> {
     let name = match path {
         PathTarget::Plain | PathTarget::Renderbuffer => return Ok(()),
@@ -421,7 +421,7 @@ fn check_size(context: &Context, path: PathTarget, shape: Shape) -> Result<(), B
         PathTarget::Slice3d => glow::MAX_3D_TEXTURE_SIZE,
         PathTarget::CubeFace => glow::MAX_CUBE_MAP_TEXTURE_SIZE,
     };
-    // SAFETY: the context is current and has these limits since version 3.
+    // SAFETY: the context is current, and has had these limits since version 3.
     let most = unsafe { context.gl.get_parameter_i32(name) };
     let fits = shape
         .size
@@ -441,15 +441,15 @@ fn multisample_texture(
     let target = glow::TEXTURE_2D_MULTISAMPLE;
     let (samples, width, height) = (samples as i32, width as i32, height as i32);
     let internal = format.internal;
-    // SAFETY: the context is current. Multisampling is offered from ES 3.1 and OpenGL 3.3 on,
-    // which have these entry points.
+    // SAFETY: the context is current. Multisampling is supported from ES 3.1 and OpenGL 3.3 on, which have
+    // these entry points.
     unsafe {
         let texture = gl
             .create_texture()
             .map_err(|e| BackendError::refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
-        // The same sample positions for every texel and format.
+        // Requests the same sample positions for every texel and format.
         if context.caps.es {
             gl.tex_storage_2d_multisample(target, samples, internal, width, height, true);
         } else {
@@ -460,8 +460,8 @@ fn multisample_texture(
     }
 }
 
-/// Returns the used part of a view, and the texture of the format `stored` that it is a view of (OpenGL 4.6, 8.18;
-/// `GL_OES_texture_view`).
+/// Creates a texture of the format `stored` and a view of it. Returns the part of the view that is used, and
+/// the texture (OpenGL 4.6, 8.18; `GL_OES_texture_view`).
 ///
 /// # Errors
 /// If the context has no texture of this format and number of samples.
@@ -486,8 +486,8 @@ fn view(
     }
     let [width, height] = shape.size.map(|side| side as i32);
     let (binding, layers, levels) = (shape.binding, shape.layers, shape.level + 1);
-    // SAFETY: the context is current and has views, and with them storage of every target here. The view has the
-    // texture's levels and layers, and a format of its class.
+    // SAFETY: the context is current and has views, and therefore storage of every target here. The view has
+    // the texture's levels and layers, and a format of its class.
     unsafe {
         let create = || {
             let texture = gl.create_texture();
@@ -498,7 +498,7 @@ fn view(
         gl.bind_texture(binding, Some(texture));
         match binding {
             glow::TEXTURE_2D_MULTISAMPLE => {
-                // The same sample positions for every texel and format.
+                // Requests the same sample positions for every texel and format.
                 let samples = samples as i32;
                 gl.tex_storage_2d_multisample(binding, samples, stored, width, height, true);
             }
@@ -507,7 +507,7 @@ fn view(
             }
             _ => gl.tex_storage_2d(binding, levels, stored, width, height),
         }
-        // Slices are no layers.
+        // Slices do not count as layers.
         let layers = match binding {
             glow::TEXTURE_3D => 1,
             _ => layers as u32,
@@ -531,24 +531,24 @@ fn view(
     }
 }
 
-/// Returns the most samples of a texture of this format.
+/// Returns the largest sample count of a texture of this format.
 fn most_samples(gl: &glow::Context, format: u32) -> u32 {
     let mut counts = [1];
     let target = glow::TEXTURE_2D_MULTISAMPLE;
-    // SAFETY: the context is current, and has the query since it has views. Counts are in descending order.
+    // SAFETY: the context is current, and has the query because it has views. Counts are in descending order.
     unsafe { gl.get_internal_format_i32_slice(target, format, glow::SAMPLES, &mut counts) };
     counts[0].max(1).cast_unsigned()
 }
 
-/// Replaces the contents of a single-sample colour texture. `bytes` covers it.
+/// Replaces the contents of a single-sample colour texture. `bytes` has all of its texels.
 pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface, bytes: &[u8]) {
     let gl = &context.gl;
     let (Some(words), Storage::Texture(part)) = (gl_format(format), surface.storage) else {
         return;
     };
     let [width, height] = surface.size().map(|side| side as i32);
-    // SAFETY: the context is current, rows are packed tightly (`state::reset`), and the caller has
-    // counted the bytes.
+    // SAFETY: the context is current, rows are tightly packed (`state::reset`), and the caller counted the
+    // bytes.
     unsafe {
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(part.binding, Some(part.texture));
@@ -572,14 +572,15 @@ pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface
     }
 }
 
-/// Creates a framebuffer, of all layers if it is `layered`, leaves it bound, and returns its status.
+/// Creates a framebuffer, with all layers if `layered` is true. Leaves it bound, and returns it with its
+/// status.
 pub(crate) fn framebuffer(
     context: &Context,
     attachments: &[(Storage, u32)],
     layered: bool,
 ) -> Result<(glow::Framebuffer, u32), BackendError> {
     let gl = &context.gl;
-    // SAFETY: the context is current and the attachments are its own.
+    // SAFETY: the context is current and owns the attachments.
     unsafe {
         let framebuffer = gl
             .create_framebuffer()

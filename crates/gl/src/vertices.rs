@@ -1,8 +1,8 @@
-//! Vertices, indices and instances in buffers that all draws of a scene share.
+//! Vertices, indices and instances, in buffers that all draws of a scene share.
 //!
-//! Most draws share the attributes' pointers too: their indices are moved to their vertices, since not
-//! every version has a base vertex. A draw whose [`Fetch`](etalon_scene::Fetch) asks for more sets
-//! pointers of its own, so that its numbers reach the driver as they are.
+//! Most draws also share the attributes' pointers: their indices are offset to their vertices, since not
+//! every version has a base vertex. A draw whose [`Fetch`](etalon_scene::Fetch) needs other numbers sets its
+//! own pointers, so that these numbers reach the driver unchanged.
 
 use crate::context::Context;
 use crate::state;
@@ -29,9 +29,9 @@ pub(crate) struct Geometry {
     pub(crate) arguments: Vec<u8>,
 }
 
-/// The place of a draw's geometry in the buffers, and how it is drawn.
+/// Where a draw's geometry is in the buffers, and how it is drawn.
 pub(crate) enum Fetched {
-    /// With the pointers of all draws.
+    /// Drawn with the shared pointers.
     Shared {
         /// The first vertex of a draw without indices.
         first: i32,
@@ -40,7 +40,7 @@ pub(crate) enum Fetched {
         /// The offset of the first index in bytes, in an indexed draw.
         indices: Option<i32>,
     },
-    /// With pointers of its own.
+    /// Drawn with its own pointers.
     Own(Own),
 }
 
@@ -48,20 +48,21 @@ pub(crate) enum Fetched {
 #[derive(Clone, Copy)]
 pub(crate) struct Arguments {
     offset: i32,
-    /// The number of draws, if it is in the buffer: 1. The arguments of another draw follow.
+    /// The offset of the number of draws, which is 1, if the driver reads it from the buffer. The arguments
+    /// of a second draw follow it.
     count: Option<i32>,
 }
 
-/// The most draws of an indirect draw whose number is in a buffer.
+/// The largest number of draws that an indirect draw reads from a buffer.
 const MOST_COUNTED: i32 = 2;
 
 impl Arguments {
-    /// True if the number of draws is in the buffer.
+    /// Returns true if the driver reads the number of draws from a buffer.
     pub(crate) fn is_counted(self) -> bool {
         self.count.is_some()
     }
 
-    /// Calls the driver's draw, with indices of a type or without.
+    /// Calls the driver's draw; `kind` is the type of the indices, if there are indices.
     ///
     /// # Safety
     /// As for [`Fetched::draw`]; the arguments are in the bound buffers.
@@ -88,7 +89,7 @@ impl Arguments {
     }
 }
 
-/// A draw with pointers of its own.
+/// A draw with its own pointers.
 pub(crate) struct Own {
     /// The offset of the vertices in bytes.
     vertices: i32,
@@ -96,7 +97,7 @@ pub(crate) struct Own {
     colors: Option<i32>,
     /// The offset of the first index in bytes and its type, in an indexed draw.
     indices: Option<(i32, u32)>,
-    /// True if an index restarts the primitive.
+    /// True if the largest index restarts the primitive.
     restarts: bool,
     first: i32,
     count: i32,
@@ -132,8 +133,8 @@ impl Geometry {
         }
     }
 
-    /// Adds the arguments of a placed draw, behind others that would draw nothing. A number of draws stands between, and
-    /// the arguments again behind them, if the number is to be read.
+    /// Adds the arguments of a placed draw, after other arguments that would draw nothing. If `counted` is
+    /// true, the number of draws comes between them, and the arguments follow twice.
     pub(crate) fn place_arguments(&mut self, fetched: &Fetched, counted: bool) -> Arguments {
         let words = fetched.arguments();
         let unused = vec![0_u32; words.len()];
@@ -154,7 +155,7 @@ impl Geometry {
     fn place_own(&mut self, vertices: usize, call: &Call<'_>) -> Own {
         let colors = (!call.colors.is_empty()).then_some(self.vertices.len() as i32);
         self.vertices.extend_from_slice(call.color_bytes());
-        // The next draw's vertices start at a whole number of them.
+        // The next draw's vertices must start at a multiple of the vertex size.
         let whole = self.vertices.len().next_multiple_of(size_of::<Vertex>());
         self.vertices.resize(whole, 0);
         let indices = call.indices.as_ref().map(|_| {
@@ -182,7 +183,7 @@ impl Geometry {
     }
 }
 
-/// Points the attributes at vertices from an offset in the bound buffer on.
+/// Points the attributes at the vertices that start at this offset of the bound buffer.
 ///
 /// # Safety
 /// The context is current, and the vertex array and the buffer are bound.
@@ -219,7 +220,7 @@ impl Fetched {
         }
     }
 
-    /// Returns the second vertex of a draw without indices.
+    /// Returns the index of the second vertex of a draw without indices.
     pub(crate) fn second_vertex(&self) -> u32 {
         let first = match self {
             Self::Shared { first, .. } => *first,
@@ -228,7 +229,7 @@ impl Fetched {
         first.cast_unsigned() + 1
     }
 
-    /// Calls the driver's draw, with arguments from an offset in the bound buffer where there is one.
+    /// Calls the driver's draw, with `arguments` in the bound buffer if the draw is indirect.
     ///
     /// # Safety
     /// The context is current, and the vertex array with the scene's buffers is bound.
@@ -284,7 +285,7 @@ impl Own {
         }
     }
 
-    /// Calls the plainest function that takes all of the numbers.
+    /// Calls the simplest function that takes all of the numbers.
     ///
     /// # Safety
     /// As for [`Fetched::draw`], with pointers set.
@@ -299,7 +300,7 @@ impl Own {
             ..
         } = *self;
         let instanced = self.colors.is_some();
-        // SAFETY: as for this function; limits deny scenes whose functions are missing.
+        // SAFETY: as for this function; the limits deny scenes whose functions are missing.
         unsafe {
             let Some((offset, kind)) = self.indices else {
                 if let Some(arguments) = arguments {

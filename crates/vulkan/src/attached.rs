@@ -5,7 +5,7 @@ use ash::vk;
 
 /// A colour attachment of a pass.
 pub(crate) struct ColorPlan {
-    /// Null where no attachment is.
+    /// The view; null if the location has no attachment.
     pub(crate) view: vk::ImageView,
     pub(crate) ends: Ends,
     /// The view and mode of the resolve, if the pass resolves it.
@@ -15,11 +15,11 @@ pub(crate) struct ColorPlan {
 /// The depth-stencil attachment of a pass.
 pub(crate) struct DepthStencilPlan {
     pub(crate) view: vk::ImageView,
-    /// The operations of depth, if the format has it.
+    /// The load and store operation of depth, if the format has depth.
     pub(crate) depth: Option<Ends>,
-    /// The operations of stencil, if the format has it.
+    /// The load and store operation of stencil, if the format has stencil.
     pub(crate) stencil: Option<Ends>,
     pub(crate) read_only: bool,
-    /// The view of the resolve with the modes of depth and stencil, if the pass resolves them.
+    /// The view of the resolve and the modes of depth and stencil, if the pass resolves them.
     pub(crate) resolve: Option<(vk::ImageView, [vk::ResolveModeFlags; 2])>,
 }

@@ -23,7 +23,7 @@ pub struct Options {
     /// Enables the Khronos validation layer, synchronization validation included. Its messages are
     /// returned by [`Backend::messages`].
     pub validate: bool,
-    /// A fault that a test of the suite plants in the calls to the driver or in what is read back.
+    /// A fault that a test plants in the calls to the driver or in the values read back.
     pub fault: Option<Fault>,
     /// Records the calls of the first scene that is prepared, for [`Backend::recording`]. The device then has no
     /// timestamps.
@@ -69,7 +69,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
                 options.device,
                 devices.len()
             ),
-            "list the adapters anew: drivers may have come or gone",
+            "list the adapters again: the installed drivers might have changed",
         ));
     };
     let identity = identify(&instance, physical);
@@ -126,8 +126,8 @@ mod tests {
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         assert_eq!(backend.messages(), Vec::<String>::new());
-        // SAFETY: the layer stops at the usage, which is none, and the driver makes an empty buffer or
-        // refuses it.
+        // SAFETY: the layer stops the call because the usage is empty; without it, the driver makes an empty
+        // buffer or refuses the call.
         let buffer = unsafe {
             let info = vk::BufferCreateInfo::default().size(16);
             backend.gpu.device.raw.create_buffer(&info, None)
@@ -136,7 +136,7 @@ mod tests {
         assert!(messages.iter().any(|m| m.contains("usage")), "{messages:?}");
         assert_eq!(backend.messages(), Vec::<String>::new());
         if let Ok(buffer) = buffer {
-            // SAFETY: just made, and used by nothing.
+            // SAFETY: the buffer was just made, and nothing uses it.
             unsafe { backend.gpu.device.raw.destroy_buffer(buffer, None) };
         }
     }

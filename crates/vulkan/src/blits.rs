@@ -1,4 +1,5 @@
-//! Blits that move or filter the texels of an attachment on its way to the host, by way of another image.
+//! Blits that move or filter the texels of an attachment through an intermediate image, before the host reads
+//! them.
 
 use crate::device::Device;
 use crate::format;
@@ -9,11 +10,12 @@ use ash::vk;
 use etalon_backend::{Blit, Blits};
 use etalon_frame::Aspect;
 
-/// Records the blits of an attachment to the image between, and from there the copies, or the filtered blit, to the copy.
+/// Records the blits of an attachment to the intermediate image `between`, and from there the copies, or the
+/// filtered blit, to `copy`.
 ///
 /// # Safety
-/// Recording; the attachment's layout is that of a source, the copy's that of a destination, and nothing uses the image
-/// between.
+/// `commands` is being recorded. The attachment has the layout of a transfer source, `copy` that of a
+/// transfer destination, and nothing else uses `between`.
 pub(crate) unsafe fn record(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -30,13 +32,13 @@ pub(crate) unsafe fn record(
             .image(between)
             .subresource_range(Place::default().range(aspects))];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { api.cmd_pipeline_barrier2(commands, &info) };
     };
     change(UNDEFINED, TRANSFER_DST);
-    // What a blit that is lost leaves behind is seen.
+    // The cleared values show if the driver loses a blit.
     let ranges = [Place::default().range(aspects)];
-    // SAFETY: the caller's; the image between is in the layout of a destination.
+    // SAFETY: upheld by the caller; `between` has the layout of a transfer destination.
     unsafe {
         if aspects == vk::ImageAspectFlags::COLOR {
             let zeros = vk::ClearColorValue::default();
@@ -63,7 +65,7 @@ pub(crate) unsafe fn record(
         blits.iter().map(|blit| region(blit, source)).collect()
     };
     let blit = |from, to, regions: &[vk::ImageBlit], filter| {
-        // SAFETY: the caller's; both images hold the rectangles.
+        // SAFETY: upheld by the caller; both images contain the rectangles.
         unsafe {
             api.cmd_blit_image(
                 commands,
@@ -104,7 +106,7 @@ pub(crate) unsafe fn record(
             },
         }));
     }
-    // SAFETY: the caller's; both images hold the rectangles.
+    // SAFETY: upheld by the caller; both images contain the rectangles.
     unsafe {
         api.cmd_copy_image(
             commands,
@@ -117,7 +119,7 @@ pub(crate) unsafe fn record(
     }
 }
 
-/// Returns the blits of every column to every second one of an image twice as wide.
+/// Returns the blits that spread the columns over an image twice as wide, to every second column.
 fn columns(aspects: &[Aspect], [width, height]: [u32; 2]) -> Vec<Blit> {
     let column = |x: u32| [[x, 0], [x + 1, height]];
     (0..width)

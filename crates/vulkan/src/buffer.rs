@@ -17,7 +17,7 @@ pub(crate) enum BufferUse {
     Input,
     /// Read by the host: attachments that are read back.
     Output,
-    /// Written by shaders: counts, which the host reads, and the pool.
+    /// Written by shaders: the counts, which the host reads, and the pool.
     Storage,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// Passes a buffer of null handles to `create`, so that a failure leaks nothing.
+    /// Creates a buffer. If a step fails, it destroys what was made, so nothing leaks.
     pub(crate) fn new(device: &Device, usage: BufferUse, size: u64) -> Result<Self, BackendError> {
         let size = size.max(SMALLEST_BUFFER).checked_next_power_of_two();
         let mut buffer = Self {
@@ -96,8 +96,8 @@ impl Buffer {
     /// Writes bytes at an offset. Fails if they do not fit.
     pub(crate) fn write(&mut self, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
         let start = self.range(offset, bytes.len())?;
-        // SAFETY: `range` checked that the mapping holds all of it, the device does not use the
-        // buffer while its scene is being prepared, and `bytes` cannot overlap mapped memory.
+        // SAFETY: `range` checked that the bytes fit the mapping, the device does not use the buffer while
+        // its scene is being prepared, and `bytes` cannot overlap mapped memory.
         unsafe {
             std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.pointer.add(start), bytes.len())
         };
@@ -105,11 +105,11 @@ impl Buffer {
         Ok(())
     }
 
-    /// Copies bytes out, after the device is done with the buffer.
+    /// Copies bytes out. The device must be done with the buffer.
     pub(crate) fn read(&self, offset: u64, length: usize) -> Result<Vec<u8>, BackendError> {
         let start = self.range(offset, length)?;
         let mut bytes = vec![0; length];
-        // SAFETY: as in `write`; a fence signalled that the device is done.
+        // SAFETY: as in `write`; the fence was signalled, so the device is done.
         unsafe {
             std::ptr::copy_nonoverlapping(self.pointer.add(start), bytes.as_mut_ptr(), length);
         }

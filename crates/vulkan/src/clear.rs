@@ -1,4 +1,4 @@
-//! Clears of a pass: load and store operations, and commands between draws.
+//! Clears of a pass: load and store operations, and clear commands between draws.
 
 use crate::device::Device;
 use crate::error::internal;
@@ -34,14 +34,14 @@ impl Ends {
         Self { load, store, value }
     }
 
-    /// Makes a load operation that clears one that leaves the contents undefined.
+    /// Replaces a load operation that clears by one that leaves the contents undefined.
     pub(crate) fn leave_undefined(&mut self) {
         if self.load == vk::AttachmentLoadOp::CLEAR {
             self.load = vk::AttachmentLoadOp::DONT_CARE;
         }
     }
 
-    /// Returns the operations that keep what there is.
+    /// Returns the operations that keep the contents.
     pub(crate) fn kept() -> Self {
         Self {
             load: vk::AttachmentLoadOp::LOAD,
@@ -51,17 +51,17 @@ impl Ends {
     }
 }
 
-/// A clear command: of attachments, in each of some rectangles.
+/// A clear command: a set of attachments and the rectangles to clear in each.
 pub(crate) struct ClearPlan {
     attachments: Vec<vk::ClearAttachment>,
     rects: Vec<vk::ClearRect>,
-    /// What the attachments were made from.
+    /// The scene's clear targets that the attachments were made from.
     targets: Vec<ClearTarget>,
 }
 
 impl ClearPlan {
-    /// Returns the command; `integer` tells the colour attachment's kind.
-    /// `None` if it lies outside the render area.
+    /// Returns the command, or `None` if the clear is outside the render area. `integer` is true if the
+    /// colour attachment holds integers.
     pub(crate) fn new(
         clear: &Clear,
         integer: bool,
@@ -108,7 +108,8 @@ impl ClearPlan {
             extent: vk::Extent2D { width, height },
         };
         let (base_array_layer, layer_count) = match layers {
-            // A view's own layer is its layer 0 (VUID-vkCmdClearAttachments-baseArrayLayer-00018).
+            // Layer 0 of the command is the view's first layer
+            // (VUID-vkCmdClearAttachments-baseArrayLayer-00018).
             PathLayers::One | PathLayers::Multiview => (0, 1),
             PathLayers::Written => (DRAWN_LAYERS[0], DRAWN_LAYERS.len() as u32),
         };
@@ -123,7 +124,8 @@ impl ClearPlan {
         }))
     }
 
-    /// Takes another command, if one can do both: in the same rectangles, or of the same attachments to the same values.
+    /// Merges another command into this one if they have the same rectangles, or the same attachments and
+    /// values. Returns false if they cannot be merged.
     pub(crate) fn takes(&mut self, other: &Self) -> bool {
         let rect = |rect: &vk::ClearRect| (rect.rect.offset, rect.rect.extent);
         let overlaps = |a: &vk::ClearAttachment| {
@@ -148,9 +150,10 @@ impl ClearPlan {
     /// Records the command.
     ///
     /// # Safety
-    /// Within the render pass of `commands` that it was planned for.
+    /// `commands` is inside the render pass that the command was planned for.
     pub(crate) unsafe fn record(&self, device: &Device, commands: vk::CommandBuffer) {
-        // SAFETY: the caller's; the rectangle lies inside the render area, and masked clears are denied.
+        // SAFETY: upheld by the caller; the rectangle is inside the render area, and masked clears are
+        // denied.
         unsafe {
             device
                 .raw
@@ -159,7 +162,7 @@ impl ClearPlan {
     }
 }
 
-/// Returns the texels that two rectangles share, if there are any.
+/// Returns the rectangle that two rectangles share, if they overlap.
 pub(crate) fn intersection(a: vk::Rect2D, b: vk::Rect2D) -> Option<vk::Rect2D> {
     let shared = |a: (i32, u32), b: (i32, u32)| {
         let end = |(start, length): (i32, u32)| i64::from(start) + i64::from(length);
@@ -178,7 +181,7 @@ pub(crate) fn intersection(a: vk::Rect2D, b: vk::Rect2D) -> Option<vk::Rect2D> {
     })
 }
 
-/// Returns a clear value of a colour attachment, of integers or other numbers.
+/// Returns the clear value of a colour attachment, which holds integers if `integer` is true.
 pub(crate) fn color_value(color: [f32; 4], integer: bool) -> vk::ClearColorValue {
     if integer {
         vk::ClearColorValue {
@@ -189,7 +192,7 @@ pub(crate) fn color_value(color: [f32; 4], integer: bool) -> vk::ClearColorValue
     }
 }
 
-/// Returns a clear value of depth and stencil.
+/// Returns the clear value of a depth-stencil attachment.
 pub(crate) fn depth_stencil_value(depth: f32, stencil: u8) -> vk::ClearValue {
     vk::ClearValue {
         depth_stencil: vk::ClearDepthStencilValue {

@@ -19,9 +19,9 @@ pub(crate) struct Counting {
     kinds: Vec<CounterKind>,
     /// The offset of each `ShaderRuns` counter's word.
     words: Vec<Option<u64>>,
-    /// The size of the buffer that holds all words; 0 if there are none.
+    /// The size in bytes of the buffer that holds all words, or 0.
     pub(crate) bytes: u64,
-    /// The counter of each query in the slot's pools.
+    /// The counters that own the occlusion queries of the slot's pools, one per query.
     occlusion: Vec<usize>,
     statistics: Vec<usize>,
     /// True if results are read twice.
@@ -37,28 +37,29 @@ pub(crate) struct Query {
 }
 
 impl Query {
-    /// Records the beginning.
+    /// Records the beginning of the query.
     ///
     /// # Safety
-    /// `commands` is being recorded, and the query is begun once, inside or outside of the pass in which it ends.
+    /// `commands` is being recorded, and the query is begun once, at the same level as its end: both inside
+    /// or both outside a pass.
     pub(crate) unsafe fn begin(self, device: &Device, commands: vk::CommandBuffer) {
         let Self { pool, index, flags } = self;
-        // SAFETY: the caller's; the pool was reset and outlives the commands.
+        // SAFETY: upheld by the caller; the pool was reset and outlives the commands.
         unsafe { device.raw.cmd_begin_query(commands, pool, index, flags) };
     }
 
-    /// Records the end.
+    /// Records the end of the query.
     ///
     /// # Safety
     /// As for [`Query::begin`]; the query has begun.
     pub(crate) unsafe fn end(self, device: &Device, commands: vk::CommandBuffer) {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { device.raw.cmd_end_query(commands, self.pool, self.index) };
     }
 }
 
 impl Counting {
-    /// Assigns an offset to each counter that a shader increments.
+    /// Assigns an offset to the word of each counter that a shader increments.
     pub(crate) fn new(device: &Device, scene: &Scene) -> Self {
         let alignment = device.limits.min_storage_buffer_offset_alignment;
         let mut offsets = OffsetAllocator::default();
@@ -89,7 +90,7 @@ impl Counting {
         }
     }
 
-    /// Returns the queries of a scene, as queries of a slot that has room for all.
+    /// Returns the queries of a scene. The slot must have room for all of them.
     pub(crate) fn queries(
         &mut self,
         slot: &Slot,
@@ -130,7 +131,7 @@ impl Counting {
         Ok(queries)
     }
 
-    /// Returns the counter that the draw's shader increments and the offset of its word.
+    /// Returns the counter that the draw's shader increments, and the offset of its word.
     pub(crate) fn word(&self, draw: &Draw) -> Result<Option<(usize, u64)>, BackendError> {
         let place = |counter: &usize| Some((*counter, self.words.get(*counter).copied()??));
         let word = draw.counters.iter().find_map(place);
@@ -231,6 +232,6 @@ fn count(owners: &[usize]) -> Result<u32, BackendError> {
 fn barrier(device: &Device, commands: vk::CommandBuffer, barrier: vk::MemoryBarrier2<'_>) {
     let barriers = [barrier];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }

@@ -1,4 +1,4 @@
-//! Clip distances as cull distances, which WGSL lacks.
+//! Conversion of clip distances to cull distances, which WGSL lacks.
 
 use crate::spirv::{BUILT_IN, CAPABILITY, DECORATE, instructions};
 
@@ -7,7 +7,7 @@ const CAPABILITIES: [u32; 2] = [32, 33];
 /// The built-ins ClipDistance and CullDistance.
 const BUILT_INS: [u32; 2] = [3, 4];
 
-/// Returns a module whose clip distances are cull distances.
+/// Returns the module with its clip distances turned into cull distances.
 pub(crate) fn as_cull_distances(words: &[u32]) -> Vec<u32> {
     let (header, instructions) = instructions(words);
     let mut out = header.to_vec();

@@ -15,8 +15,8 @@ use etalon_scene::{Draw, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
 
-/// The resources of a draw. Draws with equal resources share a set, since the parameters' offset is
-/// dynamic.
+/// The resources of a draw. Draws with equal resources share a descriptor set, since the offset of the
+/// parameters is dynamic.
 #[derive(PartialEq, Eq, Hash)]
 struct Resources {
     textures: Vec<usize>,
@@ -28,15 +28,15 @@ struct Resources {
 /// The resources of a scene and the descriptor sets made so far.
 pub(crate) struct Descriptors<'a> {
     pub(crate) input: &'a Buffer,
-    /// The buffer that shaders count in, if any shader counts.
+    /// The buffer of the shaders' counts, if any shader counts.
     pub(crate) counts: Option<&'a Buffer>,
-    /// The pool with its size in bytes, if the scene has one.
+    /// The pool and its size in bytes, if the scene has a pool.
     pub(crate) pool: Option<(&'a Buffer, u64)>,
     pub(crate) images: &'a [Image],
     sets: HashMap<Resources, vk::DescriptorSet>,
 }
 
-/// Returns a write of one binding of a set, without its resource.
+/// Returns a write of one binding of a set; the caller adds the resource.
 pub(crate) fn write(
     set: vk::DescriptorSet,
     binding: u32,
@@ -139,7 +139,8 @@ impl<'a> Descriptors<'a> {
             let kind = vk::DescriptorType::STORAGE_BUFFER;
             writes.push(write(STORAGE_BINDING, kind).buffer_info(&storage));
         }
-        // SAFETY: the set is new, and all that it names lives as long as the scene, samplers longer.
+        // SAFETY: the set is new, the resources that it names live as long as the scene, and samplers live
+        // longer.
         unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
         Ok(())
     }

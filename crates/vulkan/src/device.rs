@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::rc::Rc;
 
-/// The most draws of an indirect draw whose number is in a buffer.
+/// The largest number of draws that an indirect draw reads from a buffer.
 pub(crate) const MOST_COUNTED: u32 = 2;
 
 /// The properties of a physical device, known before it is opened.
@@ -20,7 +20,7 @@ pub(crate) struct Identity {
     pub(crate) info: AdapterInfo,
 }
 
-/// A logical device with its one queue.
+/// A logical device with its queue.
 pub(crate) struct Device {
     pub(crate) instance: Rc<Instance>,
     pub(crate) physical: vk::PhysicalDevice,
@@ -28,40 +28,40 @@ pub(crate) struct Device {
     pub(crate) queue: vk::Queue,
     pub(crate) queue_family: u32,
     pub(crate) limits: vk::PhysicalDeviceLimits,
-    /// The version whose text binds the device: its own, or the instance's if that is older.
+    /// The version of the specification that binds the device: its own, or the instance's if that is older.
     pub(crate) version: ApiVersion,
-    /// The promises of the device that narrow the text.
+    /// The device's promises that narrow what the specification allows.
     pub(crate) properties: BTreeSet<Property>,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
-    /// The modes in which depth and stencil are resolved.
+    /// The resolve modes of depth and stencil.
     pub(crate) resolves: Resolves,
     /// True if the queue supports compute shaders.
     pub(crate) compute: bool,
-    /// The enabled optional features: those that the suite uses and the device has.
+    /// The enabled optional features: the ones that the suite uses and the device has.
     pub(crate) features: vk::PhysicalDeviceFeatures,
-    /// True if a vertex shader may choose the second of two viewports.
+    /// True if a vertex shader can select the second of two viewports.
     pub(crate) second_viewport: bool,
-    /// True if a vertex shader may choose a layer.
+    /// True if a vertex shader can select a layer.
     pub(crate) written_layer: bool,
-    /// True if the number of indirect draws may be in a buffer.
+    /// True if an indirect draw can read its number of draws from a buffer.
     pub(crate) indirect_count: bool,
-    /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
+    /// The functions of extended dynamic state 3, if `all_extended` is true or `singles` is not empty.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::DeviceFn>,
-    /// True if all of the further dynamic states are.
+    /// True if the device has all states of extended dynamic state 3 that the suite sets together.
     pub(crate) all_extended: bool,
-    /// The states that can be dynamic one by one.
+    /// The states of extended dynamic state 3 that the suite sets one at a time.
     pub(crate) singles: Vec<SingleState>,
-    /// The function behind dynamic logic operations, where the device has them.
+    /// The function that sets a dynamic logic operation, if the device has it.
     pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
-    /// True if logic operations can be enabled between draws.
+    /// True if logic operations can be enabled and disabled dynamically.
     pub(crate) logic_enable: bool,
-    /// The provoking vertices that the device has besides the first.
+    /// The provoking vertices that the device supports in addition to the first.
     pub(crate) provoking: Provoking,
-    /// Advanced blending: true if it is coherent; `None` if the device lacks it.
+    /// Whether advanced blending is coherent; `None` if the device lacks it.
     pub(crate) advanced_blend: Option<bool>,
-    /// True if fragment shaders may write the stencil reference.
+    /// True if fragment shaders can write the stencil reference.
     pub(crate) stencil_export: bool,
-    /// Valid bits of a timestamp; 0 if timestamps are not supported.
+    /// The number of valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
 
@@ -144,7 +144,7 @@ fn short_name(id: vk::DriverId, vendor: u32) -> String {
     }
 }
 
-/// Returns the version of the text that binds a device: instances ask for 1.3.
+/// Returns the version of the specification that binds a device; instances request 1.3.
 fn bound_version(device: u32) -> ApiVersion {
     let bound = device.min(INSTANCE_VERSION);
     let part = |number| u8::try_from(number).unwrap_or(u8::MAX);
@@ -154,7 +154,7 @@ fn bound_version(device: u32) -> ApiVersion {
     )
 }
 
-/// True if a device has an extension.
+/// Returns true if a device has an extension.
 fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `physical` is of this instance.
     let extensions = unsafe { api.enumerate_device_extension_properties(physical) };
@@ -163,7 +163,7 @@ fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr)
         .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
 }
 
-/// Returns the features behind the further dynamic states, if they are enabled.
+/// Returns the features of the states that the suite sets together, enabled or disabled.
 fn extended_features(enabled: bool) -> vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'static> {
     vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default()
         .extended_dynamic_state3_polygon_mode(enabled)
@@ -175,7 +175,7 @@ fn extended_features(enabled: bool) -> vk::PhysicalDeviceExtendedDynamicState3Fe
         .extended_dynamic_state3_color_write_mask(enabled)
 }
 
-/// Returns true if a device has all features behind the further dynamic states.
+/// Returns true if a device has all features of the states that the suite sets together.
 fn has_all(features: &vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>) -> bool {
     [
         features.extended_dynamic_state3_polygon_mode,
@@ -190,7 +190,7 @@ fn has_all(features: &vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>) ->
     .all(|has| has != vk::FALSE)
 }
 
-/// Returns the feature behind a state that is dynamic alone.
+/// Returns the feature of a state that the suite sets alone.
 fn single_feature<'f>(
     features: &'f mut vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>,
     state: SingleState,
@@ -204,7 +204,7 @@ fn single_feature<'f>(
     }
 }
 
-/// Returns the states that can be dynamic one by one, and take both values.
+/// Returns the states that can be set one at a time and can take both of the suite's values.
 fn singles(
     api: &ash::Instance,
     physical: vk::PhysicalDevice,
@@ -235,7 +235,7 @@ fn singles(
     all
 }
 
-/// True if a device has extended dynamic state 3, as far as the suite sets it.
+/// Returns true if a device has all states of extended dynamic state 3 that the suite sets together.
 fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     if !has_extension(api, physical, ash::ext::extended_dynamic_state3::NAME) {
         return false;
@@ -247,7 +247,7 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     has_all(&offered)
 }
 
-/// True if logic operations can be dynamic.
+/// Returns true if logic operations can be dynamic.
 fn has_dynamic_logic(
     api: &ash::Instance,
     physical: vk::PhysicalDevice,
@@ -265,7 +265,8 @@ fn has_dynamic_logic(
     offered.extended_dynamic_state2_logic_op != vk::FALSE
 }
 
-/// True if a device with extended dynamic state 3 can enable logic operations between draws.
+/// Returns true if a device with extended dynamic state 3 can enable and disable logic operations
+/// dynamically.
 fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
     let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
@@ -274,7 +275,7 @@ fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -
     offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
 }
 
-/// True if the number of indirect draws may be in a buffer, and less than the most.
+/// Returns true if an indirect draw can read its number of draws from a buffer, up to [`MOST_COUNTED`].
 fn has_indirect_count(
     api: &ash::Instance,
     physical: vk::PhysicalDevice,
@@ -287,7 +288,7 @@ fn has_indirect_count(
     offered.draw_indirect_count != vk::FALSE && limits.max_draw_indirect_count >= MOST_COUNTED
 }
 
-/// Returns whether a device's advanced blending is coherent; `None` if it has none.
+/// Returns whether a device's advanced blending is coherent, or `None` if the device lacks it.
 fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<bool> {
     if !has_extension(api, physical, ash::ext::blend_operation_advanced::NAME) {
         return None;
@@ -299,11 +300,11 @@ fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<b
     Some(offered.advanced_blend_coherent_operations != vk::FALSE)
 }
 
-/// The first version in whose text shading may precede forced early tests.
+/// The first version whose text lets shading precede forced early tests.
 const SHADES_ANYWHERE: u32 = vk::make_api_version(0, 1, 3, 217);
 
-/// Returns the promises of a device's limits and version, those of Vulkan 1.1, and those of maintenance5 where the device
-/// has it.
+/// Returns the promises that follow from a device's limits and version, from Vulkan 1.1, and from
+/// maintenance5 if the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     let mut clipping = vk::PhysicalDevicePointClippingProperties::default();
     let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut clipping);
@@ -347,13 +348,13 @@ fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Prope
     promises
 }
 
-/// The modes in which a device resolves depth and stencil.
+/// The depth and stencil resolve modes of a device.
 pub(crate) struct Resolves {
     pub(crate) depth: vk::ResolveModeFlags,
     pub(crate) stencil: vk::ResolveModeFlags,
-    /// True if depth and stencil may have different modes.
+    /// True if the modes of depth and stencil can differ.
     pub(crate) independent: bool,
-    /// True if one of them need not be resolved.
+    /// True if one of depth and stencil can be resolved without the other.
     pub(crate) independent_none: bool,
 }
 
@@ -372,12 +373,12 @@ impl Resolves {
     }
 }
 
-/// The provoking vertices that a device has besides the first.
+/// The provoking vertices that a device supports in addition to the first.
 #[derive(Clone, Copy)]
 pub(crate) struct Provoking {
-    /// True if the last vertex may provoke.
+    /// True if the last vertex can be the provoking vertex.
     pub(crate) last: bool,
-    /// True if pipelines of one pass may differ in it.
+    /// True if pipelines of one pass can differ in the provoking vertex.
     pub(crate) mixed: bool,
 }
 
@@ -405,7 +406,7 @@ impl Provoking {
     }
 }
 
-/// Returns the features of a device that the suite uses.
+/// Returns the device's features that the suite uses.
 fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
         alpha_to_one: has.alpha_to_one,
@@ -521,7 +522,8 @@ impl Device {
             .push_next(&mut enabled13)
             .push_next(&mut enabled11);
         let indirect_count = has_indirect_count(api, physical, &properties.limits);
-        // A device with the extension has both features of it (VUID-VkDeviceCreateInfo-ppEnabledExtensionNames-02835).
+        // A device with the extension has both of its features
+        // (VUID-VkDeviceCreateInfo-ppEnabledExtensionNames-02835).
         let mut counted = vk::PhysicalDeviceVulkan12Features::default()
             .draw_indirect_count(true)
             .shader_output_viewport_index(written_layer)
@@ -587,7 +589,7 @@ impl Device {
             logic_enable,
             advanced_blend,
             stencil_export,
-            // Nobody wants them in a program.
+            // A recording has no timestamps.
             timestamp_bits: if properties.limits.timestamp_period > 0.0
                 && !recording::is_installed()
             {
@@ -600,7 +602,7 @@ impl Device {
         })
     }
 
-    /// True if images of a format have these features.
+    /// Returns true if images of a format have these features.
     pub(crate) fn has(&self, format: vk::Format, features: vk::FormatFeatureFlags) -> bool {
         // SAFETY: the physical device is of this living instance.
         let properties = unsafe {
@@ -654,8 +656,8 @@ impl Device {
 
 impl Drop for Device {
     fn drop(&mut self) {
-        // SAFETY: the backend destroyed all the device's objects before, and holds it last. Waiting
-        // may fail on a lost device, which may be destroyed all the same.
+        // SAFETY: the backend destroyed all objects of the device earlier, and owns the device alone. Waiting
+        // can fail on a lost device, which can still be destroyed.
         unsafe {
             let _ = self.raw.device_wait_idle();
             self.raw.destroy_device(None);

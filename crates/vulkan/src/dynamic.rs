@@ -1,8 +1,8 @@
-//! Dynamic state, set for each draw: everything that Vulkan 1.3 allows, so that draws share
+//! Dynamic state, set for each draw: all state that Vulkan 1.3 can make dynamic, so that draws share
 //! pipelines.
 //!
-//! Vulkan asks for the parameters of tests that are off as well. They may not act, so they are those
-//! that would be seen: a driver that forgets to ask whether a test is enabled must not pass by chance.
+//! Vulkan also requires the parameters of disabled tests, which must not act. They get values whose effect
+//! would be visible, so that a driver that ignores the enable does not pass by chance.
 
 use crate::clear::intersection;
 use crate::device::Device;
@@ -17,7 +17,8 @@ use etalon_scene::{
     Tessellation, Viewport,
 };
 
-/// The dynamic states of a pipeline besides viewports. The topology stays in the class of the pipeline's own.
+/// The dynamic states of a pipeline, without viewports. The topology stays in the class of the pipeline's
+/// topology.
 const STATES: [vk::DynamicState; 18] = [
     vk::DynamicState::PRIMITIVE_TOPOLOGY,
     vk::DynamicState::PRIMITIVE_RESTART_ENABLE,
@@ -39,17 +40,17 @@ const STATES: [vk::DynamicState; 18] = [
     vk::DynamicState::BLEND_CONSTANTS,
 ];
 
-/// The way in which the state of a draw is set.
+/// How the state of a draw is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Setting {
-    /// True if all of it is in the pipeline.
+    /// True if all state is part of the pipeline.
     pub(crate) fixed: bool,
     pub(crate) further: Further,
     pub(crate) viewport: PathViewport,
 }
 
 impl Setting {
-    /// Returns the dynamic states of a pipeline with colour attachments, or without.
+    /// Returns the dynamic states of a pipeline. `colored` is true if it has colour attachments.
     pub(crate) fn states(self, colored: bool) -> Vec<vk::DynamicState> {
         let viewports: &[_] = match (self.viewport, self.fixed) {
             (PathViewport::WithCount, _) => &[
@@ -84,11 +85,11 @@ pub(crate) struct Dynamic {
 }
 
 impl Dynamic {
-    /// Returns the state of a draw into this part of its attachments. `restart` enables primitive
-    /// restart.
+    /// Returns the state of a draw. `area` is the render area, and `whole` is true if it covers the
+    /// attachments. `restart` enables primitive restart.
     ///
     /// # Errors
-    /// If depth bounds lie outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
+    /// If depth bounds are outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
     pub(crate) fn new(
         draw: &Draw,
         area: vk::Rect2D,
@@ -123,7 +124,7 @@ impl Dynamic {
         })
     }
 
-    /// Returns both viewports and scissor rectangles: of one, or of two of which the second counts.
+    /// Returns two viewports and scissor rectangles, and their count: 1, or 2 if the draw selects the second.
     pub(crate) fn viewports(&self) -> ([vk::Viewport; 2], [vk::Rect2D; 2], usize) {
         let turned = vk::Viewport {
             y: self.viewport.y + self.viewport.height,
@@ -142,7 +143,7 @@ impl Dynamic {
         }
     }
 
-    /// Returns the depth bias, and true if it is on.
+    /// Returns the depth bias, and whether it is enabled.
     fn bias(&self) -> (DepthBias, bool) {
         let biased = self.depth_bias.constant != 0 || self.depth_bias.slope != 0.0;
         (if biased { self.depth_bias } else { IDLE_BIAS }, biased)
@@ -155,7 +156,8 @@ impl Dynamic {
         })
     }
 
-    /// Returns another state than this one in everything: what it draws, if anything, is wrong.
+    /// Returns a state that differs from this one in every respect, so that a draw with it is wrong or draws
+    /// nothing.
     pub(crate) fn opposite(&self) -> Self {
         let mut other = *self;
         other.viewport.width += 1.0;
@@ -184,12 +186,12 @@ impl Dynamic {
         other
     }
 
-    /// Returns the state as text, which tells any two states apart.
+    /// Returns a text that is unique to the state.
     pub(crate) fn text(&self) -> String {
         format!("{self:?}")
     }
 
-    /// Returns the state of rasterization for a pipeline.
+    /// Returns the rasterization state for a pipeline.
     pub(crate) fn rasterization(&self) -> vk::PipelineRasterizationStateCreateInfo<'static> {
         let (bias, biased) = self.bias();
         vk::PipelineRasterizationStateCreateInfo::default()
@@ -202,14 +204,14 @@ impl Dynamic {
             .depth_bias_slope_factor(bias.slope)
     }
 
-    /// Returns the state of input assembly for a pipeline.
+    /// Returns the input assembly state for a pipeline.
     pub(crate) fn assembly(&self) -> vk::PipelineInputAssemblyStateCreateInfo<'static> {
         vk::PipelineInputAssemblyStateCreateInfo::default()
             .topology(state::topology(self.topology, self.tessellation))
             .primitive_restart_enable(self.restart)
     }
 
-    /// Returns the state of the depth and stencil tests for a pipeline.
+    /// Returns the depth-stencil state for a pipeline.
     pub(crate) fn depth_stencil(&self) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
         let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
         let depth = self.depth.unwrap_or(DepthState::REJECTING);
@@ -243,11 +245,11 @@ impl Dynamic {
     /// Records all of [`Setting::states`].
     ///
     /// # Safety
-    /// `commands` is recording, and the device has the features that the draw needs.
+    /// `commands` is being recorded, and the device has the features that the draw needs.
     pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
         let api = &device.raw;
         let (viewports, scissors, count) = self.viewports();
-        // SAFETY: the caller's; no call here takes a pointer that outlives it.
+        // SAFETY: upheld by the caller; no call here takes a pointer that outlives it.
         unsafe {
             match (self.setting.viewport, self.setting.fixed) {
                 (PathViewport::WithCount, _) => {
@@ -307,18 +309,18 @@ impl Dynamic {
     }
 }
 
-/// A disabled depth bias.
+/// The parameters of a disabled depth bias.
 const IDLE_BIAS: DepthBias = DepthBias {
     constant: 1_000_000,
     slope: 0.0,
     clamp: 0.0,
 };
 
-/// Disabled depth bounds, which no depth that a case stores lies in.
+/// The parameters of a disabled depth bounds test; no case stores a depth inside them.
 const IDLE_BOUNDS: [f32; 2] = [0.999_999, 0.999_999_5];
 
-/// The negative height turns clip space's y axis up: y = 1 is at the top of the rectangle, nearer
-/// to the origin (Vulkan, Controlling the Viewport). A mirrored viewport becomes one of positive
+/// Returns the Vulkan viewport. The negative height turns clip space's y axis up: y = 1 is at the top of the
+/// rectangle, nearer to the origin (Vulkan, Controlling the Viewport). A mirrored viewport gets a positive
 /// height.
 fn viewport(viewport: &Viewport) -> vk::Viewport {
     let [x, y, width, height] = viewport.rect;
@@ -332,7 +334,8 @@ fn viewport(viewport: &Viewport) -> vk::Viewport {
     }
 }
 
-/// Offset and extent must add up to no more than the largest `i32`, which no attachment reaches.
+/// Returns the scissor rectangle, clamped so that offset plus extent is at most the largest `i32`, which no
+/// attachment reaches.
 fn scissor([x, y, width, height]: [u32; 4]) -> vk::Rect2D {
     let most = i32::MAX.unsigned_abs();
     let (x, y) = (x.min(most), y.min(most));

@@ -5,7 +5,7 @@ use etalon_backend::{BackendError, Unavailable};
 
 /// Adds the failed operation to a Vulkan error.
 pub(crate) trait Check<T> {
-    /// Maps `DEVICE_LOST` to a lost device, all else to an object that the driver refused.
+    /// Maps `DEVICE_LOST` to a lost device, and other codes to a refusal by the driver.
     fn check(self, what: &str) -> Result<T, BackendError>;
 }
 
@@ -18,7 +18,7 @@ impl<T> Check<T> for Result<T, vk::Result> {
     }
 }
 
-/// Returns an error that the backend's own logic rules out.
+/// Returns the error of a condition that the backend's logic rules out.
 pub(crate) fn internal(condition: &str) -> BackendError {
     BackendError::internal(condition)
 }
@@ -29,7 +29,7 @@ pub(crate) fn describe(code: vk::Result) -> String {
     format!("{code:?}: {code}")
 }
 
-/// Returns the error of an adapter whose driver failed while it was opened.
+/// Returns the error of an adapter whose driver failed when it was opened.
 pub(crate) fn unavailable(error: &BackendError) -> Unavailable {
     Unavailable::new(
         error.to_string(),

@@ -1,4 +1,5 @@
-//! Extended dynamic state 2 and 3: what else of a pipeline is set for each draw, where the path asks for it.
+//! Extended dynamic state 2 and 3: pipeline state beyond Vulkan 1.3's that is set for each draw, if the path
+//! asks for it.
 
 use crate::device::Device;
 use crate::single_state::SingleState;
@@ -6,7 +7,7 @@ use crate::state;
 use ash::vk;
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PolygonMode};
 
-/// The further dynamic states.
+/// The states of extended dynamic state 3 that are set together.
 const STATES: [vk::DynamicState; 7] = [
     vk::DynamicState::POLYGON_MODE_EXT,
     vk::DynamicState::DEPTH_CLAMP_ENABLE_EXT,
@@ -20,14 +21,14 @@ const STATES: [vk::DynamicState; 7] = [
 /// The number of [`STATES`] that a pass without colour attachments has.
 const COLORLESS: usize = 4;
 
-/// The dynamic part of logic operations.
+/// The part of logic operations that is dynamic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum DynamicLogic {
-    /// Nothing.
+    /// No part.
     Nothing,
     /// The operation.
     Operation,
-    /// The operation, and whether it is on.
+    /// The operation and its enable.
     All,
 }
 
@@ -46,23 +47,23 @@ impl DynamicLogic {
     }
 }
 
-/// The states beyond Vulkan 1.3's that are dynamic.
+/// The dynamic states beyond Vulkan 1.3's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Further {
-    /// True if all of [`STATES`] are.
+    /// True if all of [`STATES`] are dynamic.
     pub(crate) extended: bool,
     pub(crate) logic: DynamicLogic,
-    /// A state that is dynamic alone.
+    /// The state that is dynamic alone, if any.
     pub(crate) single: Option<SingleState>,
 }
 
 impl Further {
-    /// True if any is.
+    /// Returns true if any of these states is dynamic.
     pub(crate) fn any(self) -> bool {
         self.extended || self.logic != DynamicLogic::Nothing || self.single.is_some()
     }
 
-    /// Returns the dynamic states of a pipeline with colour attachments, or without.
+    /// Returns the dynamic states of a pipeline. `colored` is true if it has colour attachments.
     pub(crate) fn states(self, colored: bool) -> Vec<vk::DynamicState> {
         let extended: &[_] = match (self.extended, colored) {
             (false, _) => &[],
@@ -75,11 +76,11 @@ impl Further {
     }
 }
 
-/// The logic operation of pipelines whose own must not act.
+/// The logic operation that a pipeline holds if the operation is dynamic. It must not act.
 const HELD: LogicOperation = LogicOperation::Equivalent;
 
-/// Returns a draw whose pipeline holds other values of the further dynamic states, which must not act.
-/// Draws of all logic operations share a pipeline.
+/// Returns the draw that a pipeline is made from: its values of the dynamic states differ from the draw's,
+/// and must not act. Draws of all logic operations then share a pipeline.
 pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
     let logic = match further.logic {
         DynamicLogic::All if !draw.targets.is_empty() => Some(HELD),
@@ -98,7 +99,8 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
     }
 }
 
-/// Returns a draw whose pipeline holds other values of [`STATES`], which must not act.
+/// Returns a draw whose values of [`STATES`] differ from this draw's, for its pipeline, where they must not
+/// act.
 pub(crate) fn held(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,
@@ -118,7 +120,7 @@ pub(crate) fn held(draw: &Draw) -> Draw {
     }
 }
 
-/// The values of the further dynamic states of one draw.
+/// The values that a draw gives the further dynamic states.
 pub(crate) struct Extended {
     further: Further,
     logic: Option<LogicOperation>,
@@ -147,15 +149,15 @@ impl Extended {
     /// Records all further dynamic states.
     ///
     /// # Safety
-    /// `commands` is recording.
+    /// `commands` is being recorded.
     pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
         let colored = !self.targets.is_empty();
         if let (Some(api), true) = (&device.dynamic_logic, colored)
             && self.further.logic != DynamicLogic::Nothing
         {
-            // One that is off would be seen.
+            // If the operation is disabled, this one would be visible.
             let operation = self.logic.unwrap_or(LogicOperation::Invert);
-            // SAFETY: the caller's; the feature is enabled wherever the function is loaded.
+            // SAFETY: upheld by the caller; the feature is enabled if the function is loaded.
             unsafe { api.cmd_set_logic_op(commands, state::logic(operation)) };
         }
         let Some(api) = device.extended.as_ref().filter(|_| self.further.extended) else {
@@ -180,8 +182,8 @@ impl Extended {
             .collect();
         let samples = state::samples(self.samples);
         let count = self.targets.len() as u32;
-        // SAFETY: the caller's; the features are enabled wherever the functions are loaded, and the arrays have these
-        // lengths.
+        // SAFETY: upheld by the caller; the features are enabled if the functions are loaded, and the arrays
+        // have these lengths.
         unsafe {
             (api.cmd_set_polygon_mode_ext)(commands, state::polygon_mode(self.polygon_mode));
             (api.cmd_set_depth_clamp_enable_ext)(commands, self.depth_clamp.into());
@@ -227,7 +229,7 @@ mod tests {
             assert_eq!(held(DynamicLogic::Operation, false, operation), Some(HELD));
             assert_eq!(held(DynamicLogic::All, true, operation), Some(HELD));
         }
-        // Off is no operation: that it is on or off is dynamic only where all is.
+        // A draw without an operation: the enable is dynamic only if all of it is.
         assert_eq!(held(DynamicLogic::Operation, false, None), None);
         assert_eq!(held(DynamicLogic::All, true, None), Some(HELD));
     }

@@ -26,9 +26,9 @@ pub(crate) fn native(
     native.ok_or(BackendError::NotSupported(Requirement::Format(format)))
 }
 
-/// Returns the candidates for a format, best first. They have the same channels of the same widths
-/// in any order: [`layout`] says where. WebGPU leaves the depth of `depth24plus` open, and whether
-/// `stencil8` has a depth aspect.
+/// Returns the candidates for a format, best first. They have the same channels with the same widths, in the
+/// order that [`layout`] gives. WebGPU leaves open the depth of `depth24plus`, and whether `stencil8` has a
+/// depth aspect.
 fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     match format {
         TextureFormat::R8Unorm => &[vk::Format::R8_UNORM],
@@ -74,10 +74,10 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     }
 }
 
-/// Returns the formats that the device supports, as [`etalon_frame::Limits::formats`] promises
-/// them. Colours can be copied and fetched, and sampled linearly unless they hold integers or
-/// 32-bit floats (Vulkan requires as much of each first candidate). Depth and stencil can be copied
-/// and attached. A candidate that can be attached is preferred.
+/// Returns the formats that the device supports, with what [`etalon_frame::Limits::formats`] promises.
+/// Colours can be copied and fetched, and sampled linearly unless they hold integers or 32-bit floats (Vulkan
+/// requires this of each first candidate). Depth and stencil can be copied and attached. A candidate that can
+/// be attached is preferred.
 pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     let transfer = vk::FormatFeatureFlags::TRANSFER_SRC | vk::FormatFeatureFlags::TRANSFER_DST;
     let mut natives = BTreeMap::new();
@@ -147,8 +147,8 @@ pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
     }
 }
 
-/// Returns the format of the images that attachments of a format are views of; `None` if the path does not apply to
-/// the format (Vulkan, Format Compatibility Classes).
+/// Returns the format of an image whose attachment view has format `raw`. `None` if the path does not apply
+/// to the format (Vulkan, Format Compatibility Classes).
 pub(crate) fn viewed(raw: vk::Format, views: PathViews) -> Option<vk::Format> {
     if aspect_mask(raw) != vk::ImageAspectFlags::COLOR {
         return None;
@@ -180,7 +180,7 @@ pub(crate) fn unconverted(raw: vk::Format) -> Option<vk::Format> {
     }
 }
 
-/// Returns all aspects of a Vulkan format, also those that the texture format lacks.
+/// Returns all aspects of a Vulkan format, including any that the texture format lacks.
 pub(crate) fn aspect_mask(raw: vk::Format) -> vk::ImageAspectFlags {
     let (depth, stencil) = (vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL);
     match raw {
@@ -224,7 +224,7 @@ pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
     }
 }
 
-/// Returns the size of a texel's aspect in a buffer (Vulkan, Copying Data Between Buffers and
+/// Returns the size of an aspect's texel in a buffer, in bytes (Vulkan, Copying Data Between Buffers and
 /// Images).
 pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
     match (aspect, depth_encoding(raw)) {
@@ -258,7 +258,7 @@ pub(crate) fn decode(bytes: &[u8], raw: vk::Format, aspect: Aspect) -> Vec<u32> 
     codes
 }
 
-/// Returns the bytes of colour codes as texels of a buffer.
+/// Returns colour codes as the bytes of texels in a buffer.
 pub(crate) fn encode(codes: &[u32], raw: vk::Format) -> Vec<u8> {
     let layout = layout(raw);
     let mut bytes = Vec::new();

@@ -1,5 +1,5 @@
-//! An open device and everything that outlives a scene on it. It is apart from the backend, so that
-//! a prepared scene needs no more than it uses.
+//! An open device and the objects that outlive a scene. They are apart from the backend because a prepared
+//! scene needs only these.
 
 use crate::device::Device;
 use crate::format::{self, Native};
@@ -53,8 +53,8 @@ impl Gpu {
 impl Drop for Gpu {
     fn drop(&mut self) {
         let pools = self.pools.get_mut();
-        // Prepared scenes borrow the device, so all of them are gone, and each waited for the
-        // device to finish.
+        // Prepared scenes borrow the device, so all of them are dropped, and each waited for the device to
+        // finish.
         pools.slots.destroy(&self.device);
         pools.memory.destroy(&self.device);
         pools.pipelines.destroy(&self.device);

@@ -18,13 +18,13 @@ pub(crate) struct ImageKey {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
-    /// The part of the image that is used.
+    /// How the image contains the part that is used.
     pub(crate) target: PathTarget,
-    /// The layer that is read of three, if passes have several layers.
+    /// The layer that is read, of three, if passes have several layers.
     pub(crate) layered: Option<u32>,
 }
 
-/// The level, layer and slice of an image that is used.
+/// The level, layer and slice of an image that a scene uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Place {
     level: u32,
@@ -34,12 +34,12 @@ pub(crate) struct Place {
     layered: bool,
 }
 
-/// The layers of an image whose passes have several.
+/// The number of layers of an image if passes have several.
 pub(crate) const LAYERS: u32 = 3;
-/// The layers that are drawn to, one of which is read.
+/// The layers that passes draw to; one of them is read.
 pub(crate) const DRAWN_LAYERS: [u32; 2] = [1, 2];
 
-/// The form of an image around the part that is used.
+/// The dimensions of an image around the part that is used.
 pub(crate) struct Shape {
     pub(crate) kind: vk::ImageType,
     pub(crate) extent: vk::Extent3D,
@@ -50,7 +50,7 @@ pub(crate) struct Shape {
 }
 
 impl ImageKey {
-    /// Returns the form. The part that is used is never the first.
+    /// Returns the dimensions. The part that is used is never the first, except for plain targets.
     pub(crate) fn shape(&self) -> Shape {
         let [width, height] = self.size;
         let mut shape = Shape {
@@ -73,7 +73,7 @@ impl ImageKey {
         match self.target {
             PathTarget::Plain | PathTarget::Renderbuffer => {}
             PathTarget::MipLevel => {
-                // Odd sizes, which are rounded down from level to level.
+                // Odd sizes: each level's size is rounded down.
                 shape.extent.width = 2 * width + 1;
                 shape.extent.height = 2 * height + 1;
                 shape.levels = 2;
@@ -100,7 +100,7 @@ impl ImageKey {
 }
 
 impl Place {
-    /// Returns the place as barriers name it: all slices of its level and layer, or all layers.
+    /// Returns the place as a range of barriers: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             aspect_mask: mask,
@@ -111,7 +111,7 @@ impl Place {
         }
     }
 
-    /// Returns the place as clears name it: several layers are two ranges, of one layer and of the others.
+    /// Returns the place as ranges of clears. Several layers are two ranges: the first layer, and the others.
     pub(crate) fn cleared(self, mask: vk::ImageAspectFlags) -> Vec<vk::ImageSubresourceRange> {
         let range = self.range(mask);
         if self.layered {
@@ -126,7 +126,7 @@ impl Place {
         }
     }
 
-    /// Returns the places that receive texels: those of all layers that are drawn to.
+    /// Returns the places that receive texels: one for each layer that passes draw to.
     pub(crate) fn uploaded(self) -> Vec<Self> {
         if self.layered {
             DRAWN_LAYERS
@@ -138,7 +138,7 @@ impl Place {
         }
     }
 
-    /// Returns the place as views name it: slices are layers.
+    /// Returns the place as a range of views, in which slices are layers.
     fn viewed(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             base_array_layer: self.layer + self.slice,
@@ -152,7 +152,7 @@ impl Place {
         if self.layered { LAYERS } else { 1 }
     }
 
-    /// Returns the place as copies name it.
+    /// Returns the place as the layers of copies.
     pub(crate) fn layers(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceLayers {
         vk::ImageSubresourceLayers {
             aspect_mask: mask,
@@ -162,7 +162,7 @@ impl Place {
         }
     }
 
-    /// Returns the offset of copies at a texel.
+    /// Returns the offset of a texel in copies.
     pub(crate) fn offset(self, x: u32, y: u32) -> vk::Offset3D {
         vk::Offset3D {
             x: x.cast_signed(),
@@ -210,7 +210,7 @@ impl Image {
         let key = self.key;
         let read_by_sample = key.samples > 1 && key.usage.contains(vk::ImageUsageFlags::SAMPLED);
         let unconverted = format::unconverted(key.format).filter(|_| read_by_sample);
-        // The list of formats keeps a mutable format from changing the image's memory layout.
+        // The list of formats lets the driver keep the memory layout of an image with a mutable format.
         let mut formats = vec![key.stored];
         let others = [key.format, unconverted.unwrap_or(key.format)];
         formats.extend(others.into_iter().filter(|format| *format != key.stored));
@@ -314,7 +314,7 @@ impl Image {
         self.view(self.aspects())
     }
 
-    /// Returns the view of all aspects that passes draw to, of all layers if they have several.
+    /// Returns the view of all aspects that passes draw to, with all layers if passes have several.
     pub(crate) fn attached(&self) -> Result<vk::ImageView, BackendError> {
         self.layers.map_or_else(|| self.whole(), Ok)
     }

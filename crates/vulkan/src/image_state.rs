@@ -47,8 +47,8 @@ pub(crate) const DEPTH_STENCIL: ImageState = ImageState {
     ),
 };
 
-/// Targets of resolves of depth and stencil, which the colour stage writes (Vulkan, Render Pass Multisample
-/// Resolve Operations).
+/// Resolve targets of depth and stencil. The colour attachment output stage writes them (Vulkan, Render Pass
+/// Multisample Resolve Operations).
 pub(crate) const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
     layout: DEPTH_STENCIL.layout,
     stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
@@ -58,7 +58,7 @@ pub(crate) const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
     ),
 };
 
-/// Any earlier use; the contents are discarded.
+/// An image after any use; its contents are discarded.
 pub(crate) const UNDEFINED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
     stages: vk::PipelineStageFlags2::ALL_COMMANDS,

@@ -1,5 +1,5 @@
-//! The inputs of a scene: vertices, indices, parameters, texels. All are in one buffer, so that a
-//! scene takes one allocation.
+//! The inputs of a scene: vertices, indices, parameters, texels. One buffer holds all of them, so that a
+//! scene needs one allocation.
 
 use crate::buffer::Buffer;
 use crate::device::Device;
@@ -11,10 +11,10 @@ use etalon_scene::{Call, Contents, Draw, IndexFormat, Params, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 
-/// Bytes of the parameter block.
+/// The size of the parameter block in bytes.
 pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
-/// Bytes of the arguments of an indirect draw, with indices or without.
+/// The size of the arguments of an indirect draw in bytes, indexed or not.
 pub(crate) const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
 
 /// Assigns consecutive offsets in a buffer.
@@ -24,7 +24,7 @@ pub(crate) struct OffsetAllocator {
 }
 
 impl OffsetAllocator {
-    /// Returns the offset of a range of this size and alignment.
+    /// Assigns a range of this size and alignment, and returns its offset.
     pub(crate) fn allocate(&mut self, bytes: u64, alignment: u64) -> u64 {
         let offset = self.end.next_multiple_of(alignment.max(1));
         self.end = offset + bytes;
@@ -42,7 +42,7 @@ pub(crate) struct DrawInputs {
     pub(crate) colors: Option<u64>,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
-    /// True if restart is on.
+    /// True if primitive restart is enabled.
     pub(crate) restarts: bool,
     pub(crate) call: CallNumbers,
 }
@@ -51,7 +51,8 @@ pub(crate) struct DrawInputs {
 #[derive(Clone, Copy)]
 pub(crate) struct Arguments {
     pub(crate) offset: u64,
-    /// The number of draws, if it is in the buffer: 1. The arguments of another draw follow.
+    /// The offset of the number of draws, which is 1, if the device reads it from the buffer. The arguments
+    /// of a second draw follow it.
     pub(crate) count: Option<u64>,
 }
 
@@ -123,7 +124,7 @@ impl DrawInputs {
     }
 }
 
-/// The draw call. Vulkan restarts lists only with an extension (primitiveTopologyListRestart).
+/// Returns the draw call. Vulkan restarts lists only with an extension (primitiveTopologyListRestart).
 fn call(draw: &Draw) -> Call<'_> {
     draw.call().without_list_restarts(draw.topology)
 }
@@ -148,7 +149,7 @@ impl Inputs {
         let uniform = device.limits.min_uniform_buffer_offset_alignment;
         let mut draws = Vec::with_capacity(scene.passes.len());
         for pass in &scene.passes {
-            // Without the feature, the first instance of an indirect draw is 0.
+            // Without the feature, an indirect draw must have the first instance 0.
             let place = |draw: &Draw| {
                 let first = draw.fetch.first_instance == 0
                     || device.features.draw_indirect_first_instance != 0;
@@ -170,7 +171,7 @@ impl Inputs {
                 continue;
             };
             let bytes = format::encode(codes, native.raw);
-            // A multiple of every texel size.
+            // 16 is a multiple of every texel size.
             texels.push(Some((offsets.allocate(bytes.len() as u64, 16), bytes)));
         }
         Self {

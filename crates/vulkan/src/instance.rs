@@ -7,11 +7,11 @@ use etalon_backend::Unavailable;
 use std::ffi::{CStr, c_void};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// The version that instances ask for.
+/// The version that instances request.
 pub(crate) const INSTANCE_VERSION: u32 = vk::API_VERSION_1_3;
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
-/// The most messages kept between two calls of [`Instance::take_messages`].
+/// The largest number of messages kept between two calls of [`Instance::take_messages`].
 const MAX_MESSAGES: usize = 1000;
 const NO_DRIVER: &str =
     "apt-get install mesa-vulkan-drivers libvulkan1, or install the GPU's own driver";
@@ -25,7 +25,7 @@ pub(crate) struct Instance {
 struct Messenger {
     functions: ext::debug_utils::Instance,
     raw: vk::DebugUtilsMessengerEXT,
-    /// The layer holds this pointer until the messenger is destroyed, so it is freed by hand.
+    /// Messages of the layer, which keeps this pointer until the messenger is destroyed. Freed by hand.
     messages: *mut Messages,
 }
 
@@ -85,7 +85,7 @@ impl Instance {
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|code| {
             if let Some(messages) = messages {
-                // SAFETY: from `Box::into_raw` above, and not shared yet.
+                // SAFETY: the pointer is from `Box::into_raw` above, and is not shared yet.
                 drop(unsafe { Box::from_raw(messages) });
             }
             let reason = format!("no Vulkan instance: {}", describe(code));
@@ -101,7 +101,7 @@ impl Instance {
         Ok(instance)
     }
 
-    /// Records the calls of the devices that are made from now on.
+    /// Records the calls to devices that are created later.
     pub(crate) fn record(&mut self) {
         self.raw = recording::instance(&self.raw);
     }
@@ -144,10 +144,10 @@ impl Drop for Instance {
                     .destroy_debug_utils_messenger(messenger.raw, None);
             }
         }
-        // SAFETY: devices hold the instance in an `Rc`, so none is left.
+        // SAFETY: devices hold the instance in an `Rc`, so no device is left.
         unsafe { self.raw.destroy_instance(None) };
         if let Some(messenger) = self.messenger.take() {
-            // SAFETY: from `Box::into_raw`; the messenger that used the pointer is destroyed.
+            // SAFETY: the pointer is from `Box::into_raw`; the messenger that used it is destroyed.
             drop(unsafe { Box::from_raw(messenger.messages) });
         }
     }
@@ -199,7 +199,7 @@ fn messenger(
             messages,
         }),
         Err(code) => {
-            // SAFETY: from `Box::into_raw`; no messenger uses the pointer.
+            // SAFETY: the pointer is from `Box::into_raw`; no messenger uses it.
             drop(unsafe { Box::from_raw(messages) });
             Err(Unavailable::new(
                 format!("no validation messages: {}", describe(code)),
@@ -209,15 +209,15 @@ fn messenger(
     }
 }
 
-/// True for a warning about something legal and intended: a depth-only pass does not use the
-/// shader's colour, and neither does a location without an attachment.
+/// Returns true for a warning about something legal and intended: neither a depth-only pass nor a location
+/// without an attachment uses the colour that the shader writes.
 fn is_intended(id: &CStr, text: &CStr) -> bool {
     let id = id.to_bytes();
     if id == b"UNASSIGNED-CoreValidation-Shader-InterfaceTypeMismatch" {
         let text = text.to_string_lossy();
         return text.contains("Attachment") && text.contains("VK_FORMAT_UNDEFINED");
     }
-    // The second is the name since layer version 1.4.
+    // Since layer version 1.4, the second is the name of the message.
     [
         &b"Undefined-Value-ShaderOutputNotConsumed"[..],
         b"WARNING-Shader-OutputNotConsumed",

@@ -6,8 +6,8 @@
 //! area in framebuffer coordinates (Vulkan, Basic Polygon Rasterization), so `ccw` means the same
 //! as in WebGPU.
 //!
-//! Shaders, pipelines, images, buffers and command pools outlive a scene in bounded pools, since a
-//! suite draws many thousands of small scenes.
+//! Shaders, pipelines, images, buffers and command pools outlive a scene in bounded pools, since a suite
+//! draws thousands of small scenes.
 
 mod attached;
 mod backend;

@@ -11,10 +11,10 @@ use etalon_frame::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The sample counts above 1 that a case may use.
+/// The sample counts above 1 that cases use.
 const COUNTS: [u32; 4] = [2, 4, 8, 16];
 
-/// Returns the limits of a device with these formats.
+/// Returns the limits of a device that has these formats.
 pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> Limits {
     let raw = &device.limits;
     let max_size = raw
@@ -34,7 +34,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
             samples: sample_counts(device, *format, *native),
             blendable: native.attachment && native.blendable,
             depth,
-            // The shader that reads samples returns stored codes too.
+            // The shader that reads samples also returns stored codes.
             read: ReadPath::Copy,
         };
         formats.insert(*format, support);
@@ -65,7 +65,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
     }
 }
 
-/// True if the device has a feature. Mandatory features of Vulkan 1.3 are always present.
+/// Returns true if the device has a feature. Mandatory features of Vulkan 1.3 are always present.
 fn has(device: &Device, feature: Feature) -> bool {
     let features = &device.features;
     let resolves = &device.resolves;
@@ -76,9 +76,9 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::AdvancedBlend => device.advanced_blend.is_some().into(),
         Feature::AdvancedBlendCoherent => device.advanced_blend.unwrap_or(false).into(),
         Feature::AlphaToOne => features.alpha_to_one,
-        // Every device with the feature has 8 of them (Required Limits, maxClipDistances).
+        // A device with the feature has at least 8 of them (Required Limits, maxClipDistances).
         Feature::ClipDistances => features.shader_clip_distance,
-        // And 8 of these (maxCullDistances).
+        // A device with the feature has at least 8 of them (maxCullDistances).
         Feature::CullDistances => features.shader_cull_distance,
         Feature::DepthBiasClamp => features.depth_bias_clamp,
         Feature::DepthBounds => features.depth_bounds,
@@ -104,7 +104,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::Tessellation | Feature::UpperLeftDomain => features.tessellation_shader,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
-        // Only OpenGL has them.
+        // Only OpenGL has these.
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StencilExport => device.stencil_export.into(),
@@ -140,7 +140,7 @@ fn has(device: &Device, feature: Feature) -> bool {
     flag != vk::FALSE
 }
 
-/// Returns the counts of samples that the device may have and nothing could be asserted of.
+/// Returns the sample counts that the device might support, but about whose results nothing can be asserted.
 fn exempt(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> BTreeSet<Requirement> {
     let unread = |(format, native): &(&TextureFormat, &Native)| {
         native.attachment && !samples_are_readable(device, **format, **native)
@@ -151,8 +151,8 @@ fn exempt(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> BTreeSe
         .collect()
 }
 
-/// True if several samples of a format can be read back and lie where the standard puts them. Without
-/// standard sample locations nothing could be asserted of more than one sample.
+/// Returns true if the samples of a format can be read back and have standard locations. Without standard
+/// sample locations, nothing could be asserted about more than one sample.
 fn samples_are_readable(device: &Device, format: TextureFormat, native: Native) -> bool {
     let readable = format.aspects().iter().all(|aspect| {
         let channels = format::channels(format, native.raw, *aspect);
@@ -161,7 +161,8 @@ fn samples_are_readable(device: &Device, format: TextureFormat, native: Native) 
     device.limits.standard_sample_locations != 0 && device.compute && readable
 }
 
-/// Returns the sample counts of a format that can be drawn, cleared and read back sample by sample.
+/// Returns the sample counts that a format can be drawn with, cleared with, and read back with, sample by
+/// sample.
 fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<u32> {
     if !native.attachment {
         return Vec::new();
@@ -193,9 +194,8 @@ fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<
     let mut flags = properties.sample_counts;
     for aspect in format.aspects() {
         flags &= match aspect {
-            // The limits name what every format supports; one format may support more (Vulkan,
-            // Supported Sample Counts), and the limit for integers is often 1 where this format has
-            // several.
+            // The limits give what every format supports; a format can support more (Vulkan, Supported Sample
+            // Counts). The limit for integers is often 1 although this format has several.
             Aspect::Color if format.is_integer() => flags,
             Aspect::Color => {
                 raw.framebuffer_color_sample_counts & raw.sampled_image_color_sample_counts

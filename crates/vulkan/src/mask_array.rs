@@ -1,8 +1,8 @@
 //! Sample masks as arrays.
 //!
-//! naga declares the built-in SampleMask, input or output, as one integer. Vulkan asks for an array of them
-//! (VUID-SampleMask-SampleMask-04359), so the variable becomes one of a single element, and each load and
-//! store goes to that.
+//! naga declares the built-in SampleMask, input or output, as one integer. Vulkan requires an array of
+//! integers (VUID-SampleMask-SampleMask-04359), so this module turns the variable into an array of one
+//! element, and makes each load and store access that element.
 
 use crate::spirv::{
     ACCESS_CHAIN, BUILT_IN, CONSTANT, DECORATE, LOAD, STORE, TYPE_ARRAY, TYPE_POINTER, VARIABLE,
@@ -12,7 +12,8 @@ use crate::spirv::{
 /// The built-in SampleMask.
 const SAMPLE_MASK: u32 = 20;
 
-/// Returns a module whose sample mask is an array; the same, if it has none or one already.
+/// Returns the module with its sample mask as an array. A module without a sample mask, or with an array, is
+/// returned unchanged.
 pub(crate) fn as_array(words: &[u32]) -> Vec<u32> {
     let (header, instructions) = instructions(words);
     let is = |instruction: &[u32], code: u32| instruction[0] & 0xffff == code;

@@ -1,7 +1,8 @@
-//! A path as Vulkan takes it: the values that a device has, and what each means for an attachment, a pass or
+//! How Vulkan draws on a path: the values that a device has, and what each means for an attachment, a pass or
 //! a draw.
 //!
-//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+//! Other modules call the functions here and do not read the path, so a new value changes only these
+//! functions.
 
 use crate::device::Device;
 use crate::extended::{self, DynamicLogic, Further};
@@ -19,7 +20,8 @@ use etalon_frame::{
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
 
-/// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
+/// Returns the path values that a device has. A format can lack some of them, as [`target`] and [`end`]
+/// decide.
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::State(PathState::ExtendedDynamic3 | PathState::BeforePipeline) => {
@@ -43,7 +45,7 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     PathValue::all().into_iter().filter(has).collect()
 }
 
-/// Returns the states beyond Vulkan 1.3's that are dynamic where state is set in a way.
+/// Returns the dynamic states beyond Vulkan 1.3's if state is set in the way of `state`.
 pub(crate) fn further(device: &Device, state: PathState) -> Further {
     let extended = matches!(
         state,
@@ -61,8 +63,8 @@ pub(crate) fn further(device: &Device, state: PathState) -> Further {
     }
 }
 
-/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
-/// samples have one level and no cube, and shaders see no slice of three dimensions.
+/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
+/// plain: multisampled images have one level and no cube, and shaders cannot read a slice of a 3D image.
 pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> PathTarget {
     let single = attachment.samples == 1;
     let read_by_shader = || {
@@ -83,14 +85,15 @@ pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> Pa
     }
 }
 
-/// Returns the layer that is read of an attachment whose passes have several. They are read in turns.
+/// Returns the layer that is read of an attachment if passes have several layers. Attachments take turns in
+/// it.
 pub(crate) fn layer(scene: &Scene, index: usize, role: Role) -> Option<u32> {
     let is_drawn = !matches!(role, Role::Fetched | Role::Idle);
     let layered = is_drawn && scene.layers() != PathLayers::One;
     layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])
 }
 
-/// Checks that the device makes images of a key that is not plain.
+/// Checks that the device can create images of a key that is not plain.
 pub(crate) fn check_target(
     device: &Device,
     path: &Path,
@@ -135,8 +138,8 @@ pub(crate) fn check_target(
     fits.then_some(()).ok_or(BackendError::NotSupported(value))
 }
 
-/// Returns the way of an attachment to the host. A blit of normalized colours may round, and a shader cannot
-/// tell the codes of some formats: these are read as they are by default.
+/// Returns how an attachment reaches the host. Formats whose values a blit can round, or whose codes a shader
+/// cannot recover, are read in the default way.
 pub(crate) fn end(
     device: &Device,
     path: &Path,
@@ -174,12 +177,12 @@ pub(crate) fn end(
     Ok(path.end)
 }
 
-/// The features of the format of a blit's source and destination.
+/// The format features of a blit's source and destination.
 const BLITS: vk::FormatFeatureFlags = vk::FormatFeatureFlags::from_raw(
     vk::FormatFeatureFlags::BLIT_SRC.as_raw() | vk::FormatFeatureFlags::BLIT_DST.as_raw(),
 );
 
-/// True if an attachment is copied to another image before it is read.
+/// Returns true if an attachment is copied to another image before it is read.
 pub(crate) fn is_copied(end: PathEnd) -> bool {
     match end {
         PathEnd::Copy
@@ -192,7 +195,7 @@ pub(crate) fn is_copied(end: PathEnd) -> bool {
     }
 }
 
-/// True if a linear filter takes the format, and twice a half is a code again.
+/// Returns true if a linear filter supports the format, and twice a half is a code again.
 fn is_filtered(format: TextureFormat) -> bool {
     let halved = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Unorm(_));
     format.is_color() && format.color_channels().iter().all(halved)
@@ -214,7 +217,7 @@ fn is_fetched_exactly(format: TextureFormat, native: Native) -> bool {
     })
 }
 
-/// Returns the render areas of a pass, which is recorded once for each.
+/// Returns the render areas of a pass. The pass is recorded once for each.
 pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
     let columns = |left: u32, width: u32| vk::Rect2D {
         offset: vk::Offset2D {
@@ -225,7 +228,7 @@ pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
     };
     match path.area {
         PathArea::Part if width > 1 => {
-            // Not the middle, which tiles and their multiples share.
+            // Not the middle, where tile boundaries often are.
             let left = (width * 2 / 5).max(1);
             vec![columns(0, left), columns(left, width - left)]
         }
@@ -233,7 +236,7 @@ pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
     }
 }
 
-/// Returns a draw whose pipeline differs from this one's in what a pipeline holds.
+/// Returns a draw whose pipeline differs from this draw's in the state that a pipeline always holds.
 pub(crate) fn other(draw: &Draw) -> Draw {
     Draw {
         logic: None,

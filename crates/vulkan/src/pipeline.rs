@@ -21,8 +21,8 @@ use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
 use std::rc::Rc;
 
-/// The most pipelines kept. A full cache drops those that no prepared scene holds: Lavapipe keeps
-/// about a megabyte of machine code for each.
+/// The largest number of pipelines kept. A full cache drops the pipelines that no prepared scene uses:
+/// Lavapipe keeps about a megabyte of machine code for each.
 const KEPT_PIPELINES: usize = 256;
 
 /// The static state of a pipeline; the rest is [`Setting::states`].
@@ -31,12 +31,12 @@ struct Key {
     targets: Targets,
     shader: Shader,
     early_tests: EarlyTests,
-    /// The first topology of its class (Vulkan, Topology Class): within it, topology is dynamic.
+    /// The first topology of its class (Vulkan, Topology Class). Within a class, topology is dynamic.
     class: PrimitiveTopology,
     tessellation: Option<Tessellation>,
-    /// True if the last vertex of a primitive provokes, and not the first.
+    /// True if the last vertex of a primitive is the provoking vertex, false if the first is.
     last_provokes: bool,
-    /// True if the vertex colour advances once an instance.
+    /// True if the vertex colour advances once per instance.
     instanced: bool,
     polygon_mode: PolygonMode,
     depth_clamp: bool,
@@ -46,11 +46,11 @@ struct Key {
     pass: Option<Compatible>,
     layer: Option<u32>,
     setting: Setting,
-    /// The rest of the state, as text, where it is not dynamic.
+    /// The rest of the state as text, unless it is dynamic.
     fixed: Option<String>,
 }
 
-/// The multisample state of a pipeline, which is compared bit by bit.
+/// The multisample state of a pipeline. Floats are compared bit by bit.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct MultisampleKey {
     mask: u32,
@@ -60,7 +60,7 @@ struct MultisampleKey {
 }
 
 impl MultisampleKey {
-    /// Vulkan has no sample coverage, so the limits deny it.
+    /// Returns the state without sample coverage, which Vulkan lacks and the limits deny.
     fn of(state: &Multisample) -> Self {
         Self {
             mask: state.mask,
@@ -89,7 +89,7 @@ pub(crate) const SAMPLER_BINDING: u32 = 4;
 /// The vertex binding of the colours of instances.
 pub(crate) const INSTANCE_BINDING: u32 = 1;
 
-/// The bindings of a shader besides its parameters.
+/// The bindings of a shader in addition to its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Bindings {
     pub(crate) textures: usize,
@@ -114,7 +114,7 @@ pub(crate) struct Layout {
     pub(crate) pipeline: vk::PipelineLayout,
 }
 
-/// A pipeline with its layout. Scenes hold it in an [`Rc`], so that the cache knows which are in
+/// A pipeline with its layout. Scenes hold it in an [`Rc`], so that the cache can tell which pipelines are in
 /// use.
 #[derive(Debug)]
 pub(crate) struct Pipeline {
@@ -132,15 +132,15 @@ pub(crate) struct Pipelines {
     pipelines: HashMap<Key, Rc<Pipeline>>,
 }
 
-/// The parts of a pipeline that a path chooses.
+/// The parts of a pipeline that depend on the path.
 #[derive(Clone, Copy)]
 pub(crate) struct Way<'a> {
-    /// The render pass, if the pass is one.
+    /// The render pass object; `None` for dynamic rendering.
     pub(crate) pass: Option<&'a RenderPass>,
-    /// The layer that the vertex shader chooses, if it chooses one.
+    /// The layer that the vertex shader writes, if it writes one.
     pub(crate) layer: Option<u32>,
     pub(crate) setting: Setting,
-    /// The state of the draw; a pipeline holds it if the setting says so.
+    /// The state of the draw, which the pipeline holds if the setting says so.
     pub(crate) state: &'a Dynamic,
 }
 
@@ -259,19 +259,19 @@ impl Pipelines {
         self.pipelines.retain(|_, pipeline| {
             let used = Rc::strong_count(pipeline) > 1;
             if !used {
-                // SAFETY: no prepared scene holds it, so nothing on the device uses it.
+                // SAFETY: no prepared scene uses it, so nothing on the device does.
                 unsafe { device.raw.destroy_pipeline(pipeline.raw, None) };
             }
             used
         });
     }
 
-    /// Destroys everything, when no prepared scene is left.
+    /// Destroys everything. All prepared scenes must have been dropped.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.drop_unused(device);
         self.modules.destroy(device);
         self.tessellation.destroy(device);
-        // SAFETY: nothing uses these any more; a null cache is ignored.
+        // SAFETY: nothing uses these any longer; a null cache is ignored.
         unsafe {
             for (_, layout) in self.layouts.drain() {
                 device.raw.destroy_pipeline_layout(layout.pipeline, None);
@@ -282,7 +282,7 @@ impl Pipelines {
     }
 }
 
-/// Creates a set layout and a pipeline layout with that one set.
+/// Creates a set layout, and a pipeline layout with that set.
 pub(crate) fn create_layout(
     device: &Device,
     bindings: &[vk::DescriptorSetLayoutBinding<'_>],
@@ -296,7 +296,7 @@ pub(crate) fn create_layout(
     // SAFETY: the set layout was just made.
     let pipeline = unsafe { device.raw.create_pipeline_layout(&info, None) };
     if pipeline.is_err() {
-        // SAFETY: nothing uses it.
+        // SAFETY: nothing uses the set layout.
         unsafe { device.raw.destroy_descriptor_set_layout(set, None) };
     }
     let pipeline = pipeline.check("a pipeline layout")?;
@@ -341,7 +341,7 @@ fn create(
     let (viewports, scissors, count) = way.state.viewports();
     let mut viewport = vk::PipelineViewportStateCreateInfo::default();
     if way.setting.viewport != PathViewport::WithCount {
-        // Read only if they are not dynamic.
+        // The driver reads them only if they are not dynamic.
         viewport = viewport
             .viewports(&viewports[..count])
             .scissors(&scissors[..count]);
@@ -354,7 +354,7 @@ fn create(
         .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
     let single = way.setting.further.single;
-    // Not the value that is set.
+    // This must differ from the value that is set dynamically.
     let mut clip = vk::PipelineRasterizationDepthClipStateCreateInfoEXT::default()
         .depth_clip_enable(key.depth_clamp);
     if single == Some(SingleState::DepthClip) {
@@ -418,8 +418,7 @@ fn create(
         Some(pass) => info.render_pass(pass.raw).subpass(pass.compatible.subpass),
         None => info.push_next(&mut rendering),
     };
-    // SAFETY: all parts of `info` live, the device can draw to the formats, and has every feature
-    // used.
+    // SAFETY: all parts of `info` live, and the device can draw to the formats and has every feature used.
     let made = unsafe {
         device
             .raw
@@ -432,8 +431,7 @@ fn create(
         .ok_or_else(|| internal("no pipeline came back"))
 }
 
-/// Returns the attributes at these locations, those that a shader reads: validation warns of
-/// others.
+/// Returns the attributes at the locations that a shader reads. Validation warns about unread attributes.
 fn attributes(
     locations: &[u32],
     instanced: bool,

@@ -1,4 +1,4 @@
-//! The commands of a scene in terms of device handles, ready to be recorded at each submit.
+//! The commands of a scene in terms of device handles, recorded again at each submit.
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
@@ -43,17 +43,17 @@ pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
     /// The part of the image that is the attachment.
     pub(crate) place: Place,
-    /// The way to the host.
+    /// How it reaches the host.
     pub(crate) end: PathEnd,
     /// The image that it is copied to before it is read.
     pub(crate) copy: Option<vk::Image>,
-    /// The image that blits move it to before it is copied.
+    /// The intermediate image that blits write, from which it is copied.
     pub(crate) between: Option<vk::Image>,
     pub(crate) aspects: vk::ImageAspectFlags,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) initial: InitialContents,
-    /// The view that a load operation clears, if a transfer would convert the color to another format.
+    /// The view that a load operation clears, if a transfer would convert the colour to another format.
     pub(crate) cleared: Option<vk::ImageView>,
     /// The role before the first pass and after the last.
     pub(crate) role: Role,
@@ -71,19 +71,19 @@ pub(crate) enum InitialContents {
     Upload(u64),
 }
 
-/// True if a draw has an advanced blend.
+/// Returns true if a draw has an advanced blend.
 pub(crate) fn is_advanced(draw: &Draw) -> bool {
     draw.targets.iter().any(|t| t.advanced.is_some())
 }
 
-/// The resolve of an attachment to another.
+/// A resolve of an attachment to another through an intermediate image.
 #[derive(Clone)]
 pub(crate) struct MovedResolve {
     pub(crate) from: usize,
     pub(crate) to: usize,
-    /// The image between.
+    /// The intermediate image.
     pub(crate) image: vk::Image,
-    /// The part of it that is used.
+    /// The part of the intermediate image that is used.
     pub(crate) place: Place,
 }
 
@@ -94,35 +94,35 @@ pub(crate) struct PassPlan {
     pub(crate) targets: Targets,
     /// True if a draw has an advanced blend.
     pub(crate) advanced: bool,
-    /// The object that the pass is; `None` for dynamic rendering.
+    /// The render pass object; `None` for dynamic rendering.
     pub(crate) object: Option<RenderPass>,
     /// The attachments that the pass uses, each once, with their roles.
     pub(crate) roles: Vec<(usize, Role)>,
     pub(crate) color: Vec<ColorPlan>,
     pub(crate) depth_stencil: Option<DepthStencilPlan>,
     pub(crate) draws: Vec<DrawPlan>,
-    /// Clear commands with the draws before which they are executed, in order.
+    /// Clear commands in order, each with the index of the draw that it precedes.
     pub(crate) clears: Vec<(usize, ClearPlan)>,
-    /// The resolves behind the pass.
+    /// The resolves after the pass.
     pub(crate) resolves: Vec<MovedResolve>,
-    /// The queries that begin before the pass, and those that end after it.
+    /// The queries that begin before the pass, and the queries that end after it.
     pub(crate) queries: Enclosing<Query>,
 }
 
 /// The plan of a draw.
 pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
-    /// The pipeline that is bound between state and draw.
+    /// The pipeline that is bound for a moment between setting the state and drawing.
     pub(crate) other: Option<Rc<Pipeline>>,
-    /// The pipeline of another draw, the same to the other of two layers.
+    /// The pipeline of a second draw, the same to the other of two layers.
     pub(crate) again: Option<Rc<Pipeline>>,
-    /// True if the state is set to another before.
+    /// True if the state is first set to other values.
     pub(crate) overwritten: bool,
     /// True if the state is set before the pipeline is bound.
     pub(crate) before_pipeline: bool,
-    /// The further dynamic state, where the path asks for it.
+    /// The further dynamic states, if the path asks for them.
     pub(crate) extended: Option<Extended>,
-    /// The state that is dynamic alone, where the path asks for one.
+    /// The state that is dynamic alone, if the path asks for one.
     pub(crate) single: Option<Single>,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
@@ -135,7 +135,7 @@ pub(crate) struct DrawPlan {
     pub(crate) colors: Option<u64>,
     pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
-    /// The queries that begin before the draw, and those that end after it.
+    /// The queries that begin before the draw, and the queries that end after it.
     pub(crate) queries: Enclosing<Query>,
 }
 
@@ -146,7 +146,7 @@ pub(crate) fn is_fetched(scene: &Scene, index: usize) -> bool {
 }
 
 impl InitialContents {
-    /// Returns the initial contents of an attachment, whose texels are at this offset of the input
+    /// Returns the initial contents of an attachment. `texels` is the offset of its texels in the input
     /// buffer.
     pub(crate) fn of(attachment: &Attachment, texels: u64) -> Self {
         match &attachment.contents {
@@ -163,7 +163,7 @@ impl InitialContents {
 }
 
 impl PassPlan {
-    /// Returns the plan of a pass over a part of its attachments, without its draws and its object.
+    /// Returns the plan of a pass over an area of its attachments, without its draws and render pass object.
     pub(crate) fn new(
         scene: &Scene,
         pass: &Pass,
@@ -224,7 +224,7 @@ impl PassPlan {
                         .attachments
                         .get(index)
                         .is_some_and(|a| a.format.is_integer());
-                    // Integers resolve to one sample (VkRenderingAttachmentInfo).
+                    // Integers resolve to the value of one sample (VkRenderingAttachmentInfo).
                     let mode = if integer {
                         vk::ResolveModeFlags::SAMPLE_ZERO
                     } else {
@@ -308,8 +308,8 @@ impl DrawPlan {
     }
 }
 
-/// Returns the format and usage of an attachment's image, which shaders may fetch from and which
-/// may be read back.
+/// Returns the key of an attachment's image. Its usage allows what the scene does with it: fetches by
+/// shaders, and reading back.
 pub(crate) fn image_key(
     gpu: &Gpu,
     scene: &Scene,
@@ -363,7 +363,7 @@ pub(crate) fn image_key(
     match (read, attachment.samples) {
         (false, _) => {}
         (true, 1) => usage |= vk::ImageUsageFlags::TRANSFER_SRC,
-        // Views of multisampled images need a usage that views can have.
+        // A multisampled image is viewed, which needs a usage that allows views.
         (true, _) => usage |= vk::ImageUsageFlags::SAMPLED | attachment_usage(format),
     }
     Ok(ImageKey {
@@ -377,7 +377,8 @@ pub(crate) fn image_key(
     })
 }
 
-/// Returns the size of the image between an attachment of this size and its copy; `None` if there is none.
+/// Returns the size of the intermediate image between an attachment of this size and its copy, or `None` if
+/// the path has no intermediate image.
 fn between(end: PathEnd, size: [u32; 2]) -> Option<[u32; 2]> {
     match end {
         PathEnd::BlitLinear => Some([2 * size[0], size[1]]),
@@ -385,7 +386,7 @@ fn between(end: PathEnd, size: [u32; 2]) -> Option<[u32; 2]> {
     }
 }
 
-/// Returns the key of the image that blits move an attachment to, if its path has them.
+/// Returns the key of the intermediate image that blits move an attachment to, if the path has one.
 pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
     let size = between(end, key.size)?;
     Some(ImageKey {
@@ -398,8 +399,8 @@ pub(crate) fn between_key(key: ImageKey, end: PathEnd) -> Option<ImageKey> {
     })
 }
 
-/// Returns the key of the image between an attachment and the one that it is resolved to, whose key is given. It is of the
-/// same level or layer.
+/// Returns the key of the intermediate image of a resolve. `key` is that of the resolve's target, whose level
+/// and layer it takes.
 pub(crate) fn resolve_key(key: ImageKey) -> ImageKey {
     ImageKey {
         usage: vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
@@ -451,7 +452,7 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
     }
     if let Some(index) = &pass.depth_stencil {
         let (format, raw) = attachment(index)?;
-        // A native aspect that the format lacks is attached in a render pass.
+        // In a render pass object, a native aspect that the format lacks would be attached.
         let tests = scene.path.tests;
         if tests != PathTests::Off && format::aspect_mask(raw) != aspects(format) {
             let value = Requirement::Path(PathValue::Tests(tests));

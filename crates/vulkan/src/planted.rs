@@ -1,7 +1,7 @@
 //! A device function table with a planted fault, for tests of the suite.
 //!
-//! The functions of the table have the driver's signatures and nothing else to tell them apart, so the
-//! driver's own table and what was seen of the calls are kept per thread: a backend belongs to one thread.
+//! The functions of the table have the driver's signatures, and cannot carry a state of their own. The
+//! driver's table and the observed calls are therefore kept per thread: a backend belongs to one thread.
 
 use crate::device::Device;
 use crate::spirv::{BUILT_IN, DECORATE, LOCATION};
@@ -19,15 +19,15 @@ thread_local! {
     static PLANTED: RefCell<Option<Planted>> = const { RefCell::new(None) };
 }
 
-/// Returns the values at an address.
+/// Returns the values at an address, or none if it is null.
 ///
 /// # Safety
-/// There are `count` values, or the address is null.
+/// The address is null, or points to `count` values.
 unsafe fn values<T: Copy>(address: *const T, count: u32) -> Vec<T> {
     if address.is_null() {
         return Vec::new();
     }
-    // SAFETY: the caller's.
+    // SAFETY: upheld by the caller.
     unsafe { slice::from_raw_parts(address, count as usize) }.to_vec()
 }
 
@@ -40,34 +40,34 @@ struct Functions {
     ext3: extended_dynamic_state3::DeviceFn,
 }
 
-/// The driver's functions, and what was seen of the commands since recording began.
+/// The driver's functions, and what was observed of the commands since recording began.
 struct Planted {
     driver: Functions,
     calls: FaultyCalls,
-    /// True before the first draw after a pass that was read-only.
+    /// True before the first draw after a read-only pass.
     after_read_only: bool,
     /// True if the pass is read-only.
     read_only: bool,
     /// True within a pass.
     in_pass: bool,
-    /// True if the pass is an object.
+    /// True if the pass is a render pass object.
     in_render_pass: bool,
-    /// True if the pass has stencil.
+    /// True if the pass has a stencil attachment.
     stencil: bool,
-    /// True before the first clear of a pass that leaves contents undefined when it begins.
+    /// True before the first clear in a pass whose load operation leaves contents undefined.
     undefined: bool,
-    /// True behind a clear of a pass.
+    /// True after a clear command of the pass.
     cleared: bool,
     /// True before the first draw of a secondary command buffer.
     secondary: bool,
     topology: vk::PrimitiveTopology,
-    /// True if restart is on.
+    /// True if primitive restart is enabled.
     restarts: bool,
-    /// True if the pass has depth.
+    /// True if the pass has a depth attachment.
     depth: bool,
-    /// True if the depth test is on.
+    /// True if the depth test is enabled.
     tests_depth: bool,
-    /// The sample mask that was set last, and its number of samples.
+    /// The sample mask that was set last, and its sample count.
     mask: Option<(vk::SampleCountFlags, vk::SampleMask)>,
     /// The formats of images.
     formats: HashMap<vk::Image, vk::Format>,
@@ -81,7 +81,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         v10: raw.fp_v1_0().clone(),
         v12: raw.fp_v1_2().clone(),
         v13: raw.fp_v1_3().clone(),
-        // A device without the extension is not asked for its functions.
+        // The functions of a missing extension are not loaded.
         ext3: extended.unwrap_or_else(|| extended_dynamic_state3::DeviceFn::load(|_| ptr::null())),
     };
     let mut functions = driver.clone();
@@ -119,18 +119,19 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
 }
 
 fn with<R>(call: impl FnOnce(&mut Planted) -> R) -> R {
-    // A function of the table is called on the thread of its backend.
+    // The functions of the table are called on the thread of the backend.
     PLANTED.with_borrow_mut(|planted| planted.as_mut().map_or_else(|| abort(), call))
 }
 
-/// Declares the functions that stand in the place of the driver's. Each does something `before` it calls the driver's
-/// with the arguments as they are then, or something `instead`. Arrays in brackets are copied, with these lengths.
+/// Declares the functions that replace the driver's. Each does something `before` it calls the driver's
+/// function with the arguments that result, or something `instead`. Arrays in brackets are copied first; the
+/// expression gives the length.
 macro_rules! functions {
     ($(
         $how:ident $version:ident $name:ident($($arg:ident: $kind:ty),*) $(-> $result:ty)?
         $([$array:ident; $length:expr])* |$planted:ident| { $($body:tt)* }
     )+) => {
-        /// Puts the functions in the place of the driver's.
+        /// Replaces the driver's functions.
         fn replace(functions: &mut Functions) {
             $(functions.$version.$name = faulty::$name;)+
         }
@@ -143,12 +144,13 @@ macro_rules! functions {
             $(
                 pub(super) unsafe extern "system" fn $name($(mut $arg: $kind),*) $(-> $result)? {
                     with(|$planted| {
-                        // SAFETY: the caller's: the specification, or the backend's use, gives the length.
+                        // SAFETY: upheld by the caller: the specification, or the backend's use, gives the
+                        // length.
                         $(let mut $array = unsafe { values($array, $length) };)*
                         functions!(@$how { $($body)* } {
                             $(let $array = $array.as_ptr();)*
-                            // SAFETY: the function has the type of the driver's of its name, whose arguments are
-                            // passed on as they are or made from valid ones.
+                            // SAFETY: the function has the type of the driver's function of its name. Its
+                            // arguments are passed on unchanged, or made from valid ones.
                             unsafe { ($planted.driver.$version.$name)($($arg),*) }
                         })
                     })
@@ -177,7 +179,7 @@ functions! {
         let numbers = DrawNumbers { count, instances, first_instance, ..DrawNumbers::default() };
         planted.draw(commands, numbers, |driver, numbers| {
             let (count, instances) = (numbers.count.cast_unsigned(), numbers.instances.cast_unsigned());
-            // SAFETY: the caller's; no more is drawn than asked for.
+            // SAFETY: upheld by the caller; no more is drawn than requested.
             unsafe { (driver.v10.cmd_draw)(commands, count, instances, first, numbers.first_instance) };
         });
     }
@@ -200,10 +202,10 @@ functions! {
         commands: vk::CommandBuffer, buffer: vk::Buffer, offset: vk::DeviceSize, count_buffer: vk::Buffer,
         count_offset: vk::DeviceSize, most: u32, stride: u32
     ) |planted| {
-        // SAFETY: the caller's; there are arguments for the most draws.
+        // SAFETY: upheld by the caller; there are arguments for `most` draws.
         unsafe {
             if planted.calls.has(CallFault::IndirectFewer) {
-                // The backend's number is 1.
+                // Draws nothing. The backend's number is 1.
             } else if planted.calls.has(CallFault::IndirectMost) {
                 (planted.driver.v10.cmd_draw_indirect)(commands, buffer, offset, most, stride);
             } else {
@@ -255,7 +257,7 @@ functions! {
         if planted.calls.has(CallFault::ClearFirstRange) {
             count = count.min(1);
         }
-        // SAFETY: every bit pattern is one of integers.
+        // SAFETY: every bit pattern is a valid integer.
         let color = unsafe { colors[0].uint32 };
         if planted.calls.skips_equal_clear(image.as_raw(), color) {
             return;
@@ -299,7 +301,7 @@ functions! {
     ) |planted| {
         planted.calls.begin_query(query);
         planted.calls.open_query(pool.as_raw(), query, planted.in_pass);
-        // SAFETY: the caller's; a query that ends here is not ended again.
+        // SAFETY: upheld by the caller; a query that ends here is not ended again.
         unsafe {
             (planted.driver.v10.cmd_begin_query)(commands, pool, query, flags);
             if planted.calls.ends_query_early() {
@@ -314,7 +316,7 @@ functions! {
         }
     }
     instead v13 cmd_end_rendering(commands: vk::CommandBuffer) |planted| {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { (planted.driver.v13.cmd_end_rendering)(commands) };
         planted.end_pass(commands);
     }
@@ -328,13 +330,13 @@ functions! {
         stride: vk::DeviceSize, flags: vk::QueryResultFlags
     ) -> vk::Result |planted| {
         let get = planted.driver.v10.get_query_pool_results;
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         let result = unsafe { get(device, pool, first, count, size, data, stride, flags) };
         if planted.calls.has(CallFault::QueryFirst) && result == vk::Result::SUCCESS {
             let queries = planted.calls.queries.len().min(count as usize);
-            // SAFETY: the backend reads results of 64 bits side by side.
+            // SAFETY: the backend reads 64-bit results without gaps.
             let results = unsafe { slice::from_raw_parts_mut(data.cast::<u64>(), queries) };
-            // Timestamps come in a pool of two and increase, so they are left alone.
+            // Timestamps come in a pool of two and increase, so this leaves them alone.
             if let [first, others @ ..] = results {
                 others.fill(*first);
             }
@@ -355,7 +357,8 @@ functions! {
         planted.in_pass = true;
         planted.calls.begin_pass();
         planted.calls.area = area(info.render_area);
-        // SAFETY: the caller's: the pointers are null or valid, and there are so many colours.
+        // SAFETY: upheld by the caller: the pointers are null or valid, and `color_attachment_count` is the
+        // number of colours.
         let (mut depth, mut stencil, mut colors) = unsafe {
             (
                 values(info.p_depth_attachment, 1),
@@ -371,7 +374,7 @@ functions! {
             |attachment: &Attachment<'_>| attachment.load_op == vk::AttachmentLoadOp::DONT_CARE;
         planted.undefined = colors.iter().chain(&depth).chain(&stencil).any(is_undefined);
         if planted.calls.has(CallFault::StateForgotten) {
-            // SAFETY: the caller's commands are recorded.
+            // SAFETY: the caller's commands are being recorded.
             unsafe {
                 let faces = vk::StencilFaceFlags::FRONT_AND_BACK;
                 (planted.driver.v10.cmd_set_stencil_write_mask)(commands, faces, 0xff);
@@ -398,7 +401,7 @@ functions! {
     }
     before v13 cmd_set_cull_mode(commands: vk::CommandBuffer, mode: vk::CullModeFlags) |planted| {
         mode = planted.calls.kept(CallFault::CullKept, 0, mode);
-        // What the backend leaves in a pipeline whose culling is dynamic.
+        // The value that the backend gives a pipeline whose culling is dynamic.
         if planted.calls.has(CallFault::StaticForDynamic) {
             mode = vk::CullModeFlags::NONE;
         }
@@ -430,10 +433,10 @@ functions! {
     instead v10 cmd_bind_pipeline(
         commands: vk::CommandBuffer, point: vk::PipelineBindPoint, pipeline: vk::Pipeline
     ) |planted| {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { (planted.driver.v10.cmd_bind_pipeline)(commands, point, pipeline) };
         if let (true, Some((samples, mask))) = (planted.calls.has(CallFault::SetBeforeBind), planted.mask) {
-            // SAFETY: as above; the mask was set before. The backend leaves the opposite in a pipeline.
+            // SAFETY: as above; the mask was set earlier. The backend gives the pipeline the opposite mask.
             unsafe { (planted.driver.ext3.cmd_set_sample_mask_ext)(commands, samples, &!mask) };
         }
     }
@@ -446,7 +449,7 @@ functions! {
         device: vk::Device, infos: *const vk::ImageCreateInfo<'_>, allocator: *const vk::AllocationCallbacks<'_>,
         image: *mut vk::Image
     ) -> vk::Result [infos; 1] |planted| {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         let result = unsafe { (planted.driver.v10.create_image)(device, infos.as_ptr(), allocator, image) };
         if result == vk::Result::SUCCESS {
             // SAFETY: the driver wrote the image.
@@ -475,14 +478,14 @@ functions! {
         device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::GraphicsPipelineCreateInfo<'_>,
         allocator: *const vk::AllocationCallbacks<'_>, pipelines: *mut vk::Pipeline
     ) -> vk::Result [infos; 1] |planted| {
-        // SAFETY: the caller's; the backend makes one pipeline at a time, with this state.
+        // SAFETY: upheld by the caller; the backend makes one pipeline at a time, with this state.
         let mut rasterization = unsafe { *infos[0].p_rasterization_state };
         if planted.calls.has(CallFault::StaticIgnored) {
             rasterization.cull_mode = vk::CullModeFlags::NONE;
         }
         infos[0].p_rasterization_state = &rasterization;
         let chained = infos[0].p_next.cast::<vk::PipelineRenderingCreateInfo<'_>>();
-        // SAFETY: the caller's; the first structure of a chain, if there is one, begins with its type.
+        // SAFETY: upheld by the caller; the first structure of a chain, if any, begins with its type.
         let first = unsafe { values(chained.cast::<vk::StructureType>(), 1) };
         let rendering = vk::StructureType::PIPELINE_RENDERING_CREATE_INFO;
         let chains = planted.calls.has(CallFault::ViewFirst) && first.contains(&rendering);
@@ -497,13 +500,13 @@ functions! {
         device: vk::Device, infos: *const vk::ShaderModuleCreateInfo<'_>,
         allocator: *const vk::AllocationCallbacks<'_>, module: *mut vk::ShaderModule
     ) -> vk::Result [infos; 1] |planted| {
-        // SAFETY: the caller's: the code has so many words.
+        // SAFETY: upheld by the caller: `code_size` is the number of bytes.
         let mut words = unsafe { values(infos[0].p_code, (infos[0].code_size / 4) as u32) };
         if planted.calls.has(CallFault::LayerUnwritten) {
             let mut start = 5;
             while let Some(head) = words.get(start).copied() {
                 if head & 0xffff == DECORATE && words[start + 2..start + 4] == [BUILT_IN, LAYER] {
-                    // An output that nobody reads.
+                    // An output that nothing reads.
                     words[start + 2..start + 4].copy_from_slice(&[LOCATION, 15]);
                 }
                 start += (head >> 16).max(1) as usize;
@@ -515,7 +518,7 @@ functions! {
         device: vk::Device, infos: *const vk::RenderPassCreateInfo2<'_>,
         allocator: *const vk::AllocationCallbacks<'_>, pass: *mut vk::RenderPass
     ) -> vk::Result [infos; 1] |planted| {
-        // SAFETY: the caller's: there are so many attachments.
+        // SAFETY: upheld by the caller: `attachment_count` is the number of attachments.
         let mut attachments = unsafe { values(infos[0].p_attachments, infos[0].attachment_count) };
         for attachment in &mut attachments {
             let color = attachment.final_layout == vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
@@ -541,7 +544,7 @@ functions! {
         planted.calls.begin_pass();
         planted.calls.area = area(infos[0].render_area);
         (planted.in_pass, planted.in_render_pass) = (true, true);
-        // Which attachments the object has is not seen.
+        // This call does not show which attachments the object has.
         planted.depth = true;
         planted.cleared = false;
     }
@@ -597,7 +600,7 @@ functions! {
     }
 }
 
-/// Returns the mask of the first of the views of a mask.
+/// Returns the mask of the first view in a mask of views.
 fn first_view(views: u32) -> u32 {
     views & views.wrapping_neg()
 }
@@ -613,13 +616,13 @@ fn rectangle([x, y, width, height]: [i32; 4]) -> vk::Rect2D {
     }
 }
 
-/// Returns the area of a pass, which starts at 0.
+/// Returns the area of a pass from the origin on, with the extent of a rectangle.
 fn area(rectangle: vk::Rect2D) -> [i32; 4] {
     let vk::Extent2D { width, height } = rectangle.extent;
     [0, 0, width.cast_signed(), height.cast_signed()]
 }
 
-/// Makes a load operation that clears one that loads.
+/// Replaces a load operation that clears by one that loads.
 fn load(operation: &mut vk::AttachmentLoadOp) {
     if *operation == vk::AttachmentLoadOp::CLEAR {
         *operation = vk::AttachmentLoadOp::LOAD;
@@ -634,13 +637,13 @@ fn clear(attachment: &mut Attachment<'_>) {
     attachment.clear_value = vk::ClearValue::default();
 }
 
-/// Returns the address of values; null if there are none.
+/// Returns the address of values, or null if the slice is empty.
 fn address<T>(values: &[T]) -> *const T {
     values.first().map_or(ptr::null(), ptr::from_ref)
 }
 
 impl Planted {
-    /// Draws with the numbers that the fault leaves, in parts if it asks for it.
+    /// Draws with the numbers that the fault leaves, in parts if the fault asks for it.
     fn draw(
         &mut self,
         commands: vk::CommandBuffer,
@@ -668,7 +671,7 @@ impl Planted {
         }
         let driver = &self.driver;
         let set_scissor = |part| {
-            // SAFETY: the caller's commands are recorded; the scissor is dynamic in every pipeline.
+            // SAFETY: the caller's commands are being recorded; the scissor is dynamic in every pipeline.
             unsafe { (driver.v10.cmd_set_scissor)(commands, 0, 1, &rectangle(part)) };
         };
         let draw = |numbers: &DrawNumbers| draw(driver, numbers);
@@ -677,23 +680,23 @@ impl Planted {
         self.end_queries(commands, &ended);
     }
 
-    /// Notes that a pass has ended.
+    /// Records that a pass has ended.
     fn end_pass(&mut self, commands: vk::CommandBuffer) {
         self.in_pass = false;
         let ended = self.calls.queries_after_pass();
         self.end_queries(commands, &ended);
     }
 
-    /// Ends queries that the fault ends.
+    /// Ends the queries that the fault ends early.
     fn end_queries(&self, commands: vk::CommandBuffer, queries: &[OpenQuery]) {
         for open in queries {
             let pool = vk::QueryPool::from_raw(open.owner);
-            // SAFETY: the query has begun, in or outside of a pass as here, and is not ended again.
+            // SAFETY: the query has begun, inside or outside a pass as here, and is not ended again.
             unsafe { (self.driver.v10.cmd_end_query)(commands, pool, open.query) };
         }
     }
 
-    /// Changes the attachments of a pass.
+    /// Changes the attachments of a pass as the fault asks.
     fn change_attachments<'a>(
         &self,
         colors: &mut [Attachment<'a>],

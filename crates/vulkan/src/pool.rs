@@ -5,7 +5,7 @@ use crate::device::Device;
 use crate::image::{Image, ImageKey};
 use etalon_backend::BackendError;
 
-/// The most objects and bytes that a pool keeps.
+/// The largest number of objects that a pool keeps, and their largest total size in bytes.
 const KEPT_OBJECTS: usize = 64;
 const KEPT_BYTES: u64 = 256 << 20;
 /// Unused objects, oldest first.
@@ -53,14 +53,14 @@ impl Pool {
         self.images.drain(..excess).for_each(|i| i.destroy(device));
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.buffers.drain(..).for_each(|b| b.destroy(device));
         self.images.drain(..).for_each(|i| i.destroy(device));
     }
 }
 
-/// Returns the number of oldest objects to destroy to keep the rest within the bounds.
+/// Returns how many of the oldest objects to destroy so that the rest are within the bounds.
 fn excess(sizes: impl DoubleEndedIterator<Item = u64> + ExactSizeIterator) -> usize {
     let count = sizes.len();
     let mut bytes = 0_u64;

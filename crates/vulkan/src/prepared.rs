@@ -36,22 +36,22 @@ use etalon_scene::{Contents, Draw, Enclosing, Pass, Pool, Scene};
 use std::cell::RefCell;
 use std::time::Instant;
 
-/// A scene with all objects that drawing it needs.
+/// A scene with all objects needed to draw it.
 pub(crate) struct PreparedScene<'a> {
     gpu: &'a Gpu,
     /// Always present until `drop` takes it.
     slot: Option<Slot>,
     input: Option<Buffer>,
     output: Option<Buffer>,
-    /// The buffer that shaders count in, if any shader counts.
+    /// The buffer of the shaders' counts, if any shader counts.
     counts: Option<Buffer>,
     /// The scene's pool.
     pool: Option<(Buffer, Pool)>,
-    /// The attachments' images, then those that they are copied to.
+    /// The images of the attachments, then the images that they are copied to.
     images: Vec<Image>,
     plan: Plan,
     kind: PathCommands,
-    /// True if state that does not change is not set again.
+    /// True if state that does not change between draws is set only once.
     keeps_state: bool,
     progress: Progress,
 }
@@ -59,7 +59,7 @@ pub(crate) struct PreparedScene<'a> {
 /// The state of the attachments and the output buffer.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Progress {
-    /// Not drawn since the start or the last failure.
+    /// Not drawn yet, or the last attempt failed.
     NotDrawn,
     /// Drawn.
     Drawn,
@@ -72,7 +72,7 @@ impl<'a> PreparedScene<'a> {
         if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
-        // Filled step by step, so that `drop` returns everything wherever a step fails.
+        // Filled step by step, so that `drop` returns everything if a step fails.
         let mut prepared = Self {
             gpu,
             slot: None,
@@ -95,7 +95,7 @@ impl<'a> PreparedScene<'a> {
         Ok(prepared)
     }
 
-    /// Takes and makes everything that the scene needs.
+    /// Takes or creates everything that the scene needs.
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
         let gpu = self.gpu;
         let pools = &mut *gpu.pools.borrow_mut();
@@ -158,8 +158,8 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Takes the images that attachments are copied to before they are read. Returns the image that is read, by
-    /// attachment.
+    /// Takes the images that attachments are copied to before they are read. Returns the index of the image
+    /// that is read, by attachment.
     fn attach_copies(
         &mut self,
         pools: &mut Pools,
@@ -185,7 +185,7 @@ impl<'a> PreparedScene<'a> {
         Ok(sources)
     }
 
-    /// Takes the images that parts are resolved to and moved from. Returns the resolves behind each pass.
+    /// Takes the intermediate images of resolves. Returns the resolves after each pass.
     fn attach_resolves(
         &mut self,
         pools: &mut Pools,
@@ -210,7 +210,7 @@ impl<'a> PreparedScene<'a> {
         Ok(resolves)
     }
 
-    /// Takes the slot, and the buffers that shaders write to.
+    /// Takes the slot and the buffers that shaders write to.
     fn take_slot(&mut self, pools: &mut Pools, scene: &Scene) -> Result<(), BackendError> {
         let device = &self.gpu.device;
         let draws = || {
@@ -248,7 +248,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Plans the passes, each once for every area that it is drawn in.
+    /// Plans the passes, once for each of their areas.
     fn plan_passes(
         &mut self,
         pools: &mut Pools,
@@ -277,7 +277,7 @@ impl<'a> PreparedScene<'a> {
             check_advanced(device, pass, setting)?;
             for area in areas {
                 let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
-                // From here on `drop` finds what is made.
+                // From here on, `drop` finds what is created.
                 let planned = self.plan.passes.push_mut(planned);
                 planned.resolves.clone_from(resolves);
                 planned.queries = Enclosing::pass(&queries, number);
@@ -311,7 +311,7 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Plans the reads, each of the image that an attachment is copied to.
+    /// Plans the reads; each reads the image that its attachment is copied to, if any.
     fn plan_reads(
         &mut self,
         pools: &mut Pools,
@@ -339,7 +339,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-/// What the draws of a pass share in one of its areas.
+/// What the draws of a pass share within one of its areas.
 struct Drawing<'a> {
     device: &'a Device,
     state: PathState,
@@ -406,8 +406,8 @@ impl Drawing<'_> {
     }
 }
 
-/// Refuses advanced blends of what is written in the same pass, if nothing orders the two, and those that
-/// would have to be dynamic.
+/// Refuses advanced blends that read what the same pass writes, unless the device orders the two, and
+/// advanced blends whose state would have to be dynamic.
 fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), BackendError> {
     let Some(last) = pass.draws.iter().rposition(is_advanced) else {
         return Ok(());
@@ -418,7 +418,8 @@ fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), 
         return Err(BackendError::NotSupported(needed));
     }
     if setting.further.extended {
-        // Such a blend is another state than the equation (VUID-VkColorBlendEquationEXT-colorBlendOp-07361).
+        // Extended dynamic state sets the equation, which cannot be an advanced blend
+        // (VUID-VkColorBlendEquationEXT-colorBlendOp-07361).
         let path = PathValue::State(PathState::ExtendedDynamic3);
         return Err(BackendError::NotSupported(Requirement::Path(path)));
     }
@@ -477,7 +478,7 @@ impl Prepared for PreparedScene<'_> {
                 slot.submit(device, start)?;
                 self.progress = Progress::Read;
             }
-            // The codes are still in the output buffer.
+            // The output buffer still has the codes.
             Progress::Read => {}
         }
         let mut frame = Frame {
@@ -502,7 +503,7 @@ impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
         let device = &self.gpu.device;
         let mut pools = self.gpu.pools.borrow_mut();
-        // The slot first, since it waits for the device if work is in flight.
+        // The slot comes first, since it waits for the device if work is in flight.
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);
         }

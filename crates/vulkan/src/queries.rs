@@ -14,7 +14,7 @@ pub(crate) struct Queries {
 }
 
 impl Queries {
-    /// Makes room for this many queries, once the device is done with the present ones.
+    /// Makes room for this many queries. The device must be done with the present ones.
     pub(crate) fn make_room(
         &mut self,
         device: &Device,
@@ -44,7 +44,8 @@ impl Queries {
     /// Records the reset of the first `count` queries.
     pub(crate) fn reset(&self, device: &Device, commands: vk::CommandBuffer, count: u32) {
         if count > 0 && self.raw != vk::QueryPool::null() {
-            // SAFETY: recording, outside of a render pass; the caller made room for them.
+            // SAFETY: `commands` is being recorded, outside a render pass; the caller made room for the
+            // queries.
             unsafe {
                 device
                     .raw
@@ -53,7 +54,7 @@ impl Queries {
         }
     }
 
-    /// Returns the results of the first `count` queries, which finished work has ended.
+    /// Returns the results of the first `count` queries. The work that contains them must have finished.
     pub(crate) fn results(&self, device: &Device, count: usize) -> Result<Vec<u64>, BackendError> {
         let mut results = vec![0_u64; count];
         if count > 0 {

@@ -23,9 +23,9 @@ pub(crate) struct ReadPlan {
     pub(crate) aspect: Aspect,
     /// The offset of its bytes in the output buffer.
     pub(crate) offset: u64,
-    /// True if a shader reads the attachment.
+    /// True if a shader reads the attachment back.
     by_shader: bool,
-    /// This shader and its descriptors.
+    /// The shader and its descriptors, if a shader reads it back.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
     sample_type: SampleType,
@@ -37,15 +37,16 @@ pub(crate) struct ReadPlan {
 }
 
 impl ReadPlan {
-    /// Returns all reads of a scene and the size of the output buffer; `by_shader` tells of each attachment
-    /// if a shader reads it back.
+    /// Returns all reads of a scene, and the size of the output buffer. `by_shader` says of each attachment
+    /// whether a shader reads it back.
     pub(crate) fn all(
         gpu: &Gpu,
         scene: &Scene,
         by_shader: &[bool],
     ) -> Result<(Vec<Self>, u64), BackendError> {
         let limits = &gpu.device.limits;
-        // Offsets of depth and stencil copies are multiples of 4, others of the texel size.
+        // Offsets of depth and stencil copies must be multiples of 4, and other offsets multiples of the
+        // texel size.
         let alignment = limits.min_storage_buffer_offset_alignment.max(16);
         let mut offsets = OffsetAllocator::default();
         let mut reads = Vec::new();
@@ -85,7 +86,7 @@ impl ReadPlan {
         Ok((reads, bytes))
     }
 
-    /// Sets the shader of a read that no copy does.
+    /// Sets the shader that reads it, if no copy can.
     pub(crate) fn connect(
         &mut self,
         device: &Device,
@@ -124,14 +125,14 @@ impl ReadPlan {
         Ok(())
     }
 
-    /// Returns the bytes of a texel in the output buffer.
+    /// Returns the size of a texel in the output buffer, in bytes.
     pub(crate) fn texel_bytes(&self) -> u64 {
         let texels = u64::from(self.size[0]) * u64::from(self.size[1]);
         self.bytes / texels.max(1)
     }
 
-    /// Returns the image, after the device wrote the output buffer. `halved` tells that a filter has weighed its texels
-    /// with zeros.
+    /// Returns the image. The device must have written the output buffer. `halved` is true if a filter
+    /// averaged its texels with zeros.
     pub(crate) fn image(
         &self,
         output: &Buffer,
@@ -167,7 +168,7 @@ impl ReadPlan {
         Ok(image)
     }
 
-    /// Returns where the channels of each sample lie in the bytes that were read.
+    /// Returns where the channels of each sample are in the bytes that were read.
     fn planes(&self) -> Vec<Plane> {
         let texel = u32::try_from(self.texel_bytes()).unwrap_or(u32::MAX);
         if self.reader.is_none() {
@@ -196,8 +197,7 @@ impl ReadPlan {
         (0..self.samples).map(plane).collect()
     }
 
-    /// Returns the codes of the samples that the shader stored, without the channels that the
-    /// format lacks.
+    /// Returns the codes of the samples that the shader stored, without channels that the format lacks.
     fn codes_of_samples(&self, bytes: &[u8]) -> Vec<u32> {
         let sample = samples::words(self.aspect) * size_of::<u32>();
         let mut codes = Vec::with_capacity(bytes.len() / sample * self.channels.len());

@@ -53,12 +53,13 @@ impl AttachmentPlan {
         }
     }
 
-    /// True if a shader reads it back: several samples, which no copy reads, or if its path says so.
+    /// Returns true if a shader reads it back: it has several samples, which copies cannot read, or its path
+    /// says so.
     pub(crate) fn is_read_by_shader(&self) -> bool {
         self.samples > 1 || self.end == PathEnd::ShaderRead
     }
 
-    /// Returns the place of what is read back: in its copy, if there is one.
+    /// Returns the place that is read back, in the copy if there is one.
     fn read_place(&self) -> Place {
         self.copy.map_or(self.place, |_| Place::default())
     }
@@ -82,8 +83,7 @@ impl AttachmentPlan {
     }
 }
 
-/// Records the initial contents of all attachments and the transition to their states for the
-/// passes.
+/// Records the initial contents of all attachments, and the transitions to their states in the passes.
 pub(crate) fn initial_contents(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -102,7 +102,7 @@ pub(crate) fn initial_contents(
         match &attachment.initial {
             InitialContents::Color(color) => match attachment.cleared {
                 Some(view) => clear_view(device, commands, attachment, view, *color),
-                // SAFETY: recording; the image is in this layout.
+                // SAFETY: `commands` is being recorded; the image is in this layout.
                 None => unsafe {
                     device.raw.cmd_clear_color_image(
                         commands,
@@ -135,7 +135,7 @@ pub(crate) fn initial_contents(
                     .into_iter()
                     .map(|place| region(attachment, place, attachment.aspects, *offset))
                     .collect();
-                // SAFETY: as above; the input buffer holds all texels from the offset on.
+                // SAFETY: as above; the input buffer has all texels from the offset on.
                 unsafe {
                     device.raw.cmd_copy_buffer_to_image(
                         commands,
@@ -157,7 +157,8 @@ pub(crate) fn initial_contents(
     barriers(device, commands, &initial);
 }
 
-/// Records a pass that clears an attachment through a view: a transfer would convert the color to the image's format.
+/// Records a pass that clears an attachment through a view. A transfer would convert the colour to the
+/// image's format.
 fn clear_view(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -180,7 +181,8 @@ fn clear_view(
         .layer_count(attachment.place.layer_count())
         .color_attachments(&targets);
     barriers(device, commands, &[attachment.barrier(TRANSFER_DST, COLOR)]);
-    // SAFETY: recording, outside of a pass; the image is in the layout of a color attachment.
+    // SAFETY: `commands` is being recorded, outside a pass; the image is in the layout of a colour
+    // attachment.
     unsafe {
         device.raw.cmd_begin_rendering(commands, &info);
         device.raw.cmd_end_rendering(commands);
@@ -188,10 +190,10 @@ fn clear_view(
     barriers(device, commands, &[attachment.barrier(COLOR, TRANSFER_DST)]);
 }
 
-/// Records all passes. Attachments change state between passes and end in their first state.
+/// Records all passes. Attachments change state between passes and end in their initial state.
 ///
 /// # Errors
-/// If the driver fails to make command buffers.
+/// If the driver fails to create command buffers.
 pub(crate) fn passes(
     device: &Device,
     recorder: &mut Recorder<'_>,
@@ -219,7 +221,8 @@ pub(crate) fn passes(
         self::pass(device, recorder, pass, input)?;
         let commands = recorder.slot.commands();
         for resolve in &pass.resolves {
-            // SAFETY: recording; the pass has ended, and its color attachments are in the layout of such.
+            // SAFETY: `commands` is being recorded; the pass has ended, and its colour attachments are in the
+            // layout of colour attachments.
             unsafe { resolve.record(device, commands, &plan.attachments) };
         }
     }
@@ -229,8 +232,7 @@ pub(crate) fn passes(
     Ok(())
 }
 
-/// Records the transitions to these roles. Attachments that keep their role need only
-/// [`between_passes`].
+/// Records the transitions to these roles. An attachment that keeps its role needs only [`between_passes`].
 fn change_roles(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -267,11 +269,11 @@ fn between_passes(device: &Device, commands: vk::CommandBuffer) {
         .dst_stage_mask(stages)
         .dst_access_mask(read | written)];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
-/// Makes what was written visible to advanced blends, which are not among ordinary reads (Vulkan, Access
+/// Makes all writes visible to advanced blends, whose reads ordinary accesses do not include (Vulkan, Access
 /// Types).
 fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
     let barriers = [vk::MemoryBarrier2::default()
@@ -280,7 +282,7 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
         .dst_stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)
         .dst_access_mask(vk::AccessFlags2::COLOR_ATTACHMENT_READ_NONCOHERENT_EXT)];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
@@ -288,14 +290,14 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
 pub(crate) struct Recorder<'a> {
     pub(crate) slot: &'a mut Slot,
     pub(crate) kind: PathCommands,
-    /// The state that is set, as text, if state that does not change is not set again.
+    /// The state that is set, as text, if state that does not change is set only once.
     pub(crate) kept: Option<RefCell<String>>,
     /// True if queries enclose passes.
     pub(crate) over_passes: bool,
 }
 
 impl Recorder<'_> {
-    /// Returns the command buffer for the next pass, outside of a pass.
+    /// Returns the command buffer for the next pass. It is outside a pass.
     fn next_pass(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         match self.kind {
             PathCommands::Several => {
@@ -308,7 +310,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Records what is within a pass that has begun.
+    /// Records commands inside a pass that has begun.
     fn within(
         &mut self,
         device: &Device,
@@ -339,7 +341,7 @@ impl Recorder<'_> {
         let commands = self.slot.secondary(device, &inheritance)?;
         // A secondary command buffer begins without state.
         record(commands, None);
-        // SAFETY: recording; the secondary commands are complete and executed once.
+        // SAFETY: `commands` is being recorded; the secondary commands are complete and executed once.
         unsafe {
             device
                 .raw
@@ -352,7 +354,7 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    /// Returns who records the commands within a pass.
+    /// Returns which command buffers record the commands inside a pass.
     fn contents(&self) -> vk::SubpassContents {
         match self.kind {
             PathCommands::Secondary => vk::SubpassContents::SECONDARY_COMMAND_BUFFERS,
@@ -361,7 +363,7 @@ impl Recorder<'_> {
     }
 }
 
-/// Returns inheritance of every query that the device has.
+/// Returns inheritance info with every kind of query that the device has.
 fn inherited_queries(device: &Device) -> vk::CommandBufferInheritanceInfo<'static> {
     let features = &device.features;
     let mut inheritance = vk::CommandBufferInheritanceInfo::default().occlusion_query_enable(true);
@@ -385,8 +387,8 @@ fn pass(
     if pass.advanced {
         before_advanced(device, commands);
     }
-    // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles, and each query that
-    // begins here is begun once.
+    // SAFETY: `commands` is being recorded, outside a pass; the attachments are in the layouts of their
+    // roles, and each query that begins here is begun once.
     unsafe {
         for query in &pass.queries.begun {
             query.begin(device, commands);
@@ -397,10 +399,10 @@ fn pass(
         }
     }
     recorder.within(device, pass, |commands, kept| {
-        // SAFETY: recording, within the pass.
+        // SAFETY: `commands` is being recorded, inside the pass.
         unsafe { draws(device, commands, pass, input, kept) };
     })?;
-    // SAFETY: recording, within the pass.
+    // SAFETY: `commands` is being recorded, inside the pass.
     unsafe {
         match &pass.object {
             Some(_) => device.raw.cmd_end_render_pass(commands),
@@ -414,7 +416,8 @@ fn pass(
 }
 
 /// # Safety
-/// As [`pass`].
+/// `commands` of the recorder is being recorded, outside a pass, and the attachments are in the layouts of
+/// their roles.
 unsafe fn begin_render_pass(
     device: &Device,
     recorder: &Recorder<'_>,
@@ -428,7 +431,7 @@ unsafe fn begin_render_pass(
         .render_area(pass.area)
         .clear_values(&object.values);
     let subpasses = object.compatible.subpass;
-    // SAFETY: the caller's; the first subpass of two is left as it began.
+    // SAFETY: upheld by the caller; the first of two subpasses stays empty.
     unsafe {
         let first = match subpasses {
             0 => contents,
@@ -442,7 +445,8 @@ unsafe fn begin_render_pass(
 }
 
 /// # Safety
-/// As [`pass`].
+/// `commands` of the recorder is being recorded, outside a pass, and the attachments are in the layouts of
+/// their roles.
 unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassPlan) {
     let attachment = |view: vk::ImageView, layout: vk::ImageLayout, ends: &Ends| {
         vk::RenderingAttachmentInfo::default()
@@ -498,7 +502,7 @@ unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassP
     if let Some(stencil) = &stencil {
         info = info.stencil_attachment(stencil);
     }
-    // SAFETY: the caller's; the attachments live as long as the scene.
+    // SAFETY: upheld by the caller; the attachments live as long as the scene.
     unsafe {
         device
             .raw
@@ -509,7 +513,7 @@ unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassP
 /// Records the draws and clears of a pass.
 ///
 /// # Safety
-/// Within the pass, which `commands` is made for.
+/// `commands` is being recorded, inside the pass.
 unsafe fn draws(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -518,7 +522,7 @@ unsafe fn draws(
     kept: Option<&RefCell<String>>,
 ) {
     let api = &device.raw;
-    // SAFETY: the caller's; pipelines live as long as the scene.
+    // SAFETY: upheld by the caller; pipelines live as long as the scene.
     unsafe {
         let bind = |pipeline: &Pipeline| {
             api.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw);
@@ -575,11 +579,11 @@ unsafe fn draws(
 }
 
 /// # Safety
-/// Within a render pass of `commands`, with the draw's pipeline bound and its state set.
+/// `commands` is being recorded, inside a render pass, with the draw's pipeline bound and its state set.
 unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, input: vk::Buffer) {
     let api = &device.raw;
-    // SAFETY: set, buffers, queries and pipeline live as long as the scene, the offsets lie inside the
-    // input buffer, which was written before, and each query is begun once.
+    // SAFETY: set, buffers, queries and pipeline live as long as the scene, the offsets are inside the input
+    // buffer, which was written earlier, and each query is begun once.
     unsafe {
         api.cmd_bind_descriptor_sets(
             commands,
@@ -656,7 +660,7 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
     }
 }
 
-/// Records the copies of attachments to the images that are read in their place.
+/// Records the copies of attachments to the images that are read instead.
 fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
     let copied = || plan.attachments.iter().filter_map(|a| Some((a, a.copy?)));
     let moved = |image: vk::Image, a: &AttachmentPlan, from: ImageState, to: ImageState| {
@@ -682,11 +686,12 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
             depth: 1,
         };
         if let Some(between) = attachment.between {
-            // SAFETY: recording; the images are in these layouts.
+            // SAFETY: `commands` is being recorded; the images are in these layouts.
             unsafe { blits::record(device, commands, attachment, between, copy) };
             continue;
         }
-        // SAFETY: recording; the images are in these layouts, and both hold the rectangle.
+        // SAFETY: `commands` is being recorded; the images are in these layouts, and both contain the
+        // rectangle.
         unsafe {
             if attachment.end == PathEnd::Blit {
                 let corners = |place: Place| {
@@ -739,7 +744,7 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
     barriers(device, commands, &out);
 }
 
-/// Records the copies of everything that is read back to the output buffer.
+/// Records the copies into the output buffer of everything that is read back.
 pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, output: vk::Buffer) {
     copies(device, commands, plan);
     let into: Vec<_> = plan
@@ -756,7 +761,8 @@ pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, o
         if let Some((reader, set)) = read.reader {
             let point = vk::PipelineBindPoint::COMPUTE;
             let [x, y] = attachment.size.map(|side| side.div_ceil(TILE));
-            // SAFETY: recording; the set names the image's view and this read's part of the output.
+            // SAFETY: `commands` is being recorded; the set names the image's view and this read's part of
+            // the output.
             unsafe {
                 let layout = reader.layout.pipeline;
                 device
@@ -778,7 +784,8 @@ pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, o
                     read.offset,
                 )],
             };
-            // SAFETY: recording; the output buffer holds all texels from the offset on.
+            // SAFETY: `commands` is being recorded; the output buffer has room for all texels from the offset
+            // on.
             unsafe {
                 device.raw.cmd_copy_image_to_buffer(
                     commands,
@@ -798,7 +805,7 @@ pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, o
         .dst_stage_mask(vk::PipelineStageFlags2::HOST)
         .dst_access_mask(vk::AccessFlags2::HOST_READ)];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
@@ -811,7 +818,7 @@ fn barriers(
         return;
     }
     let info = vk::DependencyInfo::default().image_memory_barriers(barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
@@ -837,14 +844,14 @@ fn region(
 }
 
 impl ReadPlan {
-    /// Returns the copies of an aspect in up to four parts, which lie in the buffer as the whole would.
+    /// Returns the copies of an aspect in up to four parts. Together they fill the buffer as one copy would.
     fn parts(
         &self,
         attachment: &AttachmentPlan,
         aspect: vk::ImageAspectFlags,
     ) -> Vec<vk::BufferImageCopy> {
         let [width, height] = attachment.size;
-        // Offsets of depth and stencil in buffers are multiples of 4 (VkBufferImageCopy).
+        // Buffer offsets of depth and stencil must be multiples of 4 (VkBufferImageCopy).
         let cut = |length: u32| match length / 3 / 4 * 4 {
             0 => vec![(0, length)],
             first => vec![(0, first), (first, length - first)],

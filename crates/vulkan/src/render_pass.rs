@@ -1,4 +1,4 @@
-//! Render passes and their framebuffers: the objects that a pass is, where it is no dynamic rendering.
+//! Render pass objects and their framebuffers, for passes without dynamic rendering.
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::Ends;
@@ -10,7 +10,8 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 
-/// The properties that two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
+/// The properties that compatible render passes share, in addition to formats (Vulkan, Render Pass
+/// Compatibility).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Compatible {
     /// The subpass that draws.
@@ -25,11 +26,11 @@ pub(crate) struct RenderPass {
     pub(crate) raw: vk::RenderPass,
     pub(crate) framebuffer: vk::Framebuffer,
     pub(crate) compatible: Compatible,
-    /// One for each attachment, in the render pass's order.
+    /// The clear values, one per attachment, in the render pass's order.
     pub(crate) values: Vec<vk::ClearValue>,
 }
 
-/// The attachments of a render pass, in order, with the views of its framebuffer.
+/// The attachments of a render pass in order, with the views of its framebuffer.
 #[derive(Default)]
 struct Attachments {
     descriptions: Vec<vk::AttachmentDescription2<'static>>,
@@ -38,8 +39,8 @@ struct Attachments {
 }
 
 impl Attachments {
-    /// Adds an attachment and returns the reference to it. Its layout is the same before, within and
-    /// after the pass.
+    /// Adds an attachment and returns a reference to it. Its layout is the same before, during and after the
+    /// pass.
     fn add(
         &mut self,
         (view, format, samples): (vk::ImageView, vk::Format, u32),
@@ -69,8 +70,8 @@ impl Attachments {
 }
 
 impl RenderPass {
-    /// Returns a planned pass as an object. With a second subpass, the first names the same attachments
-    /// and draws nothing, so load operations and draws are apart.
+    /// Creates the render pass object of a planned pass. With a second subpass, the first uses the same
+    /// attachments and draws nothing, so that load operations and draws are in different subpasses.
     pub(crate) fn new(
         device: &Device,
         size: [u32; 2],
@@ -111,7 +112,7 @@ impl RenderPass {
             if let Some(value) = last {
                 *value = vk::ClearValue {
                     depth_stencil: vk::ClearDepthStencilValue {
-                        // SAFETY: the values of depth and stencil were made as such, or are zero.
+                        // SAFETY: the values were made as depth-stencil values, or are zero.
                         depth: unsafe { ends[0].value.depth_stencil.depth },
                         // SAFETY: as above.
                         stencil: unsafe { ends[1].value.depth_stencil.stencil },
@@ -180,7 +181,7 @@ impl RenderPass {
             .width(width)
             .height(height)
             .layers(targets.layer_count());
-        // SAFETY: the views are of the render pass's formats and at least so large.
+        // SAFETY: the views have the render pass's formats, and are at least this large.
         let framebuffer =
             unsafe { device.raw.create_framebuffer(&info, None) }.check("a framebuffer");
         match framebuffer {
@@ -202,7 +203,8 @@ impl RenderPass {
     }
 }
 
-/// The operations of depth and stencil. A read-only pass writes nothing, not even by a store operation.
+/// Returns the operations of depth and stencil. A read-only pass writes nothing, not even by a store
+/// operation.
 fn depth_stencil_ends(plan: &DepthStencilPlan) -> [Ends; 2] {
     [&plan.depth, &plan.stencil].map(|ends| {
         let mut ends = ends.clone().unwrap_or_else(Ends::kept);
@@ -213,7 +215,8 @@ fn depth_stencil_ends(plan: &DepthStencilPlan) -> [Ends; 2] {
     })
 }
 
-/// What the first subpass wrote, load operations included, before the second.
+/// Returns the dependency that makes the writes of the first subpass, including its load operations, visible
+/// to the second.
 fn between_subpasses() -> vk::SubpassDependency2<'static> {
     let stages = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT
         | vk::PipelineStageFlags::EARLY_FRAGMENT_TESTS

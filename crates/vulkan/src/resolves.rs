@@ -1,5 +1,5 @@
-//! Resolves behind a pass: commands, each for a part of the attachment, which they move to another place of an image
-//! between. Copies bring the parts to their places in the attachment that is resolved to.
+//! Resolves after a pass. Resolve commands move parts of the attachment to other places of an intermediate
+//! image, and copies bring the parts to their places in the resolve target.
 
 use crate::device::Device;
 use crate::image_state::{COLOR, ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED};
@@ -12,8 +12,8 @@ impl MovedResolve {
     /// Records the commands and the copies.
     ///
     /// # Safety
-    /// Recording, outside of a pass; both attachments are in the layout of color attachments, and nothing uses the image
-    /// between.
+    /// `commands` is being recorded, outside a pass. Both attachments are in the layout of colour
+    /// attachments, and nothing else uses the intermediate image.
     pub(crate) unsafe fn record(
         &self,
         device: &Device,
@@ -32,7 +32,7 @@ impl MovedResolve {
         };
         let change = |barriers: &[vk::ImageMemoryBarrier2<'_>]| {
             let info = vk::DependencyInfo::default().image_memory_barriers(barriers);
-            // SAFETY: the caller's.
+            // SAFETY: upheld by the caller.
             unsafe { api.cmd_pipeline_barrier2(commands, &info) };
         };
         let pieces = Blits::new(PathEnd::BlitPart, to.size)
@@ -65,10 +65,10 @@ impl MovedResolve {
             between(UNDEFINED, TRANSFER_DST),
             to.barrier(COLOR, TRANSFER_DST),
         ]);
-        // What a resolve that is lost leaves behind is seen.
+        // The cleared values show if the driver loses a resolve.
         let zeros = vk::ClearColorValue::default();
         let ranges = [self.place.range(color)];
-        // SAFETY: the caller's; the images are in these layouts and hold the parts.
+        // SAFETY: upheld by the caller; the images are in these layouts and contain the parts.
         unsafe {
             api.cmd_clear_color_image(commands, self.image, target, &zeros, &ranges);
             change(&[between(TRANSFER_DST, TRANSFER_DST)]);

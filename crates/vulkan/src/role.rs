@@ -5,20 +5,20 @@ use etalon_scene::{Pass, Scene};
 /// The use of an attachment in a pass, or in all passes together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// A colour or resolve attachment. Other passes may fetch from it.
+    /// A colour or resolve attachment. Other passes can fetch from it.
     Color,
     DepthStencil,
     /// A read-only depth-stencil attachment.
     DepthStencilReadOnly,
-    /// The target of a resolve of depth and stencil.
+    /// The resolve target of depth and stencil.
     DepthStencilResolve,
     Fetched,
-    /// Not used by any pass. It may still be read back.
+    /// Not used by any pass. It can still be read back.
     Idle,
 }
 
 impl Role {
-    /// Returns the role of an attachment in all passes together. One pass that draws to it decides.
+    /// Returns the role of an attachment in all passes together. A pass that draws to it decides.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
         let role_in = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
         let mut found = Self::Idle;

@@ -7,7 +7,7 @@ use etalon_backend::BackendError;
 use etalon_scene::{AddressMode, FilterMode, Sampler};
 use std::collections::HashMap;
 
-/// The samplers made so far. There are few distinct ones, so all are kept.
+/// The samplers created so far. Few are distinct, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Samplers {
     samplers: HashMap<Sampler, vk::Sampler>,
@@ -43,10 +43,10 @@ impl Samplers {
         Ok(raw)
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, raw) in self.samplers.drain() {
-            // SAFETY: nothing uses it any more.
+            // SAFETY: nothing uses it any longer.
             unsafe { device.raw.destroy_sampler(raw, None) };
         }
     }

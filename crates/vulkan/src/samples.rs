@@ -1,11 +1,11 @@
 //! Reading the samples of a multisampled attachment with a compute shader, since no copy can.
 //!
-//! The shader stores the values that it fetches, 32-bit floats or integers, and `etalon_backend::codes` returns
-//! their codes. That is exact for the encodings it is used for: normalized values of up to 16 bits
-//! are far enough apart that rounding undoes the conversion whatever its last bits (Vulkan,
-//! Conversion From Normalized Fixed-Point), floats and integers are stored as they are, and sRGB
-//! codes are fetched unconverted. Of the two codes of a signed -1, the one nearer to 0 is returned.
-//! 24-bit depth is not exact and never multisampled here.
+//! The shader stores the values that it fetches, 32-bit floats or integers, and `etalon_backend::codes`
+//! recovers their codes. This is exact for the encodings used here: normalized values of up to 16 bits are
+//! far enough apart that rounding undoes the conversion whatever its last bits (Vulkan, Conversion From
+//! Normalized Fixed-Point), floats and integers are stored unchanged, and sRGB codes are fetched unconverted.
+//! A signed -1 has two codes; the one nearer to 0 is returned. 24-bit depth would not be exact and is never
+//! multisampled here.
 
 use crate::device::Device;
 use crate::error::{Check, internal};
@@ -19,7 +19,7 @@ use std::collections::HashMap;
 /// The side of a workgroup in texels.
 pub(crate) const TILE: u32 = 8;
 
-/// The readers made so far.
+/// The readers created so far.
 #[derive(Debug, Default)]
 pub(crate) struct SampleReaders {
     layout: Option<Layout>,
@@ -33,7 +33,7 @@ pub(crate) struct SampleReader {
     pub(crate) layout: Layout,
 }
 
-/// True if a shader can read the codes of samples of this encoding.
+/// Returns true if a shader can recover the codes of this encoding.
 pub(crate) fn can_read(encoding: ChannelEncoding) -> bool {
     match encoding {
         ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) => bits <= 16,
@@ -69,7 +69,7 @@ pub(crate) fn words(aspect: Aspect) -> usize {
     if aspect == Aspect::Color { 4 } else { 1 }
 }
 
-/// Returns the WGSL of a reader of several samples or of one.
+/// Returns the WGSL of a reader of multisampled images, or of images with one sample.
 fn source(seen: SampleType, several: bool) -> String {
     let (texture, code, aspect) = match seen {
         SampleType::Color => (
@@ -116,7 +116,7 @@ fn cs(@builtin(global_invocation_id) id: vec3u) {{
 }
 
 impl SampleReaders {
-    /// Returns the reader of a sample type in several samples or one, created on first use.
+    /// Returns the reader of a sample type, for multisampled images or not, created on first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -135,9 +135,9 @@ impl SampleReaders {
         Ok(SampleReader { pipeline, layout })
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
-        // SAFETY: nothing uses these any more.
+        // SAFETY: nothing uses these any longer.
         unsafe {
             for (_, pipeline) in self.pipelines.drain() {
                 device.raw.destroy_pipeline(pipeline, None);
@@ -180,7 +180,7 @@ fn pipeline(
     let info = vk::ComputePipelineCreateInfo::default()
         .stage(stage)
         .layout(layout);
-    // SAFETY: module and layout live; the module is not needed once the pipeline is created.
+    // SAFETY: module and layout live; the module is not needed after the pipeline is created.
     let made = unsafe {
         let made = device
             .raw

@@ -13,11 +13,11 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::HashMap;
 
-/// SPIR-V with the facts that a pipeline needs.
+/// SPIR-V with what a pipeline must know about it.
 #[derive(Debug)]
 pub(crate) struct Translated {
     pub(crate) words: Vec<u32>,
-    /// Locations of the vertex attributes that the vertex entry point reads.
+    /// The locations of the vertex attributes that the vertex entry point reads.
     pub(crate) attributes: Vec<u32>,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// One module per shader, early-test mode, viewport and layer. The set is closed, so all are kept.
+/// The modules by shader, early-test mode, and chosen viewport and layer. There are few, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
     modules: HashMap<(Shader, EarlyTests, Chosen), Module>,
@@ -46,8 +46,8 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| fail(e.emit_to_string(source)))?;
-    // The viewport turns y up, so the shader does not, and a written depth stays as it is. WGSL has
-    // no point size: SPIR-V must write it for points, and other topologies ignore it.
+    // The viewport turns y up, so the shader does not, and a written depth is unchanged. WGSL has no point
+    // size; SPIR-V must write it for points, and other topologies ignore it.
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::FORCE_POINT_SIZE,
@@ -111,7 +111,7 @@ impl Modules {
         Ok(module)
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, module) in self.modules.drain() {
             // SAFETY: modules are needed only while pipelines are created.
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// The execution modes of a module's entry points (SPIR-V, Mode Setting Instructions: opcode 16,
+    /// Returns the execution modes of a module's entry points (SPIR-V, Mode Setting Instructions: opcode 16,
     /// the mode in the third word).
     fn execution_modes(words: &[u32]) -> Vec<u32> {
         let (mut words_left, mut modes) = (&words[5..], Vec::new());

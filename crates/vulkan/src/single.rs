@@ -1,6 +1,7 @@
-//! The setting of a state that is dynamic alone.
+//! Setting of a state that is dynamic alone.
 //!
-//! It is set twice, to another value first, before the pipeline is bound, whose own value is that other one.
+//! The state is set twice before the pipeline is bound: first to another value, then to the draw's. The
+//! pipeline has the other value.
 
 use crate::device::Device;
 use crate::single_state::{SingleState, other_origin, other_samples, provoking};
@@ -8,7 +9,7 @@ use crate::state;
 use ash::vk;
 use etalon_scene::{DomainOrigin, Draw, ProvokingVertex};
 
-/// The value of a state in a draw.
+/// The values that a draw gives the state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Single {
     state: SingleState,
@@ -33,7 +34,7 @@ impl Single {
         }
     }
 
-    /// Returns another value.
+    /// Returns other values.
     fn opposite(self) -> Self {
         Self {
             samples: other_samples(self.samples),
@@ -48,24 +49,24 @@ impl Single {
         }
     }
 
-    /// Records another value, and this one.
+    /// Records other values, then these.
     ///
     /// # Safety
-    /// `commands` is recording.
+    /// `commands` is being recorded.
     pub(crate) unsafe fn set(self, device: &Device, commands: vk::CommandBuffer) {
         for value in [self.opposite(), self] {
-            // SAFETY: the caller's.
+            // SAFETY: upheld by the caller.
             unsafe { value.set_once(device, commands) };
         }
     }
 
     /// # Safety
-    /// `commands` is recording.
+    /// `commands` is being recorded.
     unsafe fn set_once(self, device: &Device, commands: vk::CommandBuffer) {
         let Some(api) = &device.extended else {
             return;
         };
-        // SAFETY: the caller's; the feature is enabled wherever the path is offered.
+        // SAFETY: upheld by the caller; the feature is enabled if the path is offered.
         unsafe {
             match self.state {
                 SingleState::Samples => {

@@ -1,10 +1,10 @@
-//! States of extended dynamic state 3 that are dynamic one by one, where the path asks for one of them.
+//! States of extended dynamic state 3 that the path makes dynamic one at a time.
 
 use ash::vk;
 use etalon_frame::PathState;
 use etalon_scene::{DomainOrigin, Draw, Multisample, ProvokingVertex, Tessellation};
 
-/// A state that is dynamic beside Vulkan 1.3's.
+/// A state that is dynamic in addition to Vulkan 1.3's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SingleState {
     /// The number of samples.
@@ -13,7 +13,7 @@ pub(crate) enum SingleState {
     AlphaToOne,
     /// Clipping at the near and the far plane.
     DepthClip,
-    /// The vertex whose attributes are flat.
+    /// The provoking vertex, which gives flat attributes their values.
     Provoking,
     /// The origin of the tessellated domain.
     Origin,
@@ -29,7 +29,7 @@ impl SingleState {
         Self::Origin,
     ];
 
-    /// Returns the state that is dynamic where state is set in a way.
+    /// Returns the state that is dynamic if state is set in the way of `state`.
     pub(crate) fn of(state: PathState) -> Option<Self> {
         match state {
             PathState::DynamicSamples => Some(Self::Samples),
@@ -59,8 +59,8 @@ impl SingleState {
         }
     }
 
-    /// Returns a draw whose pipeline holds another value of the state, if a draw says it. Draws of all values share
-    /// that pipeline.
+    /// Returns the draw that a pipeline is made from: its value of the state differs from the draw's, if a
+    /// draw has the value. Draws of both values share the pipeline.
     pub(crate) fn held(self, draw: &Draw) -> Draw {
         match self {
             Self::AlphaToOne => Draw {
@@ -89,7 +89,7 @@ impl SingleState {
     }
 }
 
-/// Returns the vertex of a draw; without one, that of a pipeline that says nothing.
+/// Returns the provoking vertex of a draw, or the default of a pipeline if the draw has none.
 pub(crate) fn provoking(draw: &Draw) -> ProvokingVertex {
     draw.provoking.unwrap_or(ProvokingVertex::First)
 }
@@ -102,7 +102,7 @@ pub(crate) fn other_origin(origin: DomainOrigin) -> DomainOrigin {
     }
 }
 
-/// Returns another number of samples.
+/// Returns a different number of samples.
 pub(crate) fn other_samples(samples: u32) -> u32 {
     if samples == 1 { 4 } else { 1 }
 }

@@ -7,7 +7,7 @@ use ash::vk;
 use etalon_backend::BackendError;
 use std::time::{Duration, Instant};
 
-/// The most unused slots kept.
+/// The largest number of unused slots kept.
 const KEPT_SLOTS: usize = 16;
 const FEWEST_SETS: u32 = 8;
 
@@ -15,7 +15,7 @@ const FEWEST_SETS: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct Slot {
     pool: vk::CommandPool,
-    /// Primary command buffers, the first of which are submitted.
+    /// Primary command buffers. The first `recorded` of them are submitted.
     primaries: Vec<vk::CommandBuffer>,
     /// The number of primary command buffers that are recorded, the current one included.
     recorded: usize,
@@ -30,9 +30,9 @@ pub(crate) struct Slot {
     descriptors: vk::DescriptorPool,
     /// The capacity of the descriptor pool in sets.
     sets: u32,
-    /// The images per set, on average, that the descriptor pool has room for.
+    /// The average number of images per set that the descriptor pool has room for.
     images: u32,
-    /// True if the device may still be executing the commands.
+    /// True if the device might still be executing the commands.
     pub(crate) in_flight: bool,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Slot {
 pub(crate) struct Needs {
     /// Descriptor sets.
     pub(crate) sets: u32,
-    /// The most images of one set.
+    /// The largest number of images of a set.
     pub(crate) images: u32,
     /// Occlusion queries.
     pub(crate) occlusion: u32,
@@ -67,10 +67,10 @@ impl Slots {
         Ok(slot)
     }
 
-    /// Returns a slot to the pool. A slot in flight is waited for and destroyed.
+    /// Returns a slot to the pool. If the slot is in flight, waits for the device and destroys the slot.
     pub(crate) fn give_back(&mut self, device: &Device, slot: Slot) {
         if slot.in_flight {
-            // SAFETY: waiting needs nothing; on a lost device it fails, and nothing runs there.
+            // SAFETY: waiting has no requirements; on a lost device it fails, and nothing runs there.
             let _ = unsafe { device.raw.device_wait_idle() };
         }
         if slot.in_flight || self.free.len() >= KEPT_SLOTS {
@@ -80,7 +80,7 @@ impl Slots {
         }
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.free.drain(..).for_each(|s| s.destroy(device));
     }
@@ -95,7 +95,7 @@ impl Slot {
             let info = vk::CommandPoolCreateInfo::default()
                 .flags(vk::CommandPoolCreateFlags::TRANSIENT)
                 .queue_family_index(device.queue_family);
-            // SAFETY: the family is the one the device was made with.
+            // SAFETY: the device was created with this family.
             self.pool = unsafe { api.create_command_pool(&info, None) }.check("a command pool")?;
             let info = vk::FenceCreateInfo::default();
             // SAFETY: the device lives.
@@ -143,7 +143,7 @@ impl Slot {
         Ok(())
     }
 
-    /// Allocates a descriptor set, valid while the scene holds the slot.
+    /// Allocates a descriptor set, which is valid while the scene holds the slot.
     pub(crate) fn descriptor_set(
         &self,
         device: &Device,
@@ -163,7 +163,7 @@ impl Slot {
 
     /// Begins recording.
     pub(crate) fn begin(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
-        // SAFETY: the device is done with the commands: `submit` waits.
+        // SAFETY: `submit` waited, so the device is done with the commands.
         unsafe {
             device
                 .raw
@@ -174,13 +174,13 @@ impl Slot {
         self.next_primary(device)
     }
 
-    /// Ends the primary command buffer and begins another one, which is submitted behind it.
+    /// Ends the primary command buffer, and begins another that is submitted after it.
     pub(crate) fn next_primary(
         &mut self,
         device: &Device,
     ) -> Result<vk::CommandBuffer, BackendError> {
         if self.recorded > 0 {
-            // SAFETY: recording, outside of a render pass.
+            // SAFETY: the commands are being recorded, outside a render pass.
             unsafe { device.raw.end_command_buffer(self.commands()) }.check("command memory")?;
         }
         let level = vk::CommandBufferLevel::PRIMARY;
@@ -188,12 +188,12 @@ impl Slot {
         self.recorded += 1;
         let info = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the pool was reset, and the buffer is not recorded since.
+        // SAFETY: the pool was reset, and the buffer has not been recorded since.
         unsafe { device.raw.begin_command_buffer(commands, &info) }.check("command memory")?;
         Ok(commands)
     }
 
-    /// Begins a secondary command buffer within a pass.
+    /// Begins a secondary command buffer inside a pass.
     pub(crate) fn secondary(
         &mut self,
         device: &Device,
@@ -234,7 +234,7 @@ impl Slot {
     pub(crate) fn timestamp(&self, device: &Device, index: u32) {
         if self.timestamps.raw != vk::QueryPool::null() {
             let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            // SAFETY: recording; the pool has two queries.
+            // SAFETY: the commands are being recorded; the pool has two queries.
             unsafe {
                 device
                     .raw
@@ -243,8 +243,8 @@ impl Slot {
         }
     }
 
-    /// Ends recording, submits and waits. Returns the time from `start` until the submission
-    /// returned and until the device was done.
+    /// Ends recording, submits, and waits. Returns the time from `start` until the submission returned, and
+    /// until the device was done.
     pub(crate) fn submit(
         &mut self,
         device: &Device,
@@ -257,13 +257,13 @@ impl Slot {
             .collect();
         let info = [vk::SubmitInfo2::default().command_buffer_infos(&commands)];
         let api = &device.raw;
-        // SAFETY: the commands are complete, everything they use lives in the scene, and one thread
-        // uses the queue.
+        // SAFETY: the commands are complete, everything that they use lives in the scene, and one thread uses
+        // the queue.
         unsafe {
             api.end_command_buffer(self.commands())
                 .check("command memory")?;
             api.reset_fences(&fences).check("a fence")?;
-            // Set first: after an error the device may have begun.
+            // Set before the submission: after an error, the device might have begun.
             self.in_flight = true;
             api.queue_submit2(device.queue, &info, self.fence)
                 .check("submitted work")?;
@@ -276,7 +276,7 @@ impl Slot {
         Ok((submitted, done))
     }
 
-    /// Returns the time between the two timestamps of finished work.
+    /// Returns the time between the two timestamps. The work must have finished.
     pub(crate) fn gpu_time(&self, device: &Device) -> Result<Option<Duration>, BackendError> {
         if self.timestamps.raw == vk::QueryPool::null() {
             return Ok(None);
@@ -289,8 +289,8 @@ impl Slot {
     }
 
     fn destroy(&self, device: &Device) {
-        // SAFETY: the device is done with the slot; null handles are ignored, and the pool takes its
-        // command buffer along.
+        // SAFETY: the device is done with the slot; null handles are ignored, and the pool frees its command
+        // buffers.
         unsafe {
             device.raw.destroy_descriptor_pool(self.descriptors, None);
             device.raw.destroy_fence(self.fence, None);
@@ -302,7 +302,7 @@ impl Slot {
     }
 }
 
-/// Returns the command buffer of this number, created on first use.
+/// Returns the command buffer with this index, created on first use.
 fn nth(
     device: &Device,
     pool: vk::CommandPool,

@@ -1,4 +1,4 @@
-//! SPIR-V as words: the instructions of a module, and new ones.
+//! SPIR-V as words: taking modules apart and making instructions.
 
 /// Opcodes (SPIR-V, Instructions).
 pub(crate) const EXTENSION: u32 = 10;
@@ -35,7 +35,7 @@ pub(crate) fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
     words
 }
 
-/// Returns a module's header and its instructions.
+/// Returns the header and the instructions of a module.
 pub(crate) fn instructions(words: &[u32]) -> (&[u32], Vec<&[u32]>) {
     let (header, mut rest) = words.split_at(5);
     let mut instructions = Vec::new();
@@ -47,7 +47,7 @@ pub(crate) fn instructions(words: &[u32]) -> (&[u32], Vec<&[u32]>) {
     (header, instructions)
 }
 
-/// Returns the instruction that names an extension.
+/// Returns the instruction that declares an extension.
 pub(crate) fn extension(name: &str) -> Vec<u32> {
     let mut bytes = name.as_bytes().to_vec();
     bytes.resize(bytes.len() / 4 * 4 + 4, 0);
@@ -57,7 +57,7 @@ pub(crate) fn extension(name: &str) -> Vec<u32> {
     instruction(EXTENSION, &words.collect::<Vec<_>>())
 }
 
-/// Returns a module that declares a further capability and its extension.
+/// Returns the module with another capability and its extension declared.
 pub(crate) fn with_capability(words: &[u32], capability: u32, name: &str) -> Vec<u32> {
     let (header, instructions) = instructions(words);
     let is_capability = |instruction: &&[u32]| instruction[0] & 0xffff == CAPABILITY;

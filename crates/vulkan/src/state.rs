@@ -43,8 +43,8 @@ pub(crate) fn blend_operation(operation: BlendOperation) -> vk::BlendOp {
     }
 }
 
-/// Vulkan's colour factors take the alpha of their operand in the alpha equation (Blend Factors),
-/// as WebGPU's do, so one table serves both equations.
+/// Returns the blend factor. In the alpha equation, Vulkan's colour factors use the alpha of their operand
+/// (Blend Factors), as WebGPU's do, so one table serves both equations.
 pub(crate) fn blend_factor(factor: BlendFactor) -> vk::BlendFactor {
     match factor {
         BlendFactor::Zero => vk::BlendFactor::ZERO,
@@ -113,7 +113,7 @@ pub(crate) fn front_face(face: FrontFace) -> vk::FrontFace {
     }
 }
 
-/// A tessellated list of triangles is one of patches.
+/// Returns the topology. A tessellated triangle list is a list of patches.
 pub(crate) fn topology(
     topology: PrimitiveTopology,
     tessellation: Option<Tessellation>,
@@ -129,17 +129,17 @@ pub(crate) fn topology(
     }
 }
 
-/// Bit 0 is red in both.
+/// Returns the write mask. Bit 0 is red in both.
 pub(crate) fn write_mask(mask: u8) -> vk::ColorComponentFlags {
     vk::ColorComponentFlags::from_raw(u32::from(mask & 0xf))
 }
 
-/// The flag of a sample count up to 64 is the count itself.
+/// Returns the flag of a sample count up to 64, which is the count itself.
 pub(crate) fn samples(count: u32) -> vk::SampleCountFlags {
     vk::SampleCountFlags::from_raw(count)
 }
 
-/// Returns Vulkan's mode of a resolve.
+/// Returns Vulkan's resolve mode.
 pub(crate) fn resolve_mode(mode: ResolveMode) -> vk::ResolveModeFlags {
     match mode {
         ResolveMode::None => vk::ResolveModeFlags::NONE,
@@ -150,7 +150,7 @@ pub(crate) fn resolve_mode(mode: ResolveMode) -> vk::ResolveModeFlags {
     }
 }
 
-/// Returns Vulkan's operation of an advanced mode.
+/// Returns Vulkan's operation of an advanced blend mode.
 fn advanced_operation(mode: AdvancedBlend) -> vk::BlendOp {
     match mode {
         AdvancedBlend::Multiply => vk::BlendOp::MULTIPLY_EXT,
@@ -167,8 +167,8 @@ fn advanced_operation(mode: AdvancedBlend) -> vk::BlendOp {
     }
 }
 
-/// Returns Vulkan's state of a colour attachment. Without a structure that says otherwise, an advanced
-/// operation takes premultiplied colours of uncorrelated coverage, as OpenGL's does.
+/// Returns the blend state of a colour attachment. Without a structure that says otherwise, an advanced
+/// operation takes premultiplied colours with uncorrelated coverage, as OpenGL's does.
 pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
     let mut native = vk::PipelineColorBlendAttachmentState::default()
         .color_write_mask(write_mask(target.write_mask));

@@ -1,8 +1,8 @@
 //! Fragment shaders that write the stencil reference.
 //!
-//! WGSL has no such built-in, so the suite's shaders write it to a location of their own. In naga's SPIR-V
-//! that output becomes the built-in FragStencilRefEXT, with its capability, extension and execution mode
-//! (SPV_EXT_shader_stencil_export).
+//! WGSL has no such built-in, so the suite's shaders write the reference to a location reserved for it. This
+//! module turns that output of naga's SPIR-V into the built-in FragStencilRefEXT, with its capability,
+//! extension and execution mode (SPV_EXT_shader_stencil_export).
 
 use crate::spirv::{
     self, BUILT_IN, DECORATE, ENTRY_POINT, EXECUTION_MODE, LOCATION, OUTPUT, VARIABLE, instruction,
@@ -12,7 +12,7 @@ use etalon_scene::STENCIL_REFERENCE;
 
 /// The capability StencilExportEXT.
 const STENCIL_EXPORT: u32 = 5013;
-/// Its extension.
+/// The extension of the capability.
 const EXTENSION_NAME: &str = "SPV_EXT_shader_stencil_export";
 /// The built-in FragStencilRefEXT.
 const FRAG_STENCIL_REF: u32 = 5014;
@@ -21,8 +21,7 @@ const STENCIL_REF_REPLACING: u32 = 5027;
 /// The execution model Fragment.
 const FRAGMENT: u32 = 4;
 
-/// Returns a module whose fragment entry point writes the output at [`STENCIL_REFERENCE`] as stencil
-/// reference.
+/// Returns the module with the fragment output at [`STENCIL_REFERENCE`] turned into the stencil reference.
 pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
     let words = spirv::with_capability(words, STENCIL_EXPORT, EXTENSION_NAME);
     let (header, instructions) = instructions(&words);
@@ -32,7 +31,7 @@ pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
         .find(|instruction| is(instruction, ENTRY_POINT) && instruction[1] == FRAGMENT)
         .copied()
         .unwrap_or_default();
-    // Vertex shaders have outputs of their own at the same locations.
+    // Vertex shaders have other outputs at the same locations.
     let of_fragment = |variable: &u32| fragment.get(3..).is_some_and(|ids| ids.contains(variable));
     let outputs: Vec<u32> = instructions
         .iter()

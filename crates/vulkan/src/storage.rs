@@ -1,16 +1,18 @@
-//! The order of uses of storage buffers: zeroes before shaders, the writes of a pass before the reads of the next.
+//! Order between uses of storage buffers: zeros before shaders, and the writes of a pass before the reads of
+//! the next.
 
 use crate::device::Device;
 use ash::vk;
 
-/// Records zeroes to the first bytes of a storage buffer, before fragment shaders use it.
+/// Records a fill of the first bytes of a storage buffer with zeros, visible to fragment shaders after it.
 pub(crate) fn zero(
     device: &Device,
     commands: vk::CommandBuffer,
     buffer: vk::Buffer,
     bytes: vk::DeviceSize,
 ) {
-    // SAFETY: recording, outside of a render pass; no other work uses the buffer, which is not smaller.
+    // SAFETY: `commands` is being recorded, outside a render pass; no other work uses the buffer, which has
+    // at least this size.
     unsafe {
         device.raw.cmd_fill_buffer(commands, buffer, 0, bytes, 0);
     }
@@ -21,7 +23,7 @@ pub(crate) fn zero(
     before_use(device, commands, stage, written);
 }
 
-/// Makes writes visible to what fragment shaders read from storage and write to it.
+/// Makes writes visible to the storage reads and writes of fragment shaders.
 pub(crate) fn before_use(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -36,6 +38,6 @@ pub(crate) fn before_use(
             vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::SHADER_STORAGE_WRITE,
         )];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: recording, outside of a render pass.
+    // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }

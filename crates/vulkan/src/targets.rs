@@ -1,4 +1,4 @@
-//! The formats of a pass's attachments, as pipelines and render passes ask for them.
+//! The formats of a pass's attachments, as pipelines and render passes need them.
 
 use crate::image::{DRAWN_LAYERS, LAYERS};
 use ash::vk;
@@ -7,11 +7,11 @@ use etalon_frame::PathLayers;
 /// The formats and sample count of a pass's attachments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Targets {
-    /// `UNDEFINED` where no attachment is.
+    /// The colour formats; `UNDEFINED` if the location has no attachment.
     pub(crate) color: Vec<vk::Format>,
-    /// `UNDEFINED` without a depth aspect.
+    /// The format with the depth aspect, or `UNDEFINED`.
     pub(crate) depth: vk::Format,
-    /// `UNDEFINED` without a stencil aspect.
+    /// The format with the stencil aspect, or `UNDEFINED`.
     pub(crate) stencil: vk::Format,
     pub(crate) samples: u32,
     /// The layers of the pass.
@@ -19,7 +19,7 @@ pub(crate) struct Targets {
 }
 
 impl Targets {
-    /// Returns the layers that are views; 0 without views.
+    /// Returns the mask of the layers that are views, or 0 without multiview.
     pub(crate) fn views(&self) -> u32 {
         match self.layers {
             PathLayers::One | PathLayers::Written => 0,
@@ -27,7 +27,7 @@ impl Targets {
         }
     }
 
-    /// Returns the number of layers that shaders choose from. Passes with views have one.
+    /// Returns the number of layers that shaders select from: 1 with multiview.
     pub(crate) fn layer_count(&self) -> u32 {
         match self.layers {
             PathLayers::One | PathLayers::Multiview => 1,

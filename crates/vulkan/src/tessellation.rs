@@ -1,6 +1,6 @@
 //! The shader stages that tessellate, and the state of their patches.
 //!
-//! naga has no tessellation, so the modules are SPIR-V that is checked in beside its GLSL.
+//! naga does not support tessellation, so the repository has the modules as SPIR-V, with their GLSL.
 
 use crate::device::Device;
 use crate::shader::create_module;
@@ -9,7 +9,7 @@ use etalon_backend::BackendError;
 use etalon_scene::{CONTROL_SPIRV, DomainOrigin, FrontFace, Tessellation, evaluation_spirv};
 use std::collections::HashMap;
 
-/// The vertices of a patch.
+/// The number of vertices of a patch.
 pub(crate) const PATCH_VERTICES: u32 = 3;
 
 /// The modules of both stages, created on first use.
@@ -20,7 +20,7 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// Returns the control and the evaluation stage.
+    /// Returns the control stage and the evaluation stage.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -56,7 +56,7 @@ impl Stages {
         ])
     }
 
-    /// Destroys everything, before the device is destroyed.
+    /// Destroys everything. The device must still exist.
     pub(crate) fn destroy(&mut self, device: &Device) {
         let evaluation = self.evaluation.drain().map(|(_, module)| module);
         for module in self.control.take().into_iter().chain(evaluation) {
@@ -66,13 +66,13 @@ impl Stages {
     }
 }
 
-/// SPIR-V as words; the files hold them with the low byte first.
+/// Returns SPIR-V as words. The files store them with the low byte first.
 fn words(bytes: &[u8]) -> Vec<u32> {
     let word = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
     bytes.chunks_exact(4).map(word).collect()
 }
 
-/// Returns the state of the domain's origin; `None` for the upper left, which is the default.
+/// Returns the state of the domain's origin, or `None` for the upper left, which is the default.
 pub(crate) fn origin(
     tessellation: Tessellation,
 ) -> Option<vk::PipelineTessellationDomainOriginStateCreateInfo<'static>> {

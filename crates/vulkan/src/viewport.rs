@@ -1,7 +1,8 @@
-//! Vertex shaders that choose the second viewport, or a layer.
+//! Vertex shaders that select the second viewport, or a layer.
 //!
-//! WGSL has neither a viewport index nor a layer, so the built-in outputs are added to naga's SPIR-V: a capability with
-//! its extension, output variables, and a store to each before each return of the vertex entry point.
+//! WGSL has neither a viewport index nor a layer, so this module adds the built-in outputs to naga's SPIR-V:
+//! a capability with its extension, output variables, and a store to each before each return of the vertex
+//! entry point.
 
 use crate::spirv::{
     self, BUILT_IN, CONSTANT, DECORATE, ENTRY_POINT, FUNCTION, FUNCTION_END, OUTPUT, RETURN, STORE,
@@ -14,14 +15,14 @@ const VIEWPORT_INDEX_LAYER: u32 = 5254;
 pub(crate) const LAYER: u32 = 9;
 const VIEWPORT_INDEX: u32 = 10;
 
-/// The viewport and the layer that a vertex shader chooses.
+/// The viewport and the layer that a vertex shader selects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Chosen {
     pub(crate) second_viewport: bool,
     pub(crate) layer: Option<u32>,
 }
 
-/// An output that is added: its variable, its constant, the built-in and the value.
+/// An added output: the ids of its variable and its constant, the built-in and its value.
 struct Output {
     variable: u32,
     constant: u32,
@@ -29,7 +30,7 @@ struct Output {
     value: u32,
 }
 
-/// Returns a module whose vertex entry point chooses a viewport, a layer or both.
+/// Returns the module with a vertex entry point that selects a viewport, a layer or both.
 pub(crate) fn choose(words: &[u32], chosen: Chosen) -> Vec<u32> {
     let words = spirv::with_capability(
         words,
@@ -43,7 +44,7 @@ pub(crate) fn choose(words: &[u32], chosen: Chosen) -> Vec<u32> {
         .iter()
         .find(|instruction| is(instruction, ENTRY_POINT) && instruction[1] == 0)
         .map(|instruction| instruction[2]);
-    // Two types of the same integers are not allowed; two pointers to them are.
+    // SPIR-V forbids two equal integer types, but allows two pointers to one type.
     let unsigned = instructions
         .iter()
         .find(|instruction| is(instruction, TYPE_INT) && instruction[2..] == [32, 0])

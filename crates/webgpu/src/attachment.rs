@@ -12,7 +12,7 @@ use etalon_scene::{
     Contents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
 };
 
-/// The distance between rows in a copy is a multiple of this many bytes (GPUTexelCopyBufferLayout).
+/// The alignment of rows in a copy, in bytes (GPUTexelCopyBufferLayout).
 pub(crate) const PITCH: u32 = 256;
 
 /// An attachment of a scene.
@@ -21,8 +21,8 @@ pub(crate) struct Attached {
     format: TextureFormat,
     size: [u32; 2],
     initial: InitialContents,
-    /// The pass that clears it: the first that uses it, if that one draws to it and loads all of it. What
-    /// another load operation replaces is cleared before.
+    /// The pass that clears it: the first pass that uses it, if that pass draws to it and loads all of it.
+    /// `None` if a separate pass clears it.
     cleared_by: Option<usize>,
     /// True if a pass writes to it.
     changes: bool,
@@ -93,8 +93,8 @@ impl Attached {
         })
     }
 
-    /// Adds the commands of the initial contents, unless a pass clears the attachment: to `first` if no pass changes
-    /// what is uploaded, else to `each`.
+    /// Adds the commands of the initial contents, unless a pass clears the attachment. Uploads go to `first`
+    /// if no pass changes the attachment, and to `each` otherwise.
     pub(crate) fn initialise(
         &self,
         lowering: &mut Lowering<'_>,
@@ -128,7 +128,8 @@ impl Attached {
         }
     }
 
-    /// Returns the attachment for a pass of the scene, or for a pass that only clears it.
+    /// Returns the attachment for a pass of the scene, or, if `pass` is `None`, for a pass that only clears
+    /// it.
     pub(crate) fn as_color(
         &self,
         lowering: &mut Lowering<'_>,
@@ -148,7 +149,8 @@ impl Attached {
         }
     }
 
-    /// Returns the attachment for a pass of the scene, or for a pass that only clears it.
+    /// Returns the attachment for a pass of the scene, or, if `pass` is `None`, for a pass that only clears
+    /// it.
     pub(crate) fn as_depth_stencil(
         &self,
         lowering: &mut Lowering<'_>,
@@ -183,7 +185,7 @@ impl Attached {
     }
 }
 
-/// Returns the attachment of a format's aspects.
+/// Returns an attachment with the aspects that the format has.
 pub(crate) fn accessed(
     lowering: &mut Lowering<'_>,
     target: Target,
@@ -206,7 +208,7 @@ pub(crate) fn accessed(
     }
 }
 
-/// True if a pass loads all aspects of an attachment that it draws to.
+/// Returns true if a pass draws to an attachment and loads all of its aspects.
 fn loads(pass: &Pass, index: usize) -> bool {
     let mut colors = pass.color.iter().enumerate();
     let PassOperations { depth, stencil, .. } = &pass.operations;
@@ -223,7 +225,7 @@ fn filled<V>(clear: Option<V>, store: StoreOperation) -> Filled<V> {
     }
 }
 
-/// Returns the bytes of codes with padded rows, and the distance between rows.
+/// Returns the bytes of codes, in rows padded to [`PITCH`], and the distance between rows in bytes.
 fn rows(format: TextureFormat, width: u32, codes: &[u32]) -> (Vec<u8>, u32) {
     let row = width * texel::bytes(format) as u32;
     let pitch = row.next_multiple_of(PITCH);

@@ -6,7 +6,7 @@ use crate::counting::{Counting, RUNS_BYTES};
 use crate::tables::Lowering;
 use etalon_scene::{Draw, Params, Scene, Shader};
 
-/// The size of the parameter block.
+/// The size of the parameter block in bytes.
 const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
 /// The bindings of a shader, at the numbers that the suite's shaders use.
@@ -63,7 +63,7 @@ pub(crate) fn texture(sample_type: SampleType, multisampled: bool) -> LayoutReso
     }
 }
 
-/// A bind group and the dynamic offset of its parameters, if it has any.
+/// A bind group and the dynamic offset of its parameters, if it has parameters.
 #[derive(Clone, Copy)]
 pub(crate) struct Bound {
     pub(crate) group: usize,
@@ -74,7 +74,7 @@ pub(crate) struct Bound {
 pub(crate) struct Groups<'s> {
     attachments: &'s [Attached],
     counting: &'s Counting,
-    /// The scene's pool, with its size in bytes.
+    /// The scene's pool and its size in bytes.
     pub(crate) pool: Option<(usize, u64)>,
     /// The buffer of the parameter blocks of all draws.
     buffer: Option<usize>,
@@ -104,8 +104,8 @@ impl<'s> Groups<'s> {
         }
     }
 
-    /// Returns the bind group of a draw; `None` if its shader has no bindings. `runs` is the
-    /// counter of its shader runs.
+    /// Returns the bind group of a draw, or `None` if its shader has no bindings. `runs` is the counter of
+    /// its shader runs.
     pub(crate) fn bind(
         &mut self,
         lowering: &mut Lowering<'_>,

@@ -1,4 +1,4 @@
-//! The calls: tables of objects, and commands that name them by their place in a table.
+//! The calls: tables of objects, and commands that refer to objects by their index in a table.
 
 use crate::format::Format;
 use crate::pipeline_state::Pipeline;
@@ -10,11 +10,11 @@ use std::ops::Range;
 
 /// The usages of buffers (WebGPU: GPUBufferUsage).
 pub mod buffer_usage {
-    /// May be mapped for reading.
+    /// Can be mapped for reading.
     pub const MAP_READ: u32 = 0x1;
-    /// May be the source of a copy.
+    /// Can be the source of a copy.
     pub const COPY_SRC: u32 = 0x4;
-    /// May be the target of a copy or a write.
+    /// Can be the target of a copy or a write.
     pub const COPY_DST: u32 = 0x8;
     /// Holds indices.
     pub const INDEX: u32 = 0x10;
@@ -22,23 +22,23 @@ pub mod buffer_usage {
     pub const VERTEX: u32 = 0x20;
     /// Holds uniforms.
     pub const UNIFORM: u32 = 0x40;
-    /// Is written by shaders.
+    /// Written by shaders.
     pub const STORAGE: u32 = 0x80;
     /// Holds the arguments of indirect draws.
     pub const INDIRECT: u32 = 0x100;
-    /// Takes the results of queries.
+    /// Receives the results of queries.
     pub const QUERY_RESOLVE: u32 = 0x200;
 }
 
 /// The usages of textures (WebGPU: GPUTextureUsage).
 pub mod texture_usage {
-    /// May be the source of a copy.
+    /// Can be the source of a copy.
     pub const COPY_SRC: u32 = 0x1;
-    /// May be the target of a copy.
+    /// Can be the target of a copy.
     pub const COPY_DST: u32 = 0x2;
-    /// May be read by shaders.
+    /// Can be read by shaders.
     pub const TEXTURE_BINDING: u32 = 0x4;
-    /// May be drawn to.
+    /// Can be drawn to.
     pub const RENDER_ATTACHMENT: u32 = 0x10;
 }
 
@@ -47,7 +47,7 @@ pub mod texture_usage {
 pub struct CallList {
     /// Shader modules.
     pub shaders: Vec<Shader>,
-    /// Bind group layouts. A pipeline layout has one of them or none.
+    /// Bind group layouts. A pipeline layout has at most one.
     pub layouts: Vec<Vec<LayoutEntry>>,
     /// Samplers.
     pub samplers: Vec<Sampler>,
@@ -65,20 +65,20 @@ pub struct CallList {
     pub pipelines: Vec<Pipeline>,
     /// Render bundles.
     pub bundles: Vec<RenderBundle>,
-    /// The commands that come before the frame's, in its first submission alone.
+    /// The commands that precede the frame's, in its first submission only.
     pub first: Vec<Command>,
     /// The command buffers of a frame, submitted together.
     pub frame: Vec<Vec<Command>>,
-    /// The commands that bring what is read into the buffer `output`, submitted after a frame.
+    /// The commands that copy what is read into the buffer `output`, submitted after a frame.
     pub read: Vec<Command>,
-    /// The buffer that is mapped after them.
+    /// The buffer that is mapped after the commands of `read`.
     pub output: usize,
-    /// The meaning of its bytes.
+    /// The meaning of the bytes in `output`.
     pub reading: Reading,
 }
 
 impl CallList {
-    /// True if a pass of the frame is timed.
+    /// Returns true if a pass of the frame is timed.
     pub fn is_timed(&self) -> bool {
         let timed =
             |command: &Command| matches!(command, Command::Pass(pass) if pass.timed != [false; 2]);
@@ -98,7 +98,7 @@ pub struct Shader {
 /// A binding of a layout, visible to fragment shaders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct LayoutEntry {
-    /// The number.
+    /// The binding number.
     pub binding: u32,
     /// The type of the resource.
     pub resource: LayoutResource,
@@ -115,7 +115,7 @@ pub enum LayoutResource {
     Texture {
         /// The type of its texels.
         sample_type: SampleType,
-        /// True if it has several samples.
+        /// True if the texture is multisampled.
         multisampled: bool,
     },
     /// A filtering sampler.
@@ -126,9 +126,9 @@ pub enum LayoutResource {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SampleType {
-    /// Floats that a sampler may filter.
+    /// Floats that a sampler can filter.
     Float,
-    /// Floats.
+    /// Floats that a sampler cannot filter.
     UnfilterableFloat,
     /// Unsigned integers.
     Uint,
@@ -152,14 +152,14 @@ pub struct Texture {
     pub format: Format,
     /// The usages, of [`texture_usage`].
     pub usage: u32,
-    /// Another format that views may have.
+    /// Another format that views can have.
     pub view_format: Option<Format>,
 }
 
 /// The dimension of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum TextureDimension {
-    /// Two dimensions, in layers.
+    /// Two dimensions, with layers.
     #[serde(rename = "2d")]
     D2,
     /// Three dimensions.
@@ -171,7 +171,7 @@ pub enum TextureDimension {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TextureAspect {
-    /// All that the format has.
+    /// All aspects of the format.
     All,
     /// Depth.
     DepthOnly,
@@ -179,27 +179,27 @@ pub enum TextureAspect {
     StencilOnly,
 }
 
-/// A view of one level of one layer, or of a whole three-dimensional texture.
+/// A view of one level of one layer, or of a whole 3D texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TextureView {
     /// The texture.
     pub texture: usize,
-    /// Level and layer of a two-dimensional texture; none for the whole of a three-dimensional one.
+    /// The level and layer of a 2D texture; `None` for the whole of a 3D texture.
     pub part: Option<[u32; 2]>,
     /// The aspect.
     pub aspect: TextureAspect,
-    /// The format, where it is not the texture's.
+    /// The format, if it differs from the texture's.
     pub format: Option<Format>,
 }
 
-/// A buffer. Bytes without contents are undefined.
+/// A buffer. Bytes beyond the contents are undefined.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Buffer {
     /// The size in bytes.
     pub size: u64,
     /// The usages, of [`buffer_usage`].
     pub usage: u32,
-    /// The contents from byte 0 on: a multiple of four bytes, or none.
+    /// The contents from byte 0 on. The length is a multiple of 4 bytes, or 0.
     pub contents: Vec<u8>,
 }
 
@@ -208,7 +208,7 @@ pub struct Buffer {
 pub struct BindGroup {
     /// The layout.
     pub layout: usize,
-    /// The resources by the numbers of their bindings.
+    /// The resources, each with its binding number.
     pub entries: Vec<(u32, Binding)>,
 }
 
@@ -233,13 +233,13 @@ pub enum Binding {
 /// The type of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum QueryType {
-    /// Tells whether any sample passed.
+    /// Whether any sample passed.
     Occlusion,
-    /// Counts invocations of the fragment shader. Not of WebGPU: a native feature of wgpu.
+    /// The number of fragment shader invocations. Not part of WebGPU, but a native feature of wgpu.
     FragmentInvocations,
 }
 
-/// Queries of one type.
+/// A set of queries of one type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct QuerySet {
     /// The type.
@@ -251,18 +251,18 @@ pub struct QuerySet {
 /// A query of a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Query {
-    /// The type of its set.
+    /// The type of the query's set.
     pub ty: QueryType,
     /// The set.
     pub set: usize,
-    /// The place in the set.
+    /// The index in the set.
     pub index: u32,
 }
 
-/// Draws that are recorded ahead of their pass.
+/// Draws that are recorded before the pass that executes them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderBundle {
-    /// The formats of the colour attachments; `None` where a location has none.
+    /// The formats of the colour attachments; `None` if a location has no attachment.
     pub color: Vec<Option<Format>>,
     /// The format of the depth and stencil attachment.
     pub depth_stencil: Option<Format>,
@@ -274,7 +274,7 @@ pub struct RenderBundle {
     pub commands: Vec<DrawCommand>,
 }
 
-/// A command outside of passes, or a pass.
+/// A command outside passes, or a pass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Fills the first bytes of a buffer with zeros.
@@ -346,14 +346,14 @@ pub struct Rows {
     pub pitch: u32,
 }
 
-/// A part of a texture, from a texel on.
+/// A part of a texture that begins at a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TexturePart {
     /// The texture.
     pub texture: usize,
     /// The level.
     pub level: u32,
-    /// Column, row, and layer or slice.
+    /// The column, row, and layer or slice.
     pub origin: [u32; 3],
     /// The aspect.
     pub aspect: TextureAspect,
@@ -362,13 +362,13 @@ pub struct TexturePart {
 /// A render pass.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RenderPass {
-    /// The colour attachments; `None` where a location has none.
+    /// The colour attachments; `None` if a location has no attachment.
     pub color: Vec<Option<ColorAttachment>>,
     /// The depth and stencil attachment.
     pub depth_stencil: Option<DepthStencilAttachment>,
-    /// The occlusion queries.
+    /// The query set of occlusion queries.
     pub occlusion: Option<usize>,
-    /// True if the pass begins and if it ends what is timed on the device.
+    /// Whether the pass begins the timed part of the frame, and whether it ends it.
     pub timed: [bool; 2],
     /// The commands.
     pub commands: Vec<PassCommand>,
@@ -379,9 +379,9 @@ pub struct RenderPass {
 pub struct ColorAttachment {
     /// The view.
     pub view: usize,
-    /// The slice of a three-dimensional texture.
+    /// The slice of a 3D texture.
     pub depth_slice: Option<u32>,
-    /// The view that it is resolved to.
+    /// The view that the attachment is resolved to.
     pub resolve: Option<usize>,
     /// The load and store operations.
     pub operations: Filled<[f32; 4]>,
@@ -390,14 +390,14 @@ pub struct ColorAttachment {
 /// The load and store operations of an aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Filled<V> {
-    /// The value that it is cleared to; without one it is loaded.
+    /// The value that the aspect is cleared to; without a value, it is loaded.
     pub clear: Option<V>,
-    /// True if it is stored, false if it is discarded.
+    /// True if the aspect is stored, false if it is discarded.
     pub store: bool,
 }
 
 impl<V> Filled<V> {
-    /// Cleared and stored.
+    /// Returns operations that clear and store.
     pub const fn cleared(value: V) -> Self {
         Self {
             clear: Some(value),
@@ -405,7 +405,7 @@ impl<V> Filled<V> {
         }
     }
 
-    /// Loaded and stored.
+    /// Returns operations that load and store.
     pub const fn kept() -> Self {
         Self {
             clear: None,
@@ -428,11 +428,11 @@ pub struct DepthStencilAttachment {
 /// The access of a pass to an aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Access<V> {
-    /// The format lacks it.
+    /// The format lacks the aspect.
     Absent,
-    /// It is read only.
+    /// The aspect is read-only.
     ReadOnly,
-    /// It may be written.
+    /// The aspect can be written.
     Written(Filled<V>),
 }
 
@@ -454,11 +454,11 @@ pub enum PassCommand {
     SetStencilReference(u32),
     /// Begins a query.
     Begin(Query),
-    /// Ends the query of a type.
+    /// Ends the active query of a type.
     End(QueryType),
     /// Executes a bundle.
     Execute(usize),
-    /// A command that bundles may hold, too.
+    /// A command that bundles can also contain.
     Draw(DrawCommand),
 }
 
@@ -480,14 +480,14 @@ pub enum DrawCommand {
         slot: u32,
         /// The buffer.
         buffer: usize,
-        /// The bytes.
+        /// The range of bytes.
         place: Range<u64>,
     },
     /// Sets the index buffer.
     SetIndexBuffer {
         /// The buffer.
         buffer: usize,
-        /// The bytes.
+        /// The range of bytes.
         place: Range<u64>,
         /// The size of an index.
         format: IndexFormat,
@@ -499,7 +499,7 @@ pub enum DrawCommand {
         /// The instances.
         instances: Range<u32>,
     },
-    /// Draws by indices.
+    /// Draws with indices.
     DrawIndexed {
         /// The indices.
         indices: Range<u32>,
@@ -515,7 +515,7 @@ pub enum DrawCommand {
         /// The first byte.
         offset: u64,
     },
-    /// Draws by indices, with the arguments from a buffer.
+    /// Draws with indices, with the arguments from a buffer.
     DrawIndexedIndirect {
         /// The buffer.
         buffer: usize,
@@ -525,7 +525,7 @@ pub enum DrawCommand {
 }
 
 impl DrawCommand {
-    /// True if the command draws.
+    /// Returns true if the command draws.
     pub fn is_draw(&self) -> bool {
         matches!(
             self,

@@ -1,6 +1,6 @@
-//! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
+//! The counters of a scene: queries around draws, and a storage buffer in which shaders count.
 //!
-//! WebGPU's occlusion queries tell whether any sample passed, not how many (GPUQueryType), so
+//! WebGPU's occlusion queries return whether any sample passed, not how many (GPUQueryType), so
 //! `PreciseOcclusion` is denied.
 
 use crate::calls::{Command, PassCommand, Query, QuerySet, QueryType, buffer_usage};
@@ -9,11 +9,11 @@ use crate::tables::Lowering;
 use etalon_frame::{CounterKind, PathResults};
 use etalon_scene::{Query as SceneQuery, Scene};
 
-/// The size of a counter of shader runs.
+/// The size of a counter of shader runs in bytes.
 pub(crate) const RUNS_BYTES: u64 = 4;
-/// The size of a query result.
+/// The size of a query result in bytes.
 const RESULT_BYTES: u64 = 8;
-/// The multiple that the place of the first result in a buffer must be (resolveQuerySet).
+/// The alignment of the first result in a buffer, in bytes (resolveQuerySet).
 const RESOLVE_ALIGNMENT: u64 = 256;
 
 /// The counters of a scene.
@@ -21,11 +21,11 @@ pub(crate) struct Counting {
     kinds: Vec<CounterKind>,
     occlusion: Option<Queries>,
     statistics: Option<Queries>,
-    /// The results of the occlusion queries, then of the statistics queries.
+    /// The buffer of the results: first of the occlusion queries, then of the statistics queries.
     results: Option<usize>,
-    /// The storage buffer that shaders count in: one place per counter, of any kind.
+    /// The storage buffer in which shaders count. It has one place per counter of any kind.
     runs: Option<usize>,
-    /// The distance between two places.
+    /// The distance between two places in bytes.
     stride: u64,
     /// True if results are read twice.
     twice: bool,
@@ -34,9 +34,9 @@ pub(crate) struct Counting {
 /// The queries of one type.
 struct Queries {
     set: usize,
-    /// The counter of each query.
+    /// The counter of each query, by index.
     counters: Vec<usize>,
-    /// The offset of the first result in the results buffer.
+    /// The offset of the first result in the results buffer, in bytes.
     offset: u64,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Counted {
     pub(crate) runs: Option<usize>,
 }
 
-/// A query that encloses a draw, and perhaps others.
+/// How a query encloses a draw, and perhaps other draws.
 #[derive(Clone, Copy, Default)]
 struct Enclosed {
     /// The query, if it begins before the draw.
@@ -61,7 +61,7 @@ struct Enclosed {
 }
 
 impl Enclosed {
-    /// Returns the part of a draw in queries of one type, of which no two enclose it.
+    /// Returns how queries of one type enclose a draw. At most one of them does.
     fn new<'q>(draw: (usize, usize), queries: impl Iterator<Item = &'q SceneQuery>) -> Self {
         let mut enclosed = Self::default();
         for (number, query) in (0..).zip(queries) {
@@ -73,21 +73,21 @@ impl Enclosed {
         enclosed
     }
 
-    /// True if a query begins before the draw or ends after it.
+    /// Returns true if a query begins before the draw or ends after it.
     fn is_edge(self) -> bool {
         self.begins.is_some() || self.ends
     }
 }
 
 impl Counted {
-    /// True if a query begins before the draw or ends after it.
+    /// Returns true if a query begins before the draw or ends after it.
     pub(crate) fn is_edge(self) -> bool {
         self.occlusion.is_edge() || self.statistics.is_edge()
     }
 }
 
 impl Queries {
-    /// Returns queries for these counters; `None` if there are no counters.
+    /// Returns queries for these counters, or `None` if there are no counters.
     fn new(
         lowering: &mut Lowering<'_>,
         ty: QueryType,
@@ -113,7 +113,7 @@ impl Queries {
         self.offset + self.counters.len() as u64 * RESULT_BYTES
     }
 
-    /// Returns the places of a counter's results, behind a first byte.
+    /// Returns the places of a counter's results in a buffer where the results begin at byte `first`.
     fn places(&self, counter: usize, first: u64) -> Vec<Place> {
         let results = (0..).zip(&self.counters);
         let results_of_counter = results.filter(|(_, owner)| **owner == counter);
@@ -179,12 +179,12 @@ impl Counting {
         Some((self.runs?, counter as u64 * self.stride))
     }
 
-    /// Returns the occlusion queries for a pass.
+    /// Returns the set of occlusion queries that passes use.
     pub(crate) fn occlusion(&self) -> Option<usize> {
         self.occlusion.as_ref().map(|queries| queries.set)
     }
 
-    /// Returns the reset of the storage buffer.
+    /// Returns the command that clears the storage buffer.
     pub(crate) fn start(&self) -> Option<Command> {
         self.runs.map(|buffer| Command::ClearBuffer {
             buffer,
@@ -192,7 +192,7 @@ impl Counting {
         })
     }
 
-    /// Returns the start of queries before a draw.
+    /// Returns the commands that begin queries before a draw.
     pub(crate) fn begin(&self, counted: Counted) -> Vec<PassCommand> {
         let query = |ty, queries: &Option<Queries>, index: Option<u32>| {
             let (set, index) = (queries.as_ref()?.set, index?);
@@ -208,7 +208,7 @@ impl Counting {
         occlusion.into_iter().chain(statistics).collect()
     }
 
-    /// Returns the end of queries after a draw.
+    /// Returns the commands that end queries after a draw.
     pub(crate) fn end(&self, counted: Counted) -> Vec<PassCommand> {
         let end = |query: Enclosed, ty| query.ends.then_some(PassCommand::End(ty));
         let statistics = end(counted.statistics, QueryType::FragmentInvocations);
@@ -216,7 +216,7 @@ impl Counting {
         statistics.into_iter().chain(occlusion).collect()
     }
 
-    /// Returns the resolve of all queries.
+    /// Returns the commands that resolve all queries.
     pub(crate) fn finish(&self) -> Vec<Command> {
         let both = self.occlusion.iter().chain(&self.statistics);
         let resolve = |queries: &Queries| {
@@ -231,12 +231,12 @@ impl Counting {
             .collect()
     }
 
-    /// Returns the size of all counts in the layout of [`Counting::copy`].
+    /// Returns the size of all counts in bytes, in the layout of [`Counting::copy`].
     pub(crate) fn bytes(&self) -> u64 {
         self.runs_start() + self.runs_bytes()
     }
 
-    /// Query results come first.
+    /// Returns where the shaders' counts begin, after the query results.
     fn runs_start(&self) -> u64 {
         let both = self.occlusion.iter().chain(&self.statistics);
         both.map(Queries::end).max().unwrap_or(0)
@@ -263,7 +263,8 @@ impl Counting {
         results.into_iter().chain(runs).collect()
     }
 
-    /// Returns the places of the counts, in the order of the scene's counters, in a buffer that they were copied to.
+    /// Returns the places of the counts in a buffer to which [`Counting::copy`] copied them, in the order of
+    /// the scene's counters.
     pub(crate) fn readings(&self, first: u64) -> Vec<CounterReading> {
         let queried = |queries: &Option<Queries>, counter| {
             let queries = queries.as_ref();
@@ -277,7 +278,7 @@ impl Counting {
                     offset: first + self.runs_start() + counter as u64 * self.stride,
                     bytes: RUNS_BYTES,
                 }],
-                // No draw increments it, or it is denied.
+                // No draw increments the counter, or it is denied.
                 CounterKind::ShaderRuns | CounterKind::SamplesPassed => Vec::new(),
             },
             any: *kind == CounterKind::AnySamplesPassed,

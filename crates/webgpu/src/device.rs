@@ -1,4 +1,4 @@
-//! What lowering must know of a device.
+//! What lowering needs to know about a device.
 
 use crate::calls::texture_usage::{COPY_DST, COPY_SRC, RENDER_ATTACHMENT, TEXTURE_BINDING};
 use etalon_frame::{ChannelEncoding, Limits, ReadPath, TextureFormat};
@@ -6,45 +6,45 @@ use etalon_frame::{ChannelEncoding, Limits, ReadPath, TextureFormat};
 /// WebGPU's only sample count above 1 (GPUTextureDescriptor, sampleCount).
 pub const SAMPLES: u32 = 4;
 
-/// A device as lowering sees it.
+/// The facts about a device that lowering uses.
 #[derive(Clone, Debug)]
 pub struct Device {
-    /// What scenes may use.
+    /// What scenes can use.
     pub limits: Limits,
-    /// What [`Limits`] do not tell.
+    /// Abilities that [`Limits`] do not include.
     pub abilities: Abilities,
-    /// The largest side of a two-dimensional texture.
+    /// The largest side of a 2D texture.
     pub max_texture_2d: u32,
-    /// The largest side of a three-dimensional texture.
+    /// The largest side of a 3D texture.
     pub max_texture_3d: u32,
-    /// The multiple that the offset of a bound uniform buffer must be.
+    /// The alignment of the offset of a bound uniform buffer, in bytes.
     pub uniform_alignment: u32,
-    /// The multiple that the offset of a bound storage buffer must be.
+    /// The alignment of the offset of a bound storage buffer, in bytes.
     pub storage_alignment: u32,
-    /// True if the arguments of an indirect draw may name a first instance (feature `indirect-first-instance`).
+    /// True if an indirect draw can have a first instance (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
 }
 
 impl Device {
-    /// True if attachments of the format can be drawn to.
+    /// Returns true if attachments of the format can be drawn to.
     pub fn draws(&self, format: TextureFormat) -> bool {
         let support = self.limits.formats.get(&format);
         support.is_some_and(|support| !support.samples.is_empty())
     }
 }
 
-/// Abilities of a device that [`Limits`] do not tell.
+/// Abilities of a device that [`Limits`] do not include.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Abilities {
-    /// Depth and stencil can be copied to buffers.
+    /// True if depth and stencil can be copied to buffers.
     pub copies: bool,
-    /// Textures can have views of other formats, such as sRGB without conversion.
+    /// True if textures can have views of other formats, such as sRGB without conversion.
     pub casts: bool,
-    /// Shaders can read one layer of a texture that has several.
+    /// True if shaders can read one layer of a texture that has several.
     pub layers: bool,
 }
 
-/// Returns the usages that a single-sample texture of this format needs besides rendering.
+/// Returns the usages that a single-sample texture of this format needs in addition to rendering.
 pub fn texture_usages(format: TextureFormat) -> u32 {
     let read = TEXTURE_BINDING | COPY_SRC;
     if format.is_color() {
@@ -63,14 +63,14 @@ pub(crate) fn attachment_usages(device: &Device, format: TextureFormat, samples:
     if device.draws(format) {
         usages |= RENDER_ATTACHMENT;
     }
-    // Copies of depth end in another texture of its format.
+    // A copy of depth goes to another texture of its format.
     if device.abilities.copies {
         usages |= COPY_DST;
     }
     usages
 }
 
-/// Returns the read path of a format's depth, or colour. WebGPU never copies the depth of
+/// Returns how the depth, or else the colour, of a format is read. WebGPU never copies the depth of
 /// `depth24plus` (26.1.2).
 pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
     match format {
@@ -86,12 +86,12 @@ pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath
     }
 }
 
-/// Returns true if the codes of multisampled attachments, which only a shader can read, are as
-/// exact as [`read_path`] promises.
+/// Returns true if the codes of multisampled attachments, which only a shader can read, are as exact as
+/// [`read_path`] promises.
 ///
-/// Floats are exact. For normalized integers the API allows an error of one part in 10^5 (Vulkan,
-/// Fundamentals; OpenGL 4.6, 2.3.5): that determines the code up to 10 bits, but not at 16. Two
-/// codes of a signed integer mean -1. An sRGB code is exact only in a view without conversion.
+/// Floats are exact. For normalized integers, the API allows an error of one part in 10^5 (Vulkan,
+/// Fundamentals; OpenGL 4.6, 2.3.5), which determines codes of up to 10 bits, but not of 16. Two codes of a
+/// signed integer mean -1. An sRGB code is exact only in a view without conversion.
 pub(crate) fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) => false,

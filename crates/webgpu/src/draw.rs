@@ -10,7 +10,7 @@ use etalon_frame::{PathDraws, PathState, PathValue, Requirement};
 use etalon_scene::{Call, Draw, Pass, Scene, Viewport};
 use std::ops::Range;
 
-/// The multiple of bytes that is copied to a buffer (writeBuffer).
+/// The alignment of what is written to a buffer, in bytes (writeBuffer).
 const COPY_ALIGNMENT: usize = 4;
 
 /// The vertices, indices and arguments of a scene, each in one buffer.
@@ -20,7 +20,7 @@ pub(crate) struct Geometry {
     arguments: Input,
 }
 
-/// A buffer, if anything is in it, and its contents.
+/// A buffer, if it has contents, and the contents.
 struct Input {
     usage: u32,
     buffer: Option<usize>,
@@ -36,7 +36,7 @@ impl Input {
         }
     }
 
-    /// Adds bytes, and zeros up to the alignment of copies. Returns the buffer and the place of the bytes.
+    /// Appends bytes, and zeros up to the alignment of writes. Returns the buffer and the range of the bytes.
     fn append(&mut self, lowering: &mut Lowering<'_>, bytes: &[u8]) -> (usize, Range<u64>) {
         let usage = self.usage | buffer_usage::COPY_DST;
         let buffer = *self.buffer.get_or_insert_with(|| lowering.buffer(usage, 0));
@@ -67,7 +67,8 @@ impl Geometry {
         }
     }
 
-    /// Adds the arguments of a draw, behind others that would draw nothing. Returns the buffer and the first byte.
+    /// Adds the arguments of a draw, after other arguments that would draw nothing. Returns the buffer and
+    /// the offset of the arguments.
     fn arguments(&mut self, lowering: &mut Lowering<'_>, call: &Call<'_>) -> (usize, u64) {
         let words = match call.indices {
             Some(_) => vec![
@@ -87,7 +88,7 @@ impl Geometry {
         (buffer, place.start)
     }
 
-    /// Adds the vertices and the indices of a draw. Returns the commands that set them.
+    /// Adds the vertices and indices of a draw. Returns the commands that set them.
     fn inputs(&mut self, lowering: &mut Lowering<'_>, call: &Call<'_>) -> Vec<DrawCommand> {
         let mut commands = Vec::new();
         let mut set = |slot, (buffer, place)| {
@@ -102,7 +103,7 @@ impl Geometry {
             let colors = self.vertices.append(lowering, call.color_bytes());
             set(INSTANCE_SLOT, colors);
         }
-        // All indices may have been restarts or incomplete primitives.
+        // Without restarts and incomplete primitives, no index might be left.
         if call
             .indices
             .as_ref()
@@ -119,10 +120,10 @@ impl Geometry {
     }
 }
 
-/// A draw, with what its pass needs to know of it.
+/// A draw, with what its pass must know about it.
 pub(crate) struct PreparedDraw {
     pub(crate) counted: Counted,
-    /// The commands that bundles may hold, too.
+    /// The commands that bundles can also contain.
     pub(crate) commands: Vec<DrawCommand>,
     viewport: Viewport,
     scissor: [u32; 4],
@@ -172,12 +173,13 @@ impl PreparedDraw {
             viewport: draw.viewport,
             scissor: draw.scissor.unwrap_or([0, 0, width, height]),
             blend_constant: draw.blend_constant,
-            // WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.
+            // WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so both faces have
+            // the same reference.
             stencil_reference: draw.stencil.map(|s| s.front.reference.into()),
         })
     }
 
-    /// Returns the commands of the state that no pipeline holds, on a path.
+    /// Returns the commands that set, on a path, the state that is not in the pipeline.
     pub(crate) fn state(&self, path: PathState) -> Vec<PassCommand> {
         let mut commands = Vec::new();
         if path == PathState::Overwritten {
@@ -187,7 +189,7 @@ impl PreparedDraw {
         commands
     }
 
-    /// Returns the commands of the state that no pipeline holds.
+    /// Returns the commands that set the state that is not in the pipeline.
     pub(crate) fn dynamic_state(&self) -> Vec<PassCommand> {
         let Viewport { rect, depth } = self.viewport;
         let mut commands = vec![
@@ -199,7 +201,7 @@ impl PreparedDraw {
         commands
     }
 
-    /// Returns commands with other values of the state that no pipeline holds.
+    /// Returns commands that set other values of the state that is not in the pipeline.
     fn other_state(&self) -> Vec<PassCommand> {
         let constant = self.blend_constant.map(|v| if v > 0.5 { 0.0 } else { 1.0 });
         let mut commands = vec![
@@ -215,7 +217,8 @@ impl PreparedDraw {
         commands
     }
 
-    /// True if the state that no pipeline holds is the same, and no query begins or ends between the draws.
+    /// Returns true if the draws have the same state outside the pipeline, and no query begins or ends
+    /// between them.
     fn shares_state(&self, other: &Self) -> bool {
         let state = |draw: &Self| {
             (
@@ -230,7 +233,7 @@ impl PreparedDraw {
     }
 }
 
-/// Returns the command that draws, if there is something to draw.
+/// Returns the command that draws, unless there is nothing to draw.
 fn drawn(call: &Call<'_>) -> Option<DrawCommand> {
     let vertices = call.first..call.first + call.count;
     let instances = call.first_instance..call.first_instance + call.instances;
@@ -248,7 +251,7 @@ fn drawn(call: &Call<'_>) -> Option<DrawCommand> {
     }
 }
 
-/// Returns the longest runs of draws that share the state that no pipeline holds.
+/// Returns the longest runs of draws with the same state outside the pipeline.
 pub(crate) fn runs(draws: &[PreparedDraw]) -> Vec<Range<usize>> {
     let mut first = 0;
     draws

@@ -1,4 +1,4 @@
-//! Faults that a test plants between a list and its device.
+//! Faults that a test plants between a list of calls and its device.
 
 use crate::calls::{
     Access, CallList, Command, DrawCommand, Filled, PassCommand, RenderPass, TextureView,
@@ -6,7 +6,7 @@ use crate::calls::{
 use crate::pipeline_state::PipelineState;
 use etalon_backend::CallFault;
 
-/// Changes a list as a driver would that gets its calls wrong. A list has no place for some faults
+/// Changes a list as a driver would that handles its calls wrongly. Some faults have no equivalent in a list
 /// ([`CallFault::is_in`]).
 pub fn plant(fault: CallFault, list: &mut CallList) {
     match fault {
@@ -68,7 +68,7 @@ fn passes(frame: &mut [Vec<Command>]) -> impl Iterator<Item = &mut RenderPass> {
         })
 }
 
-/// Changes level and layer of the views that passes draw to.
+/// Changes the level and layer of the views that passes draw to.
 fn parts(list: &mut CallList, change: impl Fn([u32; 2]) -> [u32; 2]) {
     let drawn: Vec<usize> = passes(&mut list.frame)
         .flat_map(|pass| {
@@ -87,7 +87,7 @@ fn parts(list: &mut CallList, change: impl Fn([u32; 2]) -> [u32; 2]) {
     }
 }
 
-/// Gives views the formats of their textures, and pipelines and bundles those of the views.
+/// Gives views the formats of their textures, and pipelines and bundles the formats of the views.
 fn texture_formats(list: &mut CallList) {
     let mut formats = Vec::new();
     for view in &mut list.views {
@@ -110,7 +110,7 @@ fn texture_formats(list: &mut CallList) {
     }
 }
 
-/// Changes the state of each pipeline by that of the one that its pass set before.
+/// Changes the state of each pipeline, given the state of the pipeline that its pass set before it.
 fn kept_state(list: &mut CallList, change: impl Fn(&mut PipelineState, &PipelineState)) {
     let CallList {
         frame, pipelines, ..
@@ -173,7 +173,7 @@ fn in_pass(fault: CallFault, number: usize, pass: &mut RenderPass) {
     }
 }
 
-/// Loads an aspect that is cleared.
+/// Makes an access load the aspect instead of clearing it.
 fn loaded<V>(access: &mut Access<V>) {
     if let Access::Written(Filled { clear, .. }) = access {
         *clear = None;

@@ -19,18 +19,18 @@ const WGSL: &str = include_str!("fetch.wgsl");
 /// The source and target of a fetch.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FetchKey {
-    /// Depth, as the bits of a float, into `r32uint`.
+    /// Depth as the bits of a float, into `r32uint`.
     Depth,
-    /// A colour, as the bits of floats, into `rgba32uint`.
+    /// A colour as the bits of floats, into `rgba32uint`.
     Texel,
-    /// A colour of integers into `rgba32uint`.
+    /// An integer colour, into `rgba32uint`.
     IntegerTexel,
-    /// One sample of colour or depth, as the bits of floats, into `rgba32uint`.
+    /// One sample of colour or depth as the bits of floats, into `rgba32uint`.
     Sample,
-    /// One sample of stencil into the red channel of `rgba32uint`.
+    /// One sample of stencil, into the red channel of `rgba32uint`.
     StencilSample,
-    /// One bit of stencil, as 0 or 1, into one channel of `rgba8unorm`: bits 0 to 3, or 4 to 7,
-    /// into red to alpha.
+    /// One bit of stencil as 0 or 1, into one channel of `rgba8unorm`. Bits 0 to 3, or 4 to 7, go to red,
+    /// green, blue and alpha.
     StencilBit {
         /// The attachment's format.
         format: TextureFormat,
@@ -40,7 +40,7 @@ pub(crate) enum FetchKey {
 }
 
 impl FetchKey {
-    /// The format that it renders to.
+    /// Returns the format that it renders to.
     pub(crate) fn target(self) -> Result<Format, Requirement> {
         match self {
             Self::Depth => Ok(Format::R32Uint),
@@ -51,7 +51,7 @@ impl FetchKey {
         }
     }
 
-    /// The binding of the texture that it reads.
+    /// Returns the binding of the texture that it reads.
     pub(crate) fn entries(self) -> Vec<LayoutEntry> {
         let (sample_type, multisampled) = match self {
             Self::Depth | Self::Texel => (SampleType::UnfilterableFloat, false),
@@ -66,7 +66,7 @@ impl FetchKey {
         }]
     }
 
-    /// The entry points for vertices and fragments.
+    /// Returns the names of the vertex and the fragment entry point.
     fn entry_points(self) -> [&'static str; 2] {
         match self {
             Self::Depth => ["everywhere", "depth"],
@@ -114,7 +114,8 @@ pub(crate) fn pipeline(lowering: &mut Lowering<'_>, key: FetchKey) -> Result<usi
     Ok(lowering.pipeline(shader, layout, state))
 }
 
-/// Returns a stencil test that passes if a bit is set and writes nothing.
+/// Returns a stencil test that passes if the bit is set, and writes nothing. The pass sets the reference to
+/// 0xff.
 fn stencil_bit(format: TextureFormat, bit: u8) -> Result<DepthStencil, Requirement> {
     let face = StencilFace {
         compare: CompareFunction::Equal,

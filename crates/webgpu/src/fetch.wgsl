@@ -1,11 +1,11 @@
-// Brings depth, stencil or single samples into a colour texture, where they cannot be copied.
+// Brings depth, stencil or single samples that cannot be copied into a colour texture.
 
 @group(0) @binding(1) var source: texture_2d<f32>;
 @group(0) @binding(1) var samples: texture_multisampled_2d<f32>;
 @group(0) @binding(1) var integer_samples: texture_multisampled_2d<u32>;
 @group(0) @binding(1) var integer_source: texture_2d<u32>;
 
-// One triangle over everything.
+// One triangle that covers everything.
 fn corner(i: u32) -> vec4f {
     return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
@@ -20,7 +20,7 @@ struct Sampled {
     @location(0) @interpolate(flat) sample: u32,
 }
 
-// The n-th three vertices are for sample n.
+// Vertices 3n to 3n + 2 are for sample n.
 @vertex
 fn sampled(@builtin(vertex_index) i: u32) -> Sampled {
     return Sampled(corner(i % 3u), i / 3u);
@@ -51,7 +51,7 @@ fn integers(in: Sampled) -> @location(0) vec4u {
     return textureLoad(integer_samples, vec2i(in.position.xy), i32(in.sample));
 }
 
-// The stencil test decides where.
+// The stencil test decides where it is written.
 @fragment
 fn one() -> @location(0) vec4f {
     return vec4f(1.0);

@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 /// The format of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Format {
-    /// `r32uint`, between an attachment and a buffer.
+    /// `r32uint`, of textures between an attachment and a buffer.
     #[serde(rename = "r32uint")]
     R32Uint,
-    /// `rgba32uint`, between an attachment and a buffer.
+    /// `rgba32uint`, of textures between an attachment and a buffer.
     #[serde(rename = "rgba32uint")]
     Rgba32Uint,
-    /// `bgra8unorm-srgb`, of textures with views of another format.
+    /// `bgra8unorm-srgb`, of textures that have views of another format.
     #[serde(rename = "bgra8unorm-srgb")]
     Bgra8UnormSrgb,
-    /// That of an attachment, which WebGPU has.
+    /// The format of an attachment, which WebGPU has.
     #[serde(untagged)]
     Attachment(TextureFormat),
 }
@@ -33,7 +33,7 @@ impl Format {
         }
     }
 
-    /// The name (WebGPU: GPUTextureFormat).
+    /// Returns the name (WebGPU: GPUTextureFormat).
     pub fn name(self) -> &'static str {
         match self {
             Self::Attachment(format) => format.name(),
@@ -43,13 +43,14 @@ impl Format {
         }
     }
 
-    /// The format whose texels are the codes of this one, if it is another.
+    /// Returns the format without sRGB conversion whose texels are the codes of this one, if this one
+    /// converts.
     pub(crate) fn without_srgb(self) -> Option<Self> {
         let srgb = self == Self::Attachment(TextureFormat::Rgba8UnormSrgb);
         srgb.then_some(Self::Attachment(TextureFormat::Rgba8Unorm))
     }
 
-    /// The format with sRGB conversion if this one lacks it, and without if it has it; `None` if there is none.
+    /// Returns the format with the same codes and the opposite sRGB conversion, or `None` if WebGPU has none.
     pub(crate) fn other_srgb(self) -> Option<Self> {
         match self {
             Self::Attachment(TextureFormat::Rgba8Unorm) => {
@@ -60,7 +61,7 @@ impl Format {
         }
     }
 
-    /// True if it has depth.
+    /// Returns true if the format has depth.
     pub(crate) fn has_depth(self) -> bool {
         matches!(self, Self::Attachment(format) if format.has_depth())
     }

@@ -1,11 +1,12 @@
 //! Scenes as plain lists of WebGPU calls.
 //!
-//! [`lower()`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the commands that
-//! copy what is read back into one buffer, and a [`Reading`] that makes a [`Frame`](etalon_frame::Frame) of the bytes
-//! of that buffer. An executor creates the objects, records the commands and maps the buffer. It knows nothing of
-//! scenes.
+//! [`lower()`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the
+//! commands that copy what is read back into one buffer, and a [`Reading`] that turns the bytes of that
+//! buffer into a [`Frame`](etalon_frame::Frame). An executor creates the objects, records the commands and
+//! maps the buffer, without knowing about scenes.
 //!
-//! The suite's conventions are WebGPU's, so scenes are lowered as they are. The crate has no graphics API and no I/O.
+//! The suite's conventions are WebGPU's, so lowering converts nothing. The crate has no graphics API and no
+//! I/O.
 
 mod attachment;
 mod binding;

@@ -15,7 +15,7 @@ use etalon_scene::Scene;
 /// Returns the calls of a scene on a device.
 ///
 /// # Errors
-/// What the device lacks.
+/// If the device lacks something that the scene requires, which the error names.
 pub fn lower(device: &Device, scene: &Scene) -> Result<CallList, Requirement> {
     if let Some(missing) = device.limits.missing(&scene.requirements()) {
         return Err(missing);
@@ -111,8 +111,8 @@ fn each(scene: &Scene, draws: &[PreparedDraw], counting: &Counting) -> Vec<PassC
     commands
 }
 
-/// Returns the commands of a pass whose draws are bundles. These set no dynamic state and no queries: a bundle holds
-/// draws that share theirs.
+/// Returns the commands of a pass whose draws are in bundles. Bundles set no dynamic state and no queries, so
+/// each bundle contains draws that share these.
 fn bundled(
     lowering: &mut Lowering<'_>,
     scene: &Scene,

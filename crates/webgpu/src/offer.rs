@@ -1,4 +1,4 @@
-//! What a device offers, as the limits that scenes are held against.
+//! What a device supports, as limits that scenes are checked against.
 
 use crate::device::{Abilities, Device, SAMPLES, read_path, samples_are_exact};
 use crate::path::paths;
@@ -8,15 +8,15 @@ use etalon_frame::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// WebGPU does not report it; 4 is the least that any API under it allows.
+/// WebGPU does not report it; 4 is the minimum of the APIs under it.
 const SUB_PIXEL_BITS: u8 = 4;
-/// The largest size of a texel in the sum over a pass's colour attachments
+/// The largest size of a texel in the sum over a pass's colour attachments, in bytes
 /// (maxColorAttachmentBytesPerSample).
 const MOST_TEXEL_BYTES: u32 = 16;
 /// The largest viewport coordinate in a scene, including the far edge.
 const VIEWPORT_REACH: u32 = 8192;
 
-/// Features of scenes that every WebGPU device has: interpolation (WGSL, Interpolation), first instances of direct
+/// The features that every WebGPU device has: interpolation (WGSL, Interpolation), first instances of direct
 /// draws, and pipelines without a fragment shader in passes without colour.
 const EVERYWHERE: [Feature; 3] = [
     Feature::CentroidInterpolation,
@@ -24,8 +24,9 @@ const EVERYWHERE: [Feature; 3] = [
     Feature::FragmentShaderAbsent,
 ];
 
-/// Features of scenes that compatibility mode lacks and every other device has: linear interpolation and the flat value of
-/// the first vertex (GPURenderPipelineDescriptor, validating Compatibility Mode shader binding), sample masks of shaders.
+/// The features that every device has, except in compatibility mode: linear interpolation and the flat value
+/// of the first vertex (GPURenderPipelineDescriptor, validating Compatibility Mode shader binding), and
+/// sample masks of shaders.
 const BEYOND_COMPATIBILITY: [Feature; 4] = [
     Feature::LinearInterpolation,
     Feature::FirstProvokingVertex,
@@ -33,31 +34,31 @@ const BEYOND_COMPATIBILITY: [Feature; 4] = [
     Feature::SampleMaskOutput,
 ];
 
-/// What WebGPU promises of a device.
+/// What WebGPU guarantees of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Everything: it has `core-features-and-limits`.
+    /// Everything: the device has `core-features-and-limits`.
     Core,
     /// The feature level `compatibility`.
     Compatibility,
-    /// Nothing: its API says that it has less than WebGPU.
+    /// Nothing: the API reports that the device has less than WebGPU.
     Less,
 }
 
-/// What a device offers.
+/// What a device supports.
 #[derive(Clone, Debug)]
 pub struct Offer {
-    /// Formats whose textures can be uploaded, fetched from and read, and what else they can be used for.
+    /// The formats whose textures can be uploaded, fetched from and read, with their other uses.
     pub formats: BTreeMap<TextureFormat, Uses>,
-    /// What the limits do not tell.
+    /// Abilities that the limits do not include.
     pub abilities: Abilities,
-    /// Features of scenes, besides those that every device has.
+    /// Features beyond the ones that every device has.
     pub features: BTreeSet<Feature>,
-    /// True if it executes indirect draws.
+    /// True if the device executes indirect draws.
     pub indirect: bool,
-    /// True if their arguments may name a first instance (feature `indirect-first-instance`).
+    /// True if an indirect draw can have a first instance (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
-    /// What WebGPU promises of it.
+    /// What WebGPU guarantees of the device.
     pub level: Level,
     /// GPUSupportedLimits.
     pub limits: DeviceLimits,
@@ -66,11 +67,11 @@ pub struct Offer {
 /// The uses of a format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uses {
-    /// Attachments of it can be drawn to.
+    /// True if attachments can be drawn to.
     pub drawn: bool,
-    /// They can be blended into.
+    /// True if attachments can be blended into.
     pub blended: bool,
-    /// They can have several samples, and resolve them if they are colours.
+    /// True if attachments can be multisampled, and, if they are colours, resolved.
     pub multisampled: bool,
 }
 
@@ -92,7 +93,7 @@ pub struct DeviceLimits {
 }
 
 impl Device {
-    /// Returns a device as lowering sees it.
+    /// Returns the facts about a device from what it supports.
     pub fn new(offer: Offer) -> Self {
         let DeviceLimits {
             texture_2d,
@@ -125,7 +126,7 @@ fn limits(offer: Offer) -> Limits {
     if offer.level != Level::Compatibility {
         features.extend(BEYOND_COMPATIBILITY);
     }
-    // WebGPU limits a viewport to twice the largest texture (setViewport).
+    // WebGPU limits a viewport to twice the largest texture size (setViewport).
     if 2 * max_size > VIEWPORT_REACH {
         features.insert(Feature::ViewportOutside);
     }
@@ -141,12 +142,12 @@ fn limits(offer: Offer) -> Limits {
         formats,
         paths: paths(offer.indirect, offer.abilities, &features),
         features,
-        // WebGPU requires the standard ones of all adapters (Rasterization).
+        // WebGPU requires the standard sample positions of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }
 }
 
-/// Depth and stencil are of use as attachments alone.
+/// Returns the support of a format. Depth and stencil are useful only as attachments.
 fn support(format: TextureFormat, uses: Uses, abilities: Abilities) -> Option<FormatSupport> {
     if !format.is_color() && !uses.drawn {
         return None;
@@ -162,16 +163,16 @@ fn support(format: TextureFormat, uses: Uses, abilities: Abilities) -> Option<Fo
     Some(FormatSupport {
         samples,
         blendable: uses.drawn && uses.blended && !format.is_integer(),
-        // The adapter does not report which one it uses.
+        // The adapter does not report which encoding it uses.
         depth: format.depth_encodings().to_vec(),
         read: read_path(format, abilities),
     })
 }
 
-/// Returns what a device may lack without breaking WebGPU's word: what this crate does not use, and what its level does
-/// not promise.
+/// Returns what a device can lack without violating WebGPU: requirements that this crate does not use, and
+/// requirements that the device's level does not guarantee.
 fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
-    // Only four targets of the shortest texels fit into WebGPU's bytes.
+    // Only four targets of the shortest texels fit into the number of bytes that WebGPU guarantees.
     let mut exempt = BTreeSet::from([Requirement::ColorAttachments(4)]);
     let inexact = |f: &TextureFormat| f.is_integer() || !samples_are_exact(*f, offer.abilities);
     let inexact = TextureFormat::ALL.into_iter().filter(inexact);
@@ -201,8 +202,8 @@ fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
     exempt
 }
 
-/// Returns the formats of a device of a level, not the last one, with these features, by their names in WebGPU (26.1,
-/// Texture Format Capabilities).
+/// Returns the formats of a device with these features, by their names in WebGPU (26.1, Texture Format
+/// Capabilities). The level must not be [`Level::Less`].
 pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, Uses> {
     let all = Uses {
         drawn: true,
@@ -269,7 +270,7 @@ mod tests {
         assert!(!wide.contains_key(&TextureFormat::B5g6r5Unorm));
     }
 
-    /// Returns the limits of a device with these.
+    /// Returns the limits of a device with these properties.
     fn limits(level: Level, texture_2d: u32, color_bytes_per_sample: u32) -> Limits {
         let core = level == Level::Core;
         let offer = Offer {
@@ -301,7 +302,7 @@ mod tests {
         assert_eq!(small.max_color_attachments, 2);
         assert!(!small.features.contains(&Feature::ViewportOutside));
         assert!(small.features.contains(&Feature::FragmentShaderAbsent));
-        // WebGPU resolves no integers, and fetches do not tell the codes of 16 bits.
+        // WebGPU resolves no integers, and fetches do not determine 16-bit codes.
         assert_eq!(small.formats[&TextureFormat::Rgba8Uint].samples, [1]);
         assert_eq!(small.formats[&TextureFormat::Depth16Unorm].samples, [1]);
         assert_eq!(small.formats[&TextureFormat::Depth32Float].samples, [1, 4]);

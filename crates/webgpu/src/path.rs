@@ -1,7 +1,8 @@
-//! A path as WebGPU takes it: the values that a device has, and what each means for an attachment, a draw or
+//! How WebGPU draws on a path: the values that a device has, and what each means for an attachment, a draw or
 //! a read.
 //!
-//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+//! Other modules call the functions here and do not read the path, so a new value changes only these
+//! functions.
 
 use crate::calls::{Extent, TextureDimension};
 use crate::device::{Abilities, read_path};
@@ -12,8 +13,8 @@ use etalon_frame::{
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
 
-/// Returns the values that a device with these abilities and features has; `indirect` if it executes indirect draws.
-/// Formats may lack some of them: `target` and `end` say so.
+/// Returns the path values that a device with these abilities and features has. `indirect` is true if it
+/// executes indirect draws. A format can lack some of the values, as `target` and `end` decide.
 pub(crate) fn paths(
     indirect: bool,
     abilities: Abilities,
@@ -38,7 +39,7 @@ pub(crate) fn paths(
         PathValue::Results(PathResults::Twice) | PathValue::Colors(_) => true,
         PathValue::Views(PathViews::Srgb) => abilities.casts,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
-        // pipeline, everything else always is.
+        // pipeline; everything else always is.
         PathValue::State(
             PathState::Dynamic
             | PathState::Static
@@ -66,9 +67,10 @@ pub(crate) fn paths(
     PathValue::all().into_iter().filter(has).collect()
 }
 
-/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
-/// samples have one level and layer (GPUTextureDescriptor), depth has two dimensions, and shaders of scenes
-/// see no slice of three, nor a single layer where the device has no views of one.
+/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
+/// plain: multisampled textures have one level and layer (GPUTextureDescriptor), depth textures are not 3D,
+/// and the shaders of scenes read no slice of a 3D texture, and no single layer if the device has no views of
+/// one.
 pub(crate) fn target(scene: &Scene, index: usize, abilities: Abilities) -> PathTarget {
     let attachment = &scene.attachments[index];
     let read_by_shader = || {
@@ -121,7 +123,7 @@ impl Shape {
         match target {
             PathTarget::Plain | PathTarget::Renderbuffer => plain,
             PathTarget::MipLevel => Self {
-                // Odd sizes, which are rounded down from level to level.
+                // Odd sizes: each level's size is rounded down.
                 size: [2 * width + 1, 2 * height + 1, 1],
                 levels: 2,
                 level: 1,
@@ -146,23 +148,23 @@ impl Shape {
         }
     }
 
-    /// The slice of a three-dimensional texture.
+    /// Returns the slice, if the texture is a 3D texture.
     pub(crate) fn slice(self) -> Option<u32> {
         (self.dimension == TextureDimension::D3).then_some(self.layer)
     }
 }
 
-/// The default reading of attachments of a format.
+/// How attachments of a format are read by default.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
-    /// Depth and stencil can be copied.
+    /// True if depth and stencil can be copied.
     pub(crate) copies: bool,
-    /// A shader fetches depth.
+    /// True if a shader fetches depth.
     pub(crate) fetches: bool,
 }
 
-/// Returns the way of an attachment to the host. Depth and stencil are copied as a whole (11.2.4), and a
-/// fetch does not determine the codes of some formats: these are read as they are by default.
+/// Returns how an attachment reaches the host. Depth and stencil are copied only as a whole (11.2.4), and a
+/// fetch does not determine the codes of some formats; these are read in the default way.
 pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
     let attachment = &scene.attachments[index];
     let format = attachment.format;
@@ -182,7 +184,8 @@ pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
     if can { scene.path.end } else { PathEnd::Store }
 }
 
-/// As for samples, but that views of one sample convert sRGB. Stencil is never fetched.
+/// Returns true if a fetch determines the codes. The rule is that of multisampled attachments, but views of
+/// one sample convert sRGB, and stencil is never fetched.
 fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) | ChannelEncoding::Srgb8 => false,
@@ -197,7 +200,7 @@ fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
     }
 }
 
-/// Returns a draw whose pipeline differs from this one's.
+/// Returns a draw whose pipeline differs from this draw's.
 pub(crate) fn other(draw: &Draw) -> Draw {
     Draw {
         targets: draw
@@ -216,7 +219,7 @@ pub(crate) fn other(draw: &Draw) -> Draw {
     }
 }
 
-/// Returns the passes of each command buffer.
+/// Returns the indices of the passes of each command buffer.
 pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
     let passes = scene.passes.len();
     match scene.path.commands {
@@ -243,7 +246,7 @@ mod tests {
         fetches: false,
     };
 
-    /// A scene of two passes that reads one attachment, by a path.
+    /// Returns a scene with two passes that reads one attachment, on a path.
     fn scene(format: TextureFormat, samples: u32, path: Path) -> Scene {
         Scene {
             attachments: vec![Attachment {

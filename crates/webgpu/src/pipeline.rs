@@ -13,7 +13,7 @@ use etalon_scene::{
     PrimitiveTopology, Scene, Shader, Vertex,
 };
 
-/// The size of a vertex.
+/// The size of a vertex in bytes.
 const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 
 /// The slot of the colours of instances.
@@ -32,7 +32,7 @@ pub(crate) fn of_draw(
     let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
     let (shader, early_tests) = shader_of(draw, depth_stencil);
     let module = lowering.shader(shader.name(), shader.wgsl_with(early_tests));
-    // The bindings are those of the draw, of which the shader may use fewer.
+    // The bindings are the draw's; the shader can use fewer.
     let layout = lowering.layout(Bindings::of(draw.shader).entries());
     let targets = pass.color.iter().zip(&draw.targets).map(|(index, target)| {
         if scene.is_gap(*index) {
@@ -65,8 +65,8 @@ pub(crate) fn of_draw(
     Ok(lowering.pipeline(module, Some(layout), state))
 }
 
-/// Returns blending with WebGPU's only constant. `constant-alpha` occurs in the alpha equation alone, where it is the
-/// same: for colour it needs a feature that is denied.
+/// Returns blending with `constant` as the only constant factor, as in WebGPU. `constant-alpha` occurs only
+/// in the alpha equation, where it means the same; in the colour equation it needs a feature that is denied.
 fn with_constant(blend: BlendState) -> BlendState {
     let factor = |factor| match factor {
         BlendFactor::ConstantAlpha => BlendFactor::Constant,
@@ -84,11 +84,12 @@ fn with_constant(blend: BlendState) -> BlendState {
     }
 }
 
-/// Returns the shader of a draw and its early tests, in a pass with this depth and stencil format.
+/// Returns the shader of a draw and its early tests, in a pass whose depth-stencil attachment has this
+/// format.
 fn shader_of(draw: &Draw, depth_stencil: Option<TextureFormat>) -> (Shader, EarlyTests) {
     let (mut shader, mut early_tests) = (draw.shader, draw.early_tests);
-    // WebGPU refuses a shader that writes depth without a depth attachment (10.3.6). The depth
-    // would be discarded, so another shader gives the same colours.
+    // WebGPU refuses a shader that writes depth without a depth attachment (10.3.6). The depth would be
+    // discarded, so a shader without it draws the same colours.
     if !depth_stencil.is_some_and(TextureFormat::has_depth) {
         shader = match shader {
             Shader::FlatColorDepth => Shader::UniformColor,
@@ -97,7 +98,7 @@ fn shader_of(draw: &Draw, depth_stencil: Option<TextureFormat>) -> (Shader, Earl
             Shader::FragCoordDepth => Shader::FlatColor,
             Shader::ExpensiveDepth => Shader::ExpensiveColor,
             Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
-            // Runs per sample, which a counter would reveal.
+            // This shader runs per sample, which a counter would reveal.
             Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
             other => other,
         };
@@ -108,7 +109,7 @@ fn shader_of(draw: &Draw, depth_stencil: Option<TextureFormat>) -> (Shader, Earl
     (shader, early_tests)
 }
 
-/// Returns the state of a draw. A disabled test always passes and writes nothing.
+/// Returns the depth-stencil state of a draw. A disabled test always passes and writes nothing.
 fn of_depth_stencil(format: TextureFormat, draw: &Draw) -> Result<DepthStencil, Requirement> {
     let depth = draw.depth;
     Ok(DepthStencil {
@@ -121,7 +122,7 @@ fn of_depth_stencil(format: TextureFormat, draw: &Draw) -> Result<DepthStencil, 
             stencil
         }),
         bias: match draw.topology {
-            // Only polygons have a bias, and WebGPU refuses it for other topologies (GPUDepthStencilState).
+            // Only polygons have a bias; WebGPU refuses it for other topologies (GPUDepthStencilState).
             PrimitiveTopology::PointList
             | PrimitiveTopology::LineList
             | PrimitiveTopology::LineStrip => DepthBiasState::default(),
@@ -148,7 +149,7 @@ fn primitive(draw: &Draw, draws: PathDraws) -> Primitive {
     }
 }
 
-/// Returns the vertex buffers of a draw: if it has instances, their colours stand in a buffer of their own.
+/// Returns the vertex buffers of a draw. If it has instances, their colours have a separate buffer.
 fn vertex_buffers(shader: Shader, draw: &Draw) -> Vec<VertexBuffer> {
     let instanced = draw.fetch.instances > 0;
     let (apart, shared): (Vec<_>, Vec<_>) = attributes(shader)
@@ -173,7 +174,7 @@ fn vertex_buffers(shader: Shader, draw: &Draw) -> Vec<VertexBuffer> {
     buffers
 }
 
-/// Returns the vertex attributes that a shader reads. A validation layer warns of others.
+/// Returns the vertex attributes that a shader reads. A validation layer warns about unread attributes.
 fn attributes(shader: Shader) -> &'static [VertexAttribute] {
     const ALL: [VertexAttribute; 3] = [
         VertexAttribute::of(0, 0, 4),
@@ -249,7 +250,7 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
 mod tests {
     use super::*;
 
-    /// The locations of a vertex entry point's arguments.
+    /// Returns the locations of a vertex entry point's arguments.
     fn locations(wgsl: &str) -> Vec<u32> {
         let (_, arguments) = wgsl.split_once("fn vs(").expect("a vertex entry point");
         let (arguments, _) = arguments.split_once("->").expect("its result");

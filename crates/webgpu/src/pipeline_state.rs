@@ -15,7 +15,7 @@ pub struct Pipeline {
     pub shader: usize,
     /// The layout of the only bind group.
     pub layout: Option<usize>,
-    /// Everything else.
+    /// The rest of the description.
     pub state: PipelineState,
 }
 
@@ -24,21 +24,21 @@ pub struct Pipeline {
 pub struct PipelineState {
     /// The shader's name, for messages.
     pub label: Cow<'static, str>,
-    /// The entry point for vertices.
+    /// The vertex entry point.
     pub vertex: Cow<'static, str>,
-    /// The entry point for fragments.
+    /// The fragment entry point, if there is one.
     pub fragment: Option<Cow<'static, str>>,
     /// The vertex buffers.
     pub buffers: Vec<VertexBuffer>,
-    /// The primitives.
+    /// The assembly and rasterization of primitives.
     pub primitive: Primitive,
-    /// Depth and stencil.
+    /// The depth and stencil state.
     pub depth_stencil: Option<DepthStencil>,
     /// Samples per texel.
     pub samples: u32,
     /// The sample mask.
     pub mask: u32,
-    /// True for alpha to coverage.
+    /// True if alpha to coverage is enabled.
     pub alpha_to_coverage: bool,
     /// The colour attachments.
     pub targets: Vec<Option<PipelineTarget>>,
@@ -49,7 +49,7 @@ pub struct PipelineState {
 pub struct VertexBuffer {
     /// The distance between elements, in bytes.
     pub stride: u64,
-    /// True if an element is for an instance and not for a vertex.
+    /// True if elements advance per instance instead of per vertex.
     pub per_instance: bool,
     /// The attributes of an element.
     pub attributes: Vec<VertexAttribute>,
@@ -79,15 +79,15 @@ impl VertexAttribute {
 /// The assembly and rasterization of primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Primitive {
-    /// The topology, which is no fan.
+    /// The topology, which is never a fan.
     pub topology: PrimitiveTopology,
-    /// The size of the indices whose greatest restarts a strip.
+    /// The type of the indices; its largest value restarts a strip.
     pub strip_index: Option<IndexFormat>,
     /// The orientation of front faces.
     pub front_face: FrontFace,
-    /// The faces that are culled, not both.
+    /// The faces that are culled, but never both.
     pub cull: CullMode,
-    /// True if depth is clamped and not clipped.
+    /// True if depth is clamped instead of clipped.
     pub unclipped_depth: bool,
 }
 
@@ -96,20 +96,20 @@ pub struct Primitive {
 pub struct DepthStencil {
     /// The attachment's format.
     pub format: Format,
-    /// True if depth is written; `None` without depth.
+    /// True if depth is written; `None` without a depth aspect.
     pub depth_write: Option<bool>,
-    /// The comparison of depth.
+    /// The depth comparison.
     pub depth_compare: CompareFunction,
-    /// The stencil test, whose references are 0 and whose faces have the same masks.
+    /// The stencil test. Its references are 0, and both faces have the same masks.
     pub stencil: Option<StencilState>,
     /// The depth bias.
     pub bias: DepthBiasState,
 }
 
-/// A depth bias with floats as bits, for hashing.
+/// A depth bias. Its floats are stored as bits, for hashing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct DepthBiasState {
-    /// The constant.
+    /// The constant bias.
     pub constant: i32,
     slope: u32,
     clamp: u32,
@@ -124,12 +124,12 @@ impl DepthBiasState {
         }
     }
 
-    /// The factor of the slope.
+    /// Returns the factor of the slope.
     pub fn slope(&self) -> f32 {
         f32::from_bits(self.slope)
     }
 
-    /// The largest magnitude.
+    /// Returns the largest magnitude of the bias.
     pub fn clamp(&self) -> f32 {
         f32::from_bits(self.clamp)
     }
@@ -140,8 +140,8 @@ impl DepthBiasState {
 pub struct PipelineTarget {
     /// The format.
     pub format: Format,
-    /// Blending.
+    /// The blending, if it is enabled.
     pub blend: Option<BlendState>,
-    /// The channels that are written: bit 0 is red.
+    /// The channels that are written. Bit 0 is red.
     pub write_mask: u8,
 }

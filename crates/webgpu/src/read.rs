@@ -1,4 +1,4 @@
-//! The commands that bring attachments and counts into one buffer.
+//! The commands that copy attachments and counts into one buffer.
 
 use crate::attachment::{Attached, PITCH, accessed};
 use crate::calls::{
@@ -18,7 +18,7 @@ use etalon_frame::{
 };
 use etalon_scene::{Attachment, Scene};
 
-/// Puts the commands that read a scene into a list, and the meaning of the bytes.
+/// Adds the commands that read a scene to the list, and the meaning of the bytes.
 pub(crate) fn plan(
     lowering: &mut Lowering<'_>,
     scene: &Scene,
@@ -55,7 +55,7 @@ pub(crate) fn plan(
     let bytes = size + counting.bytes();
     let whole = bytes.next_multiple_of(4).max(4);
     lowering.list.buffers[output].size = whole;
-    // A copy that is lost must not leave the codes of an earlier scene with the same picture.
+    // If the driver loses a copy, the codes of an earlier scene with the same picture must not remain.
     copies.push(Command::ClearBuffer {
         buffer: output,
         size: whole,
@@ -71,7 +71,7 @@ pub(crate) fn plan(
     Ok(())
 }
 
-/// Adds the copy of an attachment to another texture, which is returned.
+/// Adds the copy of an attachment to another texture, and returns that texture.
 fn copied(
     lowering: &mut Lowering<'_>,
     attachment: &Attachment,
@@ -91,7 +91,7 @@ fn copied(
     Ok(target)
 }
 
-/// Returns a pass that fills the target of a copy with values that are left if the copy is lost.
+/// Returns a pass that fills the target of a copy with values that show a lost copy.
 fn spoiled(
     lowering: &mut Lowering<'_>,
     format: TextureFormat,
@@ -112,7 +112,7 @@ fn spoiled(
     lowering.device.draws(format).then_some(pass)
 }
 
-/// Returns the reading of an aspect, whose bytes begin at an offset.
+/// Returns the reading of an aspect whose bytes begin at an offset.
 fn image(
     device: &Device,
     attachment: &Attachment,
@@ -159,7 +159,7 @@ fn image(
     image
 }
 
-/// The way of one aspect to the buffer.
+/// How one aspect reaches the buffer.
 struct Read<'a> {
     image: &'a ImageReading,
     target: Target,
@@ -282,7 +282,7 @@ impl Read<'_> {
         })
     }
 
-    /// Adds the copies of a texture to the n-th image in the buffer.
+    /// Adds the copies of a texture to the image with index `image` in the buffer.
     fn copy(&self, from: Target, aspect: TextureAspect, image: u64, commands: &mut Vec<Command>) {
         let [width, height] = self.image.size;
         let (columns, rows) = match self.end {
@@ -308,7 +308,7 @@ impl Read<'_> {
     }
 }
 
-/// Returns a target as a colour attachment that is cleared to zeros.
+/// Returns a colour attachment that clears a target to zeros.
 fn cleared(lowering: &mut Lowering<'_>, target: Target) -> ColorAttachment {
     ColorAttachment {
         view: lowering.view(target),

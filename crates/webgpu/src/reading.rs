@@ -5,22 +5,22 @@ use etalon_backend::codes::code_of_fetched;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use serde::{Deserialize, Serialize};
 
-/// The size of an `rgba32uint` texel.
+/// The size of an `rgba32uint` texel in bytes.
 const SAMPLE_BYTES: usize = 16;
 
 /// The images and counters in a mapped buffer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// The size of the buffer that is meant.
+    /// The number of bytes of the buffer that have a meaning.
     pub bytes: u64,
     /// The images.
     pub images: Vec<ImageReading>,
-    /// The counters, in the order of the scene's.
+    /// The counters, in the order of the scene's counters.
     pub counters: Vec<CounterReading>,
 }
 
 impl Reading {
-    /// Returns the frame in the bytes of the buffer; `None` if these are too few.
+    /// Returns the frame in the bytes of the buffer, or `None` if there are too few bytes.
     pub fn frame(&self, bytes: &[u8]) -> Option<Frame> {
         let bytes = bytes.get(..usize::try_from(self.bytes).ok()?)?;
         Some(Frame {
@@ -37,9 +37,9 @@ impl Reading {
 /// The results of a counter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CounterReading {
-    /// The places of numbers whose sum is meant.
+    /// The places of the numbers whose sum is the result.
     pub parts: Vec<Place>,
-    /// True if only is meant whether the sum is greater than 0.
+    /// True if the result is 1 if the sum is greater than 0, and 0 otherwise.
     pub any: bool,
 }
 
@@ -64,18 +64,18 @@ impl CounterReading {
     }
 }
 
-/// The way of an aspect to the buffer.
+/// How an aspect reaches the buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ReadMethod {
     /// Copied from the attachment.
     Copy,
-    /// Fetched by a shader, four values to a texel.
+    /// Fetched by a shader, with four values per texel.
     FetchTexel,
     /// Fetched by a shader as the bits of floats.
     FetchDepth,
-    /// Fetched by a shader sample by sample, an image of four values each.
+    /// Fetched by a shader sample by sample. Each sample is an image of four values per texel.
     FetchSamples,
-    /// Read by stencil tests bit by bit, four bits to an image. OpenGL has the texture mode for
+    /// Read by stencil tests bit by bit, with four bits per image. OpenGL has had the texture mode for
     /// fetching stencil only since 4.3 and ES 3.1.
     StencilBits,
 }
@@ -85,7 +85,7 @@ pub enum ReadMethod {
 pub struct ImageReading {
     /// The attachment.
     pub attachment: String,
-    /// Its format.
+    /// The format of the attachment.
     pub format: TextureFormat,
     /// The aspect.
     pub aspect: Aspect,
@@ -95,10 +95,10 @@ pub struct ImageReading {
     pub samples: u32,
     /// The encodings of the channels.
     pub channels: Vec<ChannelEncoding>,
-    /// The path that the image declares. Multisampling is offered only if a shader returns the
-    /// codes of a copy, or a shader reads single samples too; stencil is exact on both paths.
+    /// The read path that the image declares. Multisampling is supported only if a shader returns the codes
+    /// of a copy, or a shader also reads single samples; stencil is exact on both paths.
     pub read: ReadPath,
-    /// The way to the buffer.
+    /// How it reaches the buffer.
     pub method: ReadMethod,
     /// The first byte.
     pub offset: u64,
@@ -107,7 +107,7 @@ pub struct ImageReading {
 }
 
 impl ImageReading {
-    /// Returns the size of a texel in the buffer.
+    /// Returns the size of a texel in the buffer, in bytes.
     pub fn texel_bytes(&self) -> usize {
         match (self.method, self.aspect) {
             (ReadMethod::FetchSamples | ReadMethod::FetchTexel, _) => SAMPLE_BYTES,
@@ -129,12 +129,12 @@ impl ImageReading {
         }
     }
 
-    /// The size of one of its images in the buffer.
+    /// Returns the size of one of its images in the buffer, in bytes.
     pub fn image_bytes(&self) -> u64 {
         u64::from(self.pitch) * u64::from(self.size[1])
     }
 
-    /// The size of all its images in the buffer.
+    /// Returns the size of all of its images in the buffer, in bytes.
     pub(crate) fn bytes(&self) -> u64 {
         match self.method {
             ReadMethod::Copy | ReadMethod::FetchDepth | ReadMethod::FetchTexel => {
@@ -170,7 +170,7 @@ impl ImageReading {
         }
     }
 
-    /// Returns the texels of the n-th image, row by row.
+    /// Returns the texels of the image with this index, row by row.
     fn texels<'b>(&self, bytes: &'b [u8], image: u64) -> impl Iterator<Item = &'b [u8]> + use<'b> {
         let texel = self.texel_bytes();
         let row = self.size[0] as usize * texel;
@@ -210,7 +210,7 @@ impl ImageReading {
     }
 }
 
-/// Returns the little-endian number of at most four bytes.
+/// Returns the little-endian number in at most four bytes.
 fn word(bytes: &[u8]) -> u32 {
     bytes
         .iter()

@@ -1,4 +1,4 @@
-//! A list as the recording from which programs are printed.
+//! A list as a recording, from which programs are printed.
 
 use crate::calls::CallList;
 use crate::reading::{ImageReading, Place, ReadMethod, Reading};
@@ -8,10 +8,11 @@ use etalon_backend::{
 };
 use etalon_frame::ChannelEncoding;
 
-/// Returns the recording of a list that was executed on a device of an API, with these features of wgpu.
+/// Returns the recording of a list that was executed on a device. `api` is wgpu's backend, and `features` are
+/// the device's, by wgpu's names.
 ///
 /// # Errors
-/// If a number of the list is not finite, so that no JSON holds it.
+/// If a number in the list is not finite, which JSON cannot represent.
 pub fn recording(
     list: &CallList,
     api: &str,
@@ -48,25 +49,25 @@ struct Rows {
     offset: u64,
     /// The distance between rows.
     pitch: u32,
-    /// The bytes of a row that are texels.
+    /// The number of bytes of texels in a row.
     row: u32,
     /// The number of rows.
     rows: u32,
 }
 
-/// The copies out of the mapped buffer, each into a memory of its own.
+/// The copies out of the mapped buffer, each to a memory of its own.
 #[derive(Default)]
 struct Memories(Vec<Call>);
 
 impl Memories {
-    /// Adds rows. Returns the number of the memory.
+    /// Adds a copy of rows, and returns the number of the memory.
     fn rows(&mut self, rows: Rows) -> u32 {
         let bytes = u64::from(rows.row) * u64::from(rows.rows);
         self.add("read_rows", &[rows], bytes)
     }
 
-    /// Adds bytes whose bits are 8 bytes of the mapped buffer: four to a texel, in two images. Returns the number of
-    /// the memory.
+    /// Adds a copy that gathers bits into bytes. The bits of a byte are 8 bytes of the mapped buffer: four
+    /// bytes of a texel in each of two images. Returns the number of the memory.
     fn bits(&mut self, halves: [Rows; 2]) -> u32 {
         let [first, _] = halves;
         let bytes = u64::from(first.row / 4) * u64::from(first.rows);
@@ -130,7 +131,7 @@ fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
     outputs.into_iter().map(plane).collect()
 }
 
-/// Returns the places of the counters, which are in one memory.
+/// Returns the places of the counters, which share one memory.
 fn counters(memories: &mut Memories, reading: &Reading) -> Vec<RecordedCounter> {
     let mut counters = Vec::new();
     let mut whole = None;

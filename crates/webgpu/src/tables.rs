@@ -1,4 +1,4 @@
-//! The tables of a list while they are filled.
+//! The tables of a list while lowering fills them.
 
 use crate::calls::{
     BindGroup, Buffer, CallList, LayoutEntry, Shader, Texture, TextureAspect, TextureDimension,
@@ -14,7 +14,7 @@ use etalon_frame::{
 use etalon_scene::Sampler;
 use std::borrow::Cow;
 
-/// The attribute of values that are not interpolated.
+/// The attribute of values without interpolation.
 const FLAT: &str = "@interpolate(flat)";
 
 /// A texture, or the part of one that an attachment is.
@@ -30,12 +30,12 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    /// The slice of a three-dimensional texture that passes draw to.
+    /// Returns the slice that passes draw to, if the texture is a 3D texture.
     pub(crate) fn slice(&self) -> Option<u32> {
         self.shape.slice()
     }
 
-    /// Returns the part for copies, from texels on.
+    /// Returns the part that copies take, beginning at a texel.
     pub(crate) fn copied(&self, aspect: TextureAspect, [x, y]: [u32; 2]) -> TexturePart {
         TexturePart {
             texture: self.texture,
@@ -46,13 +46,13 @@ impl Target {
     }
 }
 
-/// The tables of a list while they are filled.
+/// The tables of a list while lowering fills them.
 pub(crate) struct Lowering<'a> {
     pub(crate) device: &'a Device,
     pub(crate) list: CallList,
 }
 
-/// Returns the place of an item in a table, at the end of which it is put if it is new.
+/// Returns the index of an item in a table. A new item is added at the end.
 fn place<T: PartialEq>(table: &mut Vec<T>, item: T) -> usize {
     table
         .iter()
@@ -140,7 +140,7 @@ impl Lowering<'_> {
         } else {
             TextureAspect::All
         };
-        // The samples of an sRGB texture are fetched without conversion, as codes.
+        // The samples of an sRGB texture are fetched as codes, without conversion.
         let codes = target.format.without_srgb().filter(|_| target.samples > 1);
         self.seen(target, aspect, codes.unwrap_or(target.format))
     }
@@ -172,22 +172,22 @@ impl Lowering<'_> {
         self.list.buffers.len() - 1
     }
 
-    /// Gives a buffer its contents, whose length is a multiple of four.
+    /// Sets the contents of a buffer. Their length must be a multiple of 4.
     pub(crate) fn fill(&mut self, buffer: usize, contents: Vec<u8>) {
         let filled = &mut self.list.buffers[buffer];
         filled.size = filled.size.max(contents.len() as u64);
         filled.contents = contents;
     }
 
-    /// Returns a buffer with these contents, whose length is a multiple of four.
+    /// Returns a buffer with these contents, whose length must be a multiple of 4.
     pub(crate) fn filled(&mut self, usage: u32, contents: Vec<u8>) -> usize {
         let buffer = self.buffer(usage | buffer_usage::COPY_DST, 0);
         self.fill(buffer, contents);
         buffer
     }
 
-    /// Returns a shader module. A device that promises no vertex for flat values must be told so: scenes that need one
-    /// are not lowered for it.
+    /// Returns a shader module. If the device does not promise which vertex gives flat values, the module
+    /// must accept either; scenes that depend on the vertex are not lowered for such a device.
     pub(crate) fn shader(&mut self, label: &'static str, mut code: Cow<'static, str>) -> usize {
         let first = Feature::FirstProvokingVertex;
         if !self.device.limits.features.contains(&first) && code.contains(FLAT) {

@@ -12,7 +12,7 @@ use etalon_frame::{Feature, PathDraws, PathValue};
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
 
-/// A device with what WebGPU has.
+/// Returns a device that supports what WebGPU has.
 fn device() -> Device {
     let mut limits = CpuBackend::new("cpu").limits().clone();
     limits.formats.retain(|format, _| crate::is_known(*format));
@@ -55,7 +55,7 @@ fn device() -> Device {
     }
 }
 
-/// Calls a function with the scenes of cases of every file, and their lists.
+/// Calls a function with the scenes of cases from every file, and their lists. Returns the number of lists.
 fn each_list(device: &Device, mut check: impl FnMut(&str, &Scene, &CallList)) -> usize {
     let library = Library::built_in().expect("built-in cases parse");
     let mut lowered = 0;
@@ -77,7 +77,7 @@ fn commands(list: &CallList) -> impl Iterator<Item = &Command> {
     list.first.iter().chain(frame).chain(&list.read)
 }
 
-/// The passes, and the drawing commands of passes and bundles.
+/// Returns the passes of the frame.
 fn passes(list: &CallList) -> impl Iterator<Item = &RenderPass> {
     commands(list).filter_map(|command| match command {
         Command::Pass(pass) => Some(pass),

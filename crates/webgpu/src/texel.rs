@@ -3,7 +3,7 @@
 use etalon_backend::codes::{self, TexelLayout};
 use etalon_frame::TextureFormat;
 
-/// Returns the first bit and the width of each channel in a texel of little-endian bytes, red to
+/// Returns the first bit and the width of each channel in a texel of little-endian bytes, in the order red to
 /// alpha.
 fn layout(format: TextureFormat) -> &'static TexelLayout {
     match format {
@@ -30,7 +30,7 @@ pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// Returns the size of a colour texel.
+/// Returns the size of a colour texel in bytes.
 pub(crate) fn bytes(format: TextureFormat) -> usize {
     codes::texel_bytes(layout(format))
 }

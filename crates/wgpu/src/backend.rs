@@ -30,9 +30,9 @@ pub struct Options {
     /// Enables the Vulkan validation layer or OpenGL's debug output. Their messages are returned by
     /// [`Backend::messages`], unless the program has set its own logger, which receives them.
     pub validate: bool,
-    /// A fault that a test of the suite plants in what is read back.
+    /// A fault that a test plants in the calls or in the values read back.
     pub fault: Option<Fault>,
-    /// Records the calls, for [`Backend::recording`]. The times of the device are not taken then.
+    /// Records the calls, for [`Backend::recording`]. The frame times then have no device time.
     pub record: bool,
 }
 
@@ -47,7 +47,7 @@ pub struct WgpuBackend {
 /// Returns the adapters that wgpu finds over an API in this process's environment.
 ///
 /// # Errors
-/// If there is none.
+/// If there is no adapter.
 pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
     let adapters = adapters(via, InstanceFlags::empty())?;
     let infos = adapters.iter().map(|a| info(via, a));
@@ -57,7 +57,7 @@ pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
 /// Opens an adapter. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
-/// If there is no such adapter, it gives no device, or validation is requested and not available.
+/// If there is no such adapter, it provides no device, or validation is requested but not available.
 pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     let mut flags = InstanceFlags::empty();
     if options.validate {
@@ -74,7 +74,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     let count = adapters.len();
     let Some(adapter) = adapters.into_iter().nth(options.device) else {
         return Err(Unavailable::new(
-            format!("there is no adapter {}, there are {count}", options.device),
+            format!("there is no adapter {}; {count} found", options.device),
             "choose one from `etalon adapters`",
         ));
     };
@@ -82,7 +82,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     name.clone_into(&mut info.name);
     let gpu = device(&adapter, options).map_err(|reason| {
         Unavailable::new(
-            format!("{} gives no device: {reason}", info.device),
+            format!("{} provides no device: {reason}", info.device),
             remedy(options.via),
         )
     })?;
@@ -133,8 +133,8 @@ impl Backend for WgpuBackend {
     }
 }
 
-/// `VALIDATION` enables the layer. `DEBUG` adds the messenger in Vulkan and the debug context in
-/// OpenGL, without which no message arrives.
+/// `VALIDATION` enables the layer. `DEBUG` adds the messenger in Vulkan and the debug context in OpenGL;
+/// without it, no message arrives.
 const WATCHED: InstanceFlags = InstanceFlags::VALIDATION.union(InstanceFlags::DEBUG);
 
 fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
@@ -146,7 +146,7 @@ fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
 }
 
 fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavailable> {
-    // wgpu panics if an EGL context cannot be made current.
+    // wgpu panics if it cannot make an EGL context current.
     let find = || {
         let instance = instance(via, flags);
         pollster::block_on(instance.enumerate_adapters(backends(via)))
@@ -166,7 +166,7 @@ fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
     let mut required_limits = adapter.limits();
     if options.record {
         features.remove(wgpu::Features::TIMESTAMP_QUERY);
-        // Offsets that every device takes.
+        // Alignments that every device supports.
         let everywhere = wgpu::Limits::default();
         required_limits.min_uniform_buffer_offset_alignment =
             everywhere.min_uniform_buffer_offset_alignment;
@@ -210,15 +210,15 @@ fn api(via: Via) -> &'static str {
 fn remedy(via: Via) -> &'static str {
     match via {
         Via::Vulkan => {
-            "apt-get install libvulkan1 mesa-vulkan-drivers, and see that VK_DRIVER_FILES and \
-             VK_ICD_FILENAMES, where they are set, name a driver"
+            "apt-get install libvulkan1 mesa-vulkan-drivers, and check that VK_DRIVER_FILES and \
+             VK_ICD_FILENAMES, if set, name a driver"
         }
         Via::Gl => "apt-get install libegl1 libgl1-mesa-dri",
     }
 }
 
-/// Returns Vulkan's number of the driver version, as `etalon-vulkan` writes it, for drivers without
-/// a version string.
+/// Returns Vulkan's number of the driver version, in the form that `etalon-vulkan` writes, for drivers
+/// without a version string.
 fn version_number(adapter: &wgpu::Adapter) -> Option<String> {
     // SAFETY: the properties are only read.
     let native = unsafe { adapter.as_hal::<wgpu::hal::api::Vulkan>() }?;
@@ -264,7 +264,7 @@ fn driver(via: Via, words: &str) -> String {
     if let Some(name) = known.into_iter().find(|name| words.contains(name)) {
         return name.to_owned();
     }
-    // Mesa's Vulkan driver reports the rasterizer that it shares with the OpenGL one.
+    // Mesa's Vulkan driver reports the name of the rasterizer that it shares with Mesa's OpenGL driver.
     if words.contains("llvmpipe") {
         return match via {
             Via::Vulkan => "lavapipe".to_owned(),
@@ -299,7 +299,8 @@ mod tests {
     #[test]
     fn an_error_planted_below_wgpu_is_reported_by_the_layer() {
         let backend = watched(Via::Vulkan);
-        // SAFETY: the layer stops at the size, which is zero; what the driver makes of it is leaked.
+        // SAFETY: the layer stops the call because the size is zero; otherwise the buffer that the driver
+        // makes is leaked.
         let made = unsafe {
             let device = backend.gpu.device.as_hal::<wgpu::hal::api::Vulkan>();
             let device = device.expect("the device is Vulkan's");
@@ -315,11 +316,11 @@ mod tests {
         assert_eq!(backend.messages(), Vec::<String>::new());
     }
 
-    /// As above, of OpenGL's debug output.
+    /// As above, for OpenGL's debug output.
     #[test]
     fn an_error_planted_below_wgpu_is_reported_by_opengl() {
         let backend = watched(Via::Gl);
-        // SAFETY: the context is current while it is locked, and GL gives this name this type.
+        // SAFETY: the lock keeps the context current, and GL gives this name this type.
         unsafe {
             let device = backend.gpu.device.as_hal::<wgpu::hal::api::Gles>();
             let device = device.expect("the device is OpenGL's");

@@ -6,7 +6,7 @@ use crate::{encode, format};
 use etalon_backend::BackendError;
 use etalon_webgpu::{CallList, RenderBundle};
 
-/// Returns the bundles of a list, recorded of its other objects.
+/// Returns the bundles of a list, recorded with its other objects.
 pub(crate) fn bundles(
     gpu: &Gpu,
     objects: &Objects<'_>,

@@ -5,10 +5,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// The most objects objects. A full cache is cleared, which is rare enough to be cheap.
+/// The largest number of objects kept. A full cache is cleared, which is rare enough to be cheap.
 const MOST: usize = 1024;
 
-/// Objects by what they are created from.
+/// Objects, by the description that they are created from.
 pub(crate) struct Cache<K, T>(RefCell<HashMap<K, T>>);
 
 impl<K, T> Default for Cache<K, T> {

@@ -13,7 +13,7 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// The size of both timestamps.
+    /// The size of both timestamps in bytes.
     pub(crate) const BYTES: u64 = 16;
 
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
@@ -37,7 +37,7 @@ impl Clock {
         }
     }
 
-    /// Returns the time between the two timestamps, which are mapped, and unmaps them.
+    /// Returns the time between the two timestamps, which must be mapped, and unmaps them.
     pub(crate) fn elapsed(&self) -> Option<Duration> {
         let ticks = {
             let bytes = self.mapped.slice(..).get_mapped_range().ok()?;
@@ -45,7 +45,7 @@ impl Clock {
                 let bytes = bytes.get(start..start + 8)?.try_into().ok()?;
                 Some(u64::from_le_bytes(bytes))
             };
-            // `None` if the clock went backwards.
+            // If the clock went backwards, there is no time.
             tick(8)?.checked_sub(tick(0)?)
         };
         self.mapped.unmap();

@@ -10,7 +10,7 @@ use etalon_webgpu::{
 };
 use wgpu::util::RenderEncoder;
 
-/// Records a command. Timed passes write timestamps to the clock.
+/// Records a command. Timed passes write timestamps with the clock.
 pub(crate) fn command(
     objects: &Objects<'_>,
     encoder: &mut wgpu::CommandEncoder,
@@ -131,7 +131,7 @@ fn as_depth_stencil<'o>(
     }
 }
 
-/// Returns wgpu's operations of an aspect that a pass may write.
+/// Returns wgpu's operations of an aspect, if the pass can write it.
 fn accessed<V>(access: Access<V>) -> Option<wgpu::Operations<V>> {
     match access {
         Access::Absent | Access::ReadOnly => None,

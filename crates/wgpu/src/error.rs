@@ -5,10 +5,10 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The errors that a device raised and that were not taken yet.
+/// The errors that a device raised and that no check has taken yet.
 ///
-/// A handler of uncaptured errors is better than error scopes: it costs nothing per call, and no
-/// error escapes it between scopes, where wgpu would panic.
+/// A handler of uncaptured errors has two advantages over error scopes: it costs nothing per call, and it
+/// also gets errors outside of scopes, where wgpu would panic.
 #[derive(Clone, Default)]
 pub(crate) struct Errors {
     raised: Arc<Mutex<Vec<wgpu::Error>>>,
@@ -39,7 +39,8 @@ impl Errors {
         }
     }
 
-    /// As [`Errors::check`] after creating a shader module: any error is the shader's.
+    /// Like [`Errors::check`], after creating a shader module: every error is the shader's, unless memory ran
+    /// out.
     pub(crate) fn check_shader(&self, shader: &str) -> Result<(), BackendError> {
         match self.first()? {
             None => Ok(()),
@@ -48,8 +49,8 @@ impl Errors {
         }
     }
 
-    /// As [`Errors::check`] after creating a pipeline: an internal error is the shader's, which the
-    /// driver compiles now.
+    /// Like [`Errors::check`], after creating a pipeline: an internal error is the shader's, because the
+    /// driver compiles it now.
     pub(crate) fn check_pipeline(&self, shader: &str) -> Result<(), BackendError> {
         match self.first()? {
             None => Ok(()),
@@ -58,7 +59,7 @@ impl Errors {
         }
     }
 
-    /// Takes the first error, which caused the others. A lost device comes before all.
+    /// Takes the first error, which caused the others. A lost device takes precedence.
     fn first(&self) -> Result<Option<wgpu::Error>, BackendError> {
         if let Some(message) = &*locked(&self.lost) {
             return Err(BackendError::lost(message));
@@ -74,8 +75,8 @@ impl Errors {
         locked(&self.raised).clear();
     }
 
-    /// Runs `action` and returns its first error. Panics are errors too: wgpu panics if a driver
-    /// refuses what cannot fail in WebGPU, such as waiting.
+    /// Runs `action` and returns its first error. A panic is an error too: wgpu panics if a driver refuses an
+    /// operation that cannot fail in WebGPU, such as waiting.
     pub(crate) fn guard<T>(
         &self,
         what: &str,
@@ -83,7 +84,7 @@ impl Errors {
     ) -> Result<T, BackendError> {
         let result =
             catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|panic| Err(panicked(&*panic)));
-        // Raised errors come first: the result follows from them. A shader's error has taken those
+        // Raised errors come first, since they caused the result. A shader error already took the errors
         // raised with it.
         self.check(what)?;
         result
@@ -104,7 +105,7 @@ fn backend_error(what: &str, error: wgpu::Error) -> BackendError {
     }
 }
 
-/// Returns the name of the variant that the innermost error is, by its debug form: wgpu has no codes.
+/// Returns the name of the innermost error's variant, from its debug form: wgpu has no error codes.
 fn variant(error: &(dyn std::error::Error + 'static)) -> Option<String> {
     let innermost = std::iter::successors(Some(error), |error| error.source()).last()?;
     let form = format!("{innermost:?}");

@@ -12,9 +12,9 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
-/// The most bytes of unused textures, and of unused buffers.
+/// The largest total size of unused textures, and of unused buffers, in bytes.
 const IDLE_BYTES: u64 = 64 << 20;
-/// From this size on, buffers are rounded up to a multiple of it instead of a power of two.
+/// Buffers from this size on are rounded up to a multiple of it instead of a power of two.
 const LARGE: u64 = 1 << 20;
 
 /// An open device with its limits, pools and caches.
@@ -22,19 +22,19 @@ pub(crate) struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) errors: Errors,
-    /// What scenes are lowered by.
+    /// The facts about the device that lowering needs.
     pub(crate) facts: Device,
     pub(crate) clock: Option<Clock>,
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
     pub(crate) pipelines: Pipelines,
-    /// The calls of the scene that was last read, if they are recorded.
+    /// The calls of the scene that was read last, if they are recorded.
     pub(crate) recorded: Option<RefCell<CallList>>,
     textures: Pool<Texture, Rc<Viewed>>,
     buffers: Pool<BufferKey, wgpu::Buffer>,
 }
 
-/// A texture and the views of it that were used.
+/// A texture and the views of it that were created.
 pub(crate) struct Viewed {
     pub(crate) texture: wgpu::Texture,
     views: RefCell<Vec<(TextureView, wgpu::TextureView)>>,
@@ -75,7 +75,7 @@ impl Gpu {
         })
     }
 
-    /// Runs `action` and returns its first error. After an error all pools and caches are cleared.
+    /// Runs `action` and returns its first error. An error clears all pools and caches.
     pub(crate) fn guard<T>(
         &self,
         what: &str,
@@ -85,7 +85,7 @@ impl Gpu {
         if result.is_err() {
             self.forget();
             if let Some(clock) = &self.clock {
-                // It may be mapped; the error if it is not is discarded.
+                // The buffer can be mapped. If it is not, the error is discarded.
                 clock.mapped.unmap();
                 self.errors.forget();
             }
@@ -167,7 +167,7 @@ impl Gpu {
 impl Viewed {
     /// Returns a view of the texture.
     pub(crate) fn view(&self, view: TextureView) -> Result<wgpu::TextureView, BackendError> {
-        // The number of the texture is that of one list of calls.
+        // The texture's index is valid only in its own list of calls.
         let key = TextureView { texture: 0, ..view };
         let mut views = self.views.borrow_mut();
         if let Some((_, known)) = views.iter().find(|(known, _)| *known == key) {

@@ -1,4 +1,4 @@
-//! What an adapter offers, by wgpu's own word.
+//! What an adapter supports, as wgpu reports it.
 
 use crate::format;
 use etalon_frame::{Feature, TextureFormat};
@@ -30,8 +30,9 @@ fn abilities(flags: DownlevelFlags) -> Abilities {
     }
 }
 
-/// Returns the uses of a format that wgpu allows a device with these features: the adapter's own if
-/// the feature or a downlevel adapter calls for it, else WebGPU's table (as its validation does).
+/// Returns the uses of a format that wgpu allows a device with these features. As in wgpu's validation, these
+/// are the adapter's own if the feature is enabled or the adapter is downlevel, and otherwise those of
+/// WebGPU's table.
 fn format_features(
     adapter: &wgpu::Adapter,
     features: Features,
@@ -47,7 +48,7 @@ fn format_features(
     }
 }
 
-/// Returns the uses of a format; `None` if its textures cannot be uploaded, fetched from and read.
+/// Returns the uses of a format, or `None` if its textures cannot be uploaded, fetched from and read.
 fn uses(adapter: &wgpu::Adapter, features: Features, format: TextureFormat) -> Option<Uses> {
     let real = format::texture(format)?;
     if !features.contains(real.required_features()) {
@@ -75,14 +76,14 @@ fn uses(adapter: &wgpu::Adapter, features: Features, format: TextureFormat) -> O
     })
 }
 
-/// Returns the features that wgpu offers beyond those of every device. It lacks or refuses the rest: advanced
-/// blending, clears within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors
-/// beyond the attachments, polygon modes (a native feature of wgpu answers to no text), tessellation, last provoking
-/// vertices, clip distances that are off, factors of `min` and `max`, counts of samples, sample coverage, least shares
-/// of sample shading.
+/// Returns the features that wgpu supports beyond the ones that every device has. wgpu lacks or refuses the
+/// rest: advanced blending, clears within a pass, resolves of depth and stencil, reversed depth ranges,
+/// mirrored viewports, scissors beyond the attachments, polygon modes (a native feature of wgpu that no
+/// specification describes), tessellation, last provoking vertices, disabled clip distances, factors of `min`
+/// and `max`, counts of samples, sample coverage, and minimum sample shading.
 ///
-/// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
-/// GLSL versions that have them. What wgpu offers and then refuses fails its cases.
+/// Translation keeps early-test attributes of shaders, since the wgpu feature requires the GLSL versions that
+/// have them. If wgpu reports a feature and then refuses it, the feature's cases fail.
 fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> BTreeSet<Feature> {
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
@@ -123,7 +124,7 @@ fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> 
     found.map(|(feature, _)| feature).collect()
 }
 
-/// Returns what an adapter's device with these features offers.
+/// Returns what an adapter's device with these features supports.
 pub(crate) fn offer(adapter: &wgpu::Adapter, features: Features, limits: &wgpu::Limits) -> Offer {
     let flags = adapter.get_downlevel_capabilities().flags;
     let known = TextureFormat::ALL.into_iter();

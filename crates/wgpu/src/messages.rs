@@ -5,7 +5,7 @@ use log::{Level, LevelFilter, Log, Metadata, Record};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The most messages kept: a broken driver may send one per call.
+/// The largest number of messages kept: a broken driver could send one per call.
 const MOST: usize = 1000;
 
 struct Collector {
@@ -44,15 +44,15 @@ impl Log for Collector {
     fn flush(&self) {}
 }
 
-/// Returns true if a log record reports a mistake. Such a record begins with the message type, in
-/// Vulkan as flags, in OpenGL behind the source: `VALIDATION [id (number)]`, `GLES: [API/Error]`.
-/// Other records are the objects of the message before, messages of loader and driver, performance
-/// hints, and wgpu's own.
+/// Returns true if a log record reports a mistake. Such a record begins with the message type: in Vulkan as
+/// flags, in OpenGL after the source: `VALIDATION [id (number)]`, `GLES: [API/Error]`. Other records list the
+/// objects of the message before them, or are messages of the loader and driver, performance hints, or wgpu's
+/// own.
 fn is_mistake(text: &str) -> bool {
     // A depth-only pass does not use the shader's colour.
     let intended = ["ShaderOutputNotConsumed", "Shader-OutputNotConsumed"];
-    // False positives of layers before 1.3.240: they do not know WGSL as a shader's source
-    // language, which wgpu declares, and no pipeline of wgpu has a dynamic line width.
+    // False positives of layers before 1.3.240: they do not accept WGSL, which wgpu declares, as a shader's
+    // source language. No pipeline of wgpu has a dynamic line width.
     let false_positives = [
         "Invalid source language operand",
         "VK_DYNAMIC_STATE_LINE_WIDTH state not set",
@@ -88,9 +88,9 @@ pub(crate) fn take() -> Vec<String> {
     std::mem::take(&mut *locked(&COLLECTOR.messages))
 }
 
-/// Returns true if `create`, which creates an instance, requested a validation layer that is
-/// missing. wgpu logs that at debug level only. The level is raised for this one instance because a
-/// layer sends verbose messages to any instance created at that level.
+/// Returns true if `create`, which creates an instance, requested a validation layer that is missing. wgpu
+/// logs this only at debug level. The level is raised for this instance alone, because a layer sends verbose
+/// messages to any instance created at that level.
 pub(crate) fn misses_layer(create: impl FnOnce()) -> bool {
     let level = log::max_level();
     COLLECTOR.no_layer.store(false, Ordering::Relaxed);

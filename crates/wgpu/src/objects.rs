@@ -5,7 +5,7 @@ use etalon_backend::BackendError;
 use etalon_webgpu::{BindGroup, Binding, CallList, QueryType};
 use wgpu::BufferUsages;
 
-/// The objects of a list of calls, each in the place of its description.
+/// The objects of a list of calls, at the indices of their descriptions.
 pub(crate) struct Objects<'a> {
     pub(crate) textures: Vec<TextureLease<'a>>,
     pub(crate) views: Vec<wgpu::TextureView>,
@@ -14,7 +14,7 @@ pub(crate) struct Objects<'a> {
     samplers: Vec<wgpu::Sampler>,
     pub(crate) groups: Vec<wgpu::BindGroup>,
     pub(crate) pipelines: Vec<wgpu::RenderPipeline>,
-    /// Empty until they are recorded of the other objects.
+    /// Empty until the other objects exist, with which bundles are recorded.
     pub(crate) bundles: Vec<wgpu::RenderBundle>,
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct Pipelines {
     pipelines: Cache<PipelineKey, wgpu::RenderPipeline>,
 }
 
-/// A bind group layout and a pipeline layout with that one group.
+/// A bind group layout, and a pipeline layout with that group.
 #[derive(Clone)]
 pub(crate) struct Layout {
     pub(crate) bindings: wgpu::BindGroupLayout,
@@ -65,7 +65,7 @@ impl Pipelines {
         })
     }
 
-    /// Returns a pipeline of a list.
+    /// Returns a pipeline of the list.
     pub(crate) fn pipeline(
         &self,
         device: &wgpu::Device,

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::ops::Deref;
 
-/// Unused objects by interchangeability, up to a total weight.
+/// Unused objects, grouped by interchangeability, up to a total weight.
 pub(crate) struct Pool<K, T> {
     idle: RefCell<HashMap<K, Vec<T>>>,
     weight: Cell<u64>,
@@ -23,7 +23,7 @@ pub(crate) struct Lease<'a, K: Clone + Eq + Hash, T: Clone> {
 }
 
 impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
-    /// Returns a pool whose unused objects weigh at most this much.
+    /// Returns a pool that keeps unused objects up to this total weight.
     pub(crate) fn new(most: u64) -> Self {
         Self {
             idle: RefCell::default(),
@@ -48,7 +48,7 @@ impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
         }
     }
 
-    /// Removes all objects, and those in use once they return: their state after an error is
+    /// Removes all objects. Objects in use are removed when they return, since their state after an error is
     /// unknown.
     pub(crate) fn clear(&self) {
         self.idle.borrow_mut().clear();

@@ -11,7 +11,7 @@ use etalon_scene::Scene;
 use etalon_webgpu::{CallList, lower, plant};
 use std::time::Instant;
 
-/// A scene as calls, with all objects that they need.
+/// A scene as calls, with all objects that the calls need.
 pub(crate) struct PreparedScene<'a> {
     gpu: &'a Gpu,
     list: CallList,
@@ -61,7 +61,7 @@ impl<'a> PreparedScene<'a> {
         buffers
     }
 
-    /// Returns the clock, if there is a pass to write timestamps.
+    /// Returns the clock, if a pass writes timestamps.
     fn clock(&self) -> Option<&'a Clock> {
         self.gpu.clock.as_ref().filter(|_| self.list.is_timed())
     }

@@ -27,8 +27,8 @@ pub(crate) fn depth_stencil(state: &DepthStencil) -> Result<wgpu::DepthStencilSt
     })
 }
 
-/// WebGPU has one pair of masks for both faces; `SeparateStencilMasks` is denied, so they are
-/// equal.
+/// Returns the stencil state. WebGPU has one pair of masks for both faces; `SeparateStencilMasks` is denied,
+/// so both faces have the same masks.
 fn stencil(state: StencilState) -> wgpu::StencilState {
     wgpu::StencilState {
         front: stencil_face(&state.front),
@@ -94,7 +94,7 @@ fn blend_component(component: BlendComponent) -> wgpu::BlendComponent {
     }
 }
 
-/// Lists have `constant` in place of `constant-alpha`.
+/// Returns a blend factor. Lists have `constant` instead of `constant-alpha`.
 fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     match factor {
         BlendFactor::Zero => wgpu::BlendFactor::Zero,
@@ -119,7 +119,7 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     }
 }
 
-/// Returns the size of an index.
+/// Returns the type of an index.
 pub(crate) fn index_format(index: IndexFormat) -> wgpu::IndexFormat {
     match index {
         IndexFormat::Uint16 => wgpu::IndexFormat::Uint16,
@@ -145,7 +145,7 @@ pub(crate) fn primitive(primitive: Primitive) -> wgpu::PrimitiveState {
             FrontFace::Cw => wgpu::FrontFace::Cw,
         },
         cull_mode: match primitive.cull {
-            // Both faces together need a feature that is denied.
+            // Culling both faces needs a feature that is denied.
             CullMode::None | CullMode::FrontAndBack => None,
             CullMode::Front => Some(wgpu::Face::Front),
             CullMode::Back => Some(wgpu::Face::Back),
@@ -245,7 +245,7 @@ pub(crate) fn sampler(sampler: Sampler) -> wgpu::SamplerDescriptor<'static> {
     }
 }
 
-/// Returns four values as WebGPU's doubles.
+/// Returns a colour in WebGPU's doubles.
 pub(crate) fn color(value: [f32; 4]) -> wgpu::Color {
     let [r, g, b, a] = value.map(f64::from);
     wgpu::Color { r, g, b, a }

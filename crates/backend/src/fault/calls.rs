@@ -1,4 +1,4 @@
-//! The part of faulty calls that is the same in every API.
+//! The part of faulty calls that all APIs share.
 
 use super::CallFault;
 use std::any::Any;
@@ -23,62 +23,62 @@ pub struct DrawNumbers {
     pub first_instance: u32,
 }
 
-/// A query that has begun and not ended.
+/// A query that has begun but not ended.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenQuery {
-    /// The pool or target.
+    /// The pool or target of the query.
     pub owner: u64,
-    /// The number in its pool, or its name.
+    /// The index in the pool, or the name.
     pub query: u32,
-    /// True if it can end between two draws: it began within a pass, or there are no passes.
+    /// True if the query can end between two draws: it began within a pass, or the API has no passes.
     pub ends_anywhere: bool,
-    /// The draws since.
+    /// The number of draws since the query began.
     draws: u32,
-    /// True if the fault has ended it.
+    /// True if the fault has already ended the query.
     ended: bool,
 }
 
-/// The calls to a driver that a planted fault has seen.
+/// The calls to a driver that a planted fault has observed.
 ///
-/// A backend that is opened with a fault puts functions of its own in the place of the driver's, which ask here how to
-/// change a call. The rest of the backend knows nothing of the fault. Rectangles have the origin of the API.
+/// A backend opened with a fault replaces the driver's functions with its own, which use this to decide how
+/// to change a call. The rest of the backend does not know about the fault. Rectangles have the API's origin.
 #[derive(Default)]
 pub struct FaultyCalls {
-    /// The fault; `None` until it acts.
+    /// The fault; `None` until it is active.
     pub fault: Option<CallFault>,
-    /// The number of passes of the submission.
+    /// The number of passes of the submission so far.
     pub passes: u32,
-    /// The number of draws of the pass.
+    /// The number of draws of the pass so far.
     pub draws: u32,
     /// The rectangle that draws can reach: left, top, right and bottom.
     pub area: [i32; 4],
     /// The scissor rectangle: x, y, width and height.
     pub scissor: [i32; 4],
-    /// True if draws are limited to the scissor rectangle.
+    /// True if the scissor test is enabled.
     pub scissor_on: bool,
-    /// The queries of the submission, kept until another one begins queries.
+    /// The queries of the submission, kept until another submission begins queries.
     pub queries: Vec<u32>,
-    /// True if `queries` are those of a submission before.
+    /// True if `queries` belong to an earlier submission.
     queries_are_old: bool,
-    /// The queries that have begun and not ended.
+    /// The queries that have begun but not ended.
     open: Vec<OpenQuery>,
-    /// The queries during which something was cleared.
+    /// The queries that were open during a clear.
     cleared_queries: Vec<u32>,
-    /// The results that were read since the submission, by owner and number.
+    /// The results that were read since the submission, by owner and query.
     read: HashSet<(u64, u32)>,
-    /// Values of the call before, by a number of the state.
+    /// The values of the previous call, by the state's number.
     kept: HashMap<u32, Box<dyn Any>>,
     /// The last clear value of each image, as bits.
     cleared: HashMap<u64, [u32; 4]>,
 }
 
 impl FaultyCalls {
-    /// True if this is the fault, and it acts.
+    /// Returns true if this is the fault, and it is active.
     pub fn has(&self, fault: CallFault) -> bool {
         self.fault == Some(fault)
     }
 
-    /// Notes that a submission ends, or that another one begins.
+    /// Records that a submission ends, or that another begins.
     pub fn end_submission(&mut self) {
         (self.passes, self.draws) = (0, 0);
         self.queries_are_old = true;
@@ -86,14 +86,14 @@ impl FaultyCalls {
         self.read.clear();
     }
 
-    /// Notes that a pass begins.
+    /// Records that a pass begins.
     pub fn begin_pass(&mut self) {
         self.passes += 1;
         self.draws = 0;
     }
 
-    /// Returns the value of the call before and keeps this one for the next, if that is the fault; else this one.
-    /// `state` tells several states of one fault apart.
+    /// Returns the value of the previous call if this is the active fault, or else `value`. Keeps `value` for
+    /// the next call. `state` distinguishes several states of one fault.
     pub fn kept<T: Copy + 'static>(&mut self, fault: CallFault, state: u32, value: T) -> T {
         if !self.has(fault) {
             return value;
@@ -104,7 +104,8 @@ impl FaultyCalls {
             .unwrap_or(value)
     }
 
-    /// Returns the scissor rectangle that is set in the place of this one: x, y, width and height. A right edge at or past `limit` stays.
+    /// Returns the scissor rectangle to set instead of this one: x, y, width and height. A right edge at or
+    /// past `limit` is not changed.
     pub fn set_scissor(&mut self, rectangle: [i32; 4], limit: i32) -> [i32; 4] {
         let mut rectangle = self.kept(CallFault::ScissorKept, 0, rectangle);
         let right = rectangle[0].saturating_add(rectangle[2]);
@@ -115,8 +116,8 @@ impl FaultyCalls {
         rectangle
     }
 
-    /// Draws with changed numbers, once for each part of the area that draws reach; `set_scissor` limits a draw to a
-    /// part.
+    /// Draws with the numbers that the fault leaves, once for each part of the area that draws still reach.
+    /// `set_scissor` limits a draw to a part.
     pub fn draw(
         &mut self,
         mut numbers: DrawNumbers,
@@ -160,7 +161,7 @@ impl FaultyCalls {
         }
     }
 
-    /// Returns the x, y, width and height of what the scissor rectangle leaves of a part.
+    /// Returns the intersection of a part and the scissor rectangle: x, y, width and height.
     fn within_scissor(&self, [mut left, mut top, mut right, mut bottom]: [i32; 4]) -> [i32; 4] {
         if self.scissor_on {
             let [x, y, width, height] = self.scissor;
@@ -170,13 +171,13 @@ impl FaultyCalls {
         [left, top, (right - left).max(0), (bottom - top).max(0)]
     }
 
-    /// True if the fault skips a clear of an image, which had this value before.
+    /// Returns true if the fault skips the clear of an image to the value that it was last cleared to.
     pub fn skips_equal_clear(&mut self, image: u64, value: [u32; 4]) -> bool {
         let before = self.cleared.insert(image, value);
         self.has(CallFault::EqualClearSkipped) && before == Some(value)
     }
 
-    /// Notes that a query begins.
+    /// Records that a query begins.
     pub fn begin_query(&mut self, query: u32) {
         if std::mem::take(&mut self.queries_are_old) {
             self.queries.clear();
@@ -185,7 +186,7 @@ impl FaultyCalls {
         self.cleared_queries.retain(|cleared| *cleared != query);
     }
 
-    /// Notes that a query of a pool or target is open, and whether it can end between two draws.
+    /// Records that a query of a pool or target is open, and whether it can end between two draws.
     pub fn open_query(&mut self, owner: u64, query: u32, ends_anywhere: bool) {
         self.open.push(OpenQuery {
             owner,
@@ -196,7 +197,7 @@ impl FaultyCalls {
         });
     }
 
-    /// Notes that a query of a pool or target ends. Returns true if the fault has ended it before.
+    /// Records that a query of a pool or target ends. Returns true if the fault already ended it.
     pub fn close_query(&mut self, owner: u64, query: Option<u32>) -> bool {
         let is_it =
             |open: &OpenQuery| open.owner == owner && query.is_none_or(|query| query == open.query);
@@ -206,13 +207,13 @@ impl FaultyCalls {
         self.open.swap_remove(index).ended
     }
 
-    /// Returns the queries that the fault begins again before a draw.
+    /// Returns the queries that the fault restarts before a draw.
     pub fn queries_before_draw(&self) -> Vec<OpenQuery> {
         let again = |open: &&OpenQuery| self.has(CallFault::QueryLastDraw) && open.draws > 0;
         self.open.iter().filter(again).copied().collect()
     }
 
-    /// Notes a draw, and returns the queries that the fault ends after it.
+    /// Records a draw, and returns the queries that the fault ends after it.
     pub fn queries_after_draw(&mut self) -> Vec<OpenQuery> {
         self.open.iter_mut().for_each(|open| open.draws += 1);
         self.end_queries(CallFault::QueryOneDraw, |open| open.ends_anywhere)
@@ -223,7 +224,7 @@ impl FaultyCalls {
         self.end_queries(CallFault::QueryOnePass, |open| open.draws > 0)
     }
 
-    /// Returns the queries of a kind that a fault ends, each once.
+    /// Returns the open queries for which `kind` is true, if this is the fault. It ends each query only once.
     fn end_queries(
         &mut self,
         fault: CallFault,
@@ -243,13 +244,13 @@ impl FaultyCalls {
         .collect()
     }
 
-    /// Notes that something is cleared.
+    /// Records a clear.
     pub fn note_clear(&mut self) {
         let open = self.open.iter().map(|open| open.query);
         self.cleared_queries.extend(open);
     }
 
-    /// Returns the result of a query in the place of the driver's.
+    /// Returns the result of a query that replaces the driver's.
     pub fn result(&mut self, owner: u64, query: u32, result: u64) -> u64 {
         let is_again = !self.read.insert((owner, query));
         if self.has(CallFault::ResultOnce) && is_again {
@@ -261,7 +262,7 @@ impl FaultyCalls {
         }
     }
 
-    /// True if the fault has ended the query where it began.
+    /// Returns true if the fault ends the query where it begins.
     pub fn ends_query_early(&self) -> bool {
         self.has(CallFault::QueryEarly) && self.queries.len() > 1
     }

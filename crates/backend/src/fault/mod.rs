@@ -1,8 +1,9 @@
 //! Faults that a test plants, to show that the suite finds them.
 //!
-//! A [`Fault`] describes one. A name of an adapter can end in its own: `gl:llvmpipe:read-fault=off-by-one`. Such an
-//! adapter is not listed. The backends of drivers apply faults to calls, through [`FaultyCalls`], and to what is read
-//! back; `etalon` applies the others to the process of the rasterizer.
+//! A [`Fault`] describes a fault. The name of an adapter can end in the name of a fault:
+//! `gl:llvmpipe:read-fault=off-by-one`. Such an adapter is not listed. The backends of drivers apply faults
+//! to calls, through [`FaultyCalls`], and to the values read back; `etalon` applies the other faults to the
+//! rasterizer's process.
 
 mod call;
 mod calls;
@@ -17,7 +18,7 @@ pub use read::ReadFault;
 use serde::de::value::{Error, StrDeserializer};
 use serde::{Deserialize, Serialize};
 
-/// A planted fault, by what it is applied to. For tests of the suite only.
+/// A planted fault, classified by what it affects. For tests of the suite only.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
@@ -25,14 +26,14 @@ pub enum Fault {
     Call(CallFault),
     /// Every image that a backend reads back: `read-fault=off-by-one`.
     Read(ReadFault),
-    /// The process that draws some of the scenes: `fault=abort`, `fault=abort@scissor`.
+    /// The process that draws, for some of the scenes: `fault=abort`, `fault=abort@scissor`.
     Process(ProcessFault, FaultyScenes),
-    /// The time of each frame, longer by this many per cent: `slower=5%`.
+    /// The time of each frame, increased by this many per cent: `slower=5%`.
     Slower(f64),
 }
 
 impl Fault {
-    /// Splits the name of an adapter into that of its driver and the fault that is planted in it.
+    /// Splits an adapter's name into the name of its driver and the fault that is planted in it.
     pub fn in_name(name: &str) -> Option<(&str, Self)> {
         let (driver, fault) = name.rsplit_once(':')?;
         let (kind, fault) = fault.split_once('=')?;
@@ -100,7 +101,7 @@ mod tests {
             let Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash))) =
                 Fault::in_name(&adapter)
             else {
-                panic!("{name} is no fault");
+                panic!("{name} is not a fault");
             };
             assert_eq!(format!("{fault:?}").to_lowercase(), name);
             let adapter = format!("{adapter}@scissor");

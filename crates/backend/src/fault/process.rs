@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 pub enum ProcessFault {
     /// The process aborts.
     Abort,
-    /// It reads where there is no memory.
+    /// It reads unmapped memory.
     Segv,
     /// It ends with status 7.
     Exit,
-    /// The code of the suite panics.
+    /// The suite's own code panics.
     Panic,
     /// It sleeps endlessly.
     Hang,
@@ -34,22 +34,22 @@ pub enum ProcessFault {
     Validation,
     /// Pictures are wrong in about half of all processes.
     Flaky,
-    /// Every code of `rgb10a2unorm` is read back one too high, in every scene, round trips included.
+    /// Every code of `rgb10a2unorm` is read back one too high in every scene, including round trips.
     Misread,
-    /// Pictures of some scenes are wrong after certain others were drawn in the same process.
+    /// Pictures of some scenes are wrong if certain other scenes were drawn earlier in the same process.
     After,
-    /// The driver ends the process while it opens.
+    /// The process ends while the driver is opened.
     Start,
-    /// The driver never opens.
+    /// The driver never finishes opening.
     Mute,
 }
 
-/// The scenes that fail.
+/// The scenes that a fault affects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FaultyScenes {
-    /// Every eighth one, chosen by a hash.
+    /// Every eighth scene, chosen by a hash.
     ByHash,
-    /// Those with a draw that has a scissor rectangle.
+    /// The scenes with a draw that has a scissor rectangle.
     Scissor,
 }

@@ -1,7 +1,7 @@
 //! Faults of reading back.
 //!
-//! A backend applies one to every image that its read path returns, so that nothing inside the backend
-//! reads past it. It stands for a driver whose read-back is broken.
+//! A backend applies a fault to every image that its read path returns, so that nothing inside the backend
+//! bypasses it. The fault simulates a driver whose read-back is broken.
 
 use etalon_frame::ChannelEncoding;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub enum ReadFault {
 const BLOCK: u32 = 1;
 
 impl ReadFault {
-    /// Changes the codes of an image of this size: texel by texel, sample by sample, channel by channel.
+    /// Changes the codes of an image of this size, which are ordered by texel, sample and channel.
     pub fn apply(
         self,
         codes: &mut [u32],
@@ -64,7 +64,8 @@ impl ReadFault {
 mod tests {
     use super::*;
 
-    /// Three texels by three of two samples with two channels of 8 bits, each code another.
+    /// Returns the codes of an image before and after a fault: 3×3 texels with two samples of two 8-bit
+    /// channels, all codes different.
     fn changed(fault: ReadFault) -> (Vec<u32>, Vec<u32>) {
         let before: Vec<u32> = (2..38).collect();
         let mut after = before.clone();

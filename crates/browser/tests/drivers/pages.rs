@@ -10,7 +10,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 use tungstenite::{Message, WebSocket};
 
-/// Returns an address that nobody listens at.
+/// Returns an address without a listener.
 fn free_address() -> SocketAddr {
     let listener = TcpListener::bind("127.0.0.1:0").expect("there is a port");
     listener.local_addr().expect("it has an address")
@@ -66,7 +66,7 @@ impl Page {
             }
             thread::sleep(Duration::from_millis(10));
         }
-        panic!("nobody listens");
+        panic!("there is no listener");
     }
 
     /// Opens the WebSocket; `None` if it is refused.

@@ -1,7 +1,7 @@
-//! Blends in which all but the destination's own channel is constant, of channels that are no bytes.
+//! Blends in which everything except the destination's channel is constant, for channels that are not bytes.
 //!
-//! A term is what the pipeline's plain arithmetic does, with its constants computed once; planes are gone through
-//! channel by channel, each with the code of its encoding.
+//! A term performs the pipeline's plain arithmetic, with its constants computed once. It processes planes
+//! channel by channel, with code specialized for the encoding.
 
 use super::fragments::Fragments;
 use super::image::AREA;
@@ -12,19 +12,19 @@ use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
 
-/// A function of the codes of each channel.
+/// A function of the code of each channel.
 #[derive(Debug)]
 pub(crate) struct Affine {
     pub(crate) terms: [Option<Term>; 4],
 }
 
-/// The function of a channel that is written.
+/// The function of one channel that is written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
     pub(crate) field: Field,
     pub(crate) encoding: ChannelEncoding,
     pub(crate) join: Join,
-    /// False if 0 stands for the destination.
+    /// False if the destination counts as 0.
     pub(crate) reads: bool,
     /// The destination's factor.
     pub(crate) factor: f32,
@@ -32,7 +32,7 @@ pub(crate) struct Term {
     pub(crate) source: f32,
 }
 
-/// A way to join the source with the destination.
+/// How the source is combined with the destination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Join {
     Sum,
@@ -50,7 +50,7 @@ impl Affine {
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of
+    /// Applies the function to the first texels of a sample's planes. Their number must be a multiple of
     /// [`LANES`](crate::lanes::LANES).
     #[inline(always)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
@@ -62,7 +62,7 @@ impl Affine {
 }
 
 impl Term {
-    /// Applies the function to words. A function of its own: it is large.
+    /// Applies the function to words. It is large, so it is not inlined.
     #[inline(never)]
     fn apply<S: Simd>(&self, simd: S, words: &mut [Codes]) {
         simd.vectorize(
@@ -95,7 +95,7 @@ impl Term {
             source,
             ..
         } = *self;
-        // One by one: loops over groups of lanes become gathers and scatters.
+        // One by one, because loops over groups of lanes become gathers and scatters.
         for word in words.as_flattened_mut() {
             let value = plain.decode(encoding, [field.code(*word)]);
             let [value] = plain.blend_operand(encoding, value);

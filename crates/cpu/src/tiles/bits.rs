@@ -1,4 +1,4 @@
-//! Functions of the bits of texels: masks, values that replace others, and logic operations.
+//! Functions of the bits of texels: write masks, replacement by a value, and logic operations.
 
 use super::fragments::Fragments;
 use super::image::AREA;
@@ -7,7 +7,8 @@ use super::layout::{Layout, Words};
 use crate::lanes::LANES;
 use fearless_simd::Simd;
 
-/// A function that keeps some bits of a texel's words, replaces the others, and inverts some of those that it keeps.
+/// A function that keeps some bits of a texel's words and replaces the others, and then inverts some of the
+/// kept bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bits {
     and: Words,
@@ -16,14 +17,14 @@ pub(crate) struct Bits {
 }
 
 impl Bits {
-    /// Returns the function that makes one texel of zeros and another of ones, where each channel is given by a function
-    /// of its own bits.
+    /// Returns the function that turns a texel of zeros into `of_zeros` and a texel of ones into `of_ones`.
+    /// Each bit must depend only on itself.
     pub(crate) fn new(layout: &Layout, of_zeros: Words, of_ones: Words) -> Self {
         let used = layout.texel(|_| u32::MAX);
         let mut and = [0; 4];
         for (word, and) in and.iter_mut().enumerate() {
             *and = of_zeros[word] ^ of_ones[word];
-            // What no channel has may be kept.
+            // Bits that belong to no channel can be kept.
             if *and == used[word] {
                 *and = u32::MAX;
             }
@@ -35,12 +36,12 @@ impl Bits {
         }
     }
 
-    /// Returns the word that replaces that of any texel, if it is one.
+    /// Returns the word that replaces every texel, if the texel is one word and is always replaced.
     pub(crate) fn stored(&self) -> Option<u32> {
         (self.words == 1 && self.and[0] == 0).then_some(self.xor[0])
     }
 
-    /// True if each channel is replaced or kept.
+    /// Returns true if each channel is either replaced or kept.
     pub(crate) fn is_mask(&self, layout: &Layout) -> bool {
         layout.fields().iter().all(|field| {
             let (and, xor) = (
@@ -51,12 +52,12 @@ impl Bits {
         })
     }
 
-    /// True if every texel is replaced.
+    /// Returns true if every texel is replaced.
     pub(crate) fn replaces(&self) -> bool {
         self.and[..self.words].iter().all(|and| *and == 0)
     }
 
-    /// Returns the words that change, each with its number.
+    /// Returns the masks of the words that change, each with its index.
     fn changed(&self) -> impl Iterator<Item = (usize, [u32; 2])> {
         let all = self.and.into_iter().zip(self.xor).take(self.words);
         let all = all.map(|(and, xor)| [and, xor]).enumerate();
@@ -92,7 +93,7 @@ impl Bits {
     }
 }
 
-/// Keeps some bits of words, and inverts some.
+/// Keeps some bits of words, and then inverts some.
 #[inline(always)]
 fn apply(words: &mut [u32], and: u32, xor: u32) {
     for word in words {

@@ -8,14 +8,14 @@ use etalon_frame::ChannelEncoding;
 use etalon_pipeline::DepthPlane;
 use etalon_scene::Draw;
 
-/// Returns a depth with its bias, held to the viewport's range as before the depth test.
+/// Returns a depth with its bias, clamped to the viewport's range as before the depth test.
 #[inline(always)]
 pub(crate) fn held(draw: &Draw, depth: f32, bias: f64) -> f32 {
     let depth = (f64::from(depth) + bias) as f32;
     Faithful.held_to_range(depth, draw.viewport.depth)
 }
 
-/// The doubles of a vector: loops over more of them are not turned into vectors well.
+/// The number of doubles in a vector. The compiler does not vectorize larger loops well.
 const EIGHT: usize = 8;
 
 /// The depths of a triangle over the window.
@@ -25,7 +25,7 @@ pub(crate) struct Depths {
     z: f64,
     across: f64,
     down: f64,
-    /// The least and the greatest depth of the corners.
+    /// The least and the greatest depth of the vertices.
     ends: [f32; 2],
     bias: f64,
     range: [f32; 2],
@@ -57,7 +57,8 @@ impl Depths {
         }
     }
 
-    /// True if [`floats`](Self::floats) gives the codes: those of floats without a bias, within all ranges.
+    /// Returns true if [`floats`](Self::floats) gives the codes: they are floats without a bias, and within
+    /// all ranges.
     #[inline(always)]
     pub(crate) fn are_floats(&self) -> bool {
         let [low, high] = [self.range[0].max(0.0), self.range[1].min(1.0)];
@@ -67,7 +68,8 @@ impl Depths {
             && self.ends[1] <= high
     }
 
-    /// Gives the depths in the row of the origin at columns from one on, whose number is a multiple of [`EIGHT`].
+    /// Computes the part of the depths that depends on the column, for columns from `x` on. Their number must
+    /// be a multiple of [`EIGHT`].
     #[inline(always)]
     pub(crate) fn columns(&self, x: i32, sample: [i32; 2], columns: &mut [f64]) {
         let units = UNITS as i32;
@@ -80,8 +82,8 @@ impl Depths {
         }
     }
 
-    /// Gives the codes in a row of float depths that are in the range of all corners' depths. Columns are a multiple of
-    /// [`EIGHT`].
+    /// Computes the codes of float depths in a row, clamped to the depths of the vertices. The number of
+    /// columns must be a multiple of [`EIGHT`].
     #[inline(always)]
     pub(crate) fn floats(&self, columns: &[f64], y: i32, sample: [i32; 2], codes: &mut [u32]) {
         let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
@@ -98,7 +100,7 @@ impl Depths {
         }
     }
 
-    /// Returns the codes at one point of the texels from one on.
+    /// Returns the codes at one point of the texels from column `x` on.
     #[inline(always)]
     pub(crate) fn codes(&self, x: i32, y: i32, sample: [i32; 2]) -> Codes {
         let units = UNITS as i32;

@@ -7,14 +7,14 @@ use etalon_pipeline::stencil_operation;
 use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
 use fearless_simd::Simd;
 
-/// The answer to a depth test that is the same all over a tile.
+/// The result of a depth or stencil test that is the same for a whole tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decided {
     Pass,
     Fail,
 }
 
-/// Returns the answer of a comparison of one code with codes of a range, if it is one.
+/// Returns the result of comparing a code with all codes of a range, if it is the same for all.
 pub(crate) fn decided(
     function: CompareFunction,
     code: u32,
@@ -40,7 +40,8 @@ pub(crate) fn decided(
     }
 }
 
-/// Returns whether a number passes that is less than the stored one, equal and greater.
+/// Returns whether the comparison passes for a number that is less than, equal to and greater than the stored
+/// one.
 #[inline(always)]
 pub(crate) fn passing(compare: CompareFunction) -> [bool; 3] {
     match compare {
@@ -55,17 +56,17 @@ pub(crate) fn passing(compare: CompareFunction) -> [bool; 3] {
     }
 }
 
-/// Returns what gives the answer of a comparison from less and equal, which exclude one another: whether they differ
-/// from greater, and the answer to that.
+/// Returns three booleans that give the comparison's result as `greater ^ less_term ^ equal_term`: whether
+/// the results for less and for equal differ from the result for greater, and the result for greater.
 #[inline(always)]
 pub(crate) fn answers([less, equal, greater]: [bool; 3]) -> [bool; 3] {
     [less != greater, equal != greater, greater]
 }
 
-/// Returns the answer of a stencil test of stored values of a range, if it is one.
+/// Returns the result of a stencil test against all stored values of a range, if it is the same for all.
 pub(crate) fn stencil_decided(face: &StencilFace, [low, high]: [u8; 2]) -> Option<Decided> {
     let mask = face.read_mask;
-    // Masked values of a range are in no order, unless they are one.
+    // Masking does not keep the order of a range, unless the range is one value.
     let range = if mask == u8::MAX {
         [low, high]
     } else if low == high {
@@ -80,12 +81,12 @@ pub(crate) fn stencil_decided(face: &StencilFace, [low, high]: [u8; 2]) -> Optio
     )
 }
 
-/// True if an operation leaves stored values as they are.
+/// Returns true if an operation does not change stored values.
 pub(crate) fn keeps(face: &StencilFace, operation: StencilOperation) -> bool {
     operation == StencilOperation::Keep || face.write_mask == 0
 }
 
-/// Returns a range around what an operation makes of stored values of a range.
+/// Returns a range that contains the results of an operation on the stored values of a range.
 pub(crate) fn operated(
     face: &StencilFace,
     operation: StencilOperation,
@@ -102,13 +103,13 @@ pub(crate) fn operated(
         .fold([u8::MAX, 0], |[a, b], v| [a.min(*v), b.max(*v)])
 }
 
-/// Returns the range around two.
+/// Returns the smallest range that contains two ranges.
 pub(crate) fn hull<T: Ord>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
     [a.min(c), b.max(d)]
 }
 
-/// Runs code once for an operation, with the function of a stored value that it is with a face's state. `Keep` runs
-/// nothing.
+/// Runs code once for an operation, with the operation on a face as a function of the stored value. `Keep`
+/// runs nothing.
 macro_rules! with_operation {
     ($face:expr, $operation:expr, |$new:ident| $run:expr) => {
         with_operation!($face, $operation, |$new| $run;
@@ -139,7 +140,7 @@ pub(crate) fn operate(face: &StencilFace, operation: StencilOperation, stored: &
     });
 }
 
-/// Applies an operation to the stored values of groups of a sample's plane, where their masks hold.
+/// Applies an operation to the stored values of groups in a sample's plane, at the lanes of their masks.
 #[inline(always)]
 pub(crate) fn operate_groups<S: Simd>(
     simd: S,
@@ -160,10 +161,10 @@ pub(crate) fn operate_groups<S: Simd>(
     });
 }
 
-/// A range of codes that holds whatever is stored.
+/// A range that contains every code.
 pub(crate) const ANY: [u32; 2] = [0, u32::MAX];
 
-/// The same of stencil values.
+/// A range that contains every stencil value.
 pub(crate) const ANY_STENCIL: [u8; 2] = [0, u8::MAX];
 
 const _: () = assert!(AREA.is_multiple_of(LANES));

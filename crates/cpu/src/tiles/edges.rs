@@ -5,9 +5,9 @@ use super::triangle::{Triangle, clockwise};
 use crate::linear::UNITS;
 use fearless_simd::prelude::*;
 
-/// The greatest magnitude of a row's first value. In a tile no edge function that is farther from 0 changes its sign,
-/// and none that is as near as this leaves 32 bits: it grows by at most 2²³ a texel, which is the greatest extent of
-/// a triangle.
+/// The largest magnitude of a row's first value. An edge function grows by at most 2²³ per texel, which is
+/// the largest extent of a triangle. Within a tile, a function farther from 0 than this does not change its
+/// sign, and one nearer to 0 does not overflow 32 bits.
 const FAR: i64 = 1 << 30;
 
 /// A triangle's three edge functions over the window: a sample is inside if all three are at least 0.
@@ -15,18 +15,18 @@ const FAR: i64 = 1 << 30;
 pub(crate) struct Edges {
     /// The start of each edge, in sub-texel units.
     from: [[i32; 2]; 3],
-    /// Growth per unit to the right and down.
+    /// The growth per unit to the right and down.
     across: [i32; 3],
     down: [i32; 3],
-    /// 0 where samples on the edge are inside, otherwise -1.
+    /// 0 if samples on the edge are inside, otherwise -1.
     bias: [i64; 3],
 }
 
-/// The part of a tile's samples that a triangle covers.
+/// How much of a tile's samples a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Touch {
     None,
-    /// Some, or none.
+    /// Some of them, or perhaps none.
     Part,
     Whole,
 }
@@ -62,7 +62,7 @@ impl Edges {
             + self.bias[edge]
     }
 
-    /// Returns the part of the samples of a rectangle of texels that the triangle covers, from the least and the
+    /// Returns how much of a rectangle of texels the triangle covers. `samples` gives the least and the
     /// greatest offset of samples across and down.
     #[inline(always)]
     pub(crate) fn touch(&self, texels: &[i32; 4], samples: &[[i32; 2]; 2]) -> Touch {
@@ -92,8 +92,8 @@ impl Edges {
         if whole { Touch::Whole } else { Touch::Part }
     }
 
-    /// Returns the [rows](Self::rows) of a triangle that is not larger than a tile, beginning from a texel that is not
-    /// farther from it than a tile.
+    /// Returns the [rows](Self::rows) of a triangle that is at most as large as a tile. The first texel must
+    /// be at most a tile away from it.
     #[inline(always)]
     pub(crate) fn near(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
@@ -101,7 +101,7 @@ impl Edges {
         let mut at = [0; 3];
         for (i, at) in at.iter_mut().enumerate() {
             let [px, py] = self.from[i];
-            // Products of numbers of 15 bits, and a shift that rounds down.
+            // These are products of 15-bit numbers, and the shift rounds down.
             let value = self.across[i] * (point[0] - px) + self.down[i] * (point[1] - py);
             *at = (value + self.bias[i] as i32) >> UNITS.ilog2();
         }
@@ -112,14 +112,15 @@ impl Edges {
         }
     }
 
-    /// Returns the signs of the edge functions at one point of the texels of a tile's rows, beginning from a texel.
+    /// Returns numbers with the signs of the edge functions, at one point of the texels of a tile's rows,
+    /// beginning at a texel.
     #[inline(always)]
     pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
         let mut at = [0; 3];
         for (i, at) in at.iter_mut().enumerate() {
-            // The function grows by a multiple of this from texel to texel, so that a floor keeps all signs.
+            // From texel to texel, the function grows by a multiple of `UNITS`, so the floor keeps all signs.
             *at = self.at(i, point).div_euclid(UNITS).clamp(-FAR, FAR) as i32;
         }
         Rows {
@@ -130,18 +131,18 @@ impl Edges {
     }
 }
 
-/// Numbers of the signs of edge functions at the texels of a row.
+/// Numbers with the signs of the edge functions at the texels of a row.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rows {
-    /// The values in the row's first texel.
+    /// The values at the row's first texel.
     pub(crate) at: [i32; 3],
-    /// Their growth to the next texel and to the next row.
+    /// The growth to the next texel and to the next row.
     pub(crate) across: [i32; 3],
     pub(crate) down: [i32; 3],
 }
 
 impl Rows {
-    /// Returns the rows of a triangle, beginning from a texel of a tile that it touches.
+    /// Returns the rows of a triangle, beginning at a texel of a tile that the triangle touches.
     #[inline(always)]
     pub(crate) fn new(triangle: &Triangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
         let edges = Edges::new(triangle);
@@ -152,7 +153,7 @@ impl Rows {
         }
     }
 
-    /// Returns the numbers at the row's first texels.
+    /// Returns the numbers at the first texels of the row.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd, I: SimdInt<S, Element = i32>>(&self, simd: S) -> Numbers<S, I> {
         let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
@@ -165,7 +166,7 @@ impl Rows {
     }
 }
 
-/// The numbers of [`Rows`] at neighbouring texels.
+/// The numbers of [`Rows`] at consecutive texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Numbers<S, I> {
     simd: S,
@@ -180,7 +181,7 @@ impl<S: Simd, I: SimdInt<S, Element = i32>> Numbers<S, I> {
         (a | b | c).simd_ge(I::splat(self.simd, 0))
     }
 
-    /// Goes so many times on by a growth.
+    /// Adds a growth `times` times.
     #[inline(always)]
     pub(crate) fn grow(&mut self, growth: [i32; 3], times: i32) {
         for (numbers, growth) in self.edges.iter_mut().zip(growth) {

@@ -1,7 +1,7 @@
 //! Fragments of one sample of a tile, in groups of neighbouring texels.
 //!
-//! Groups are collected and then taken through the tests and the blend step by step, so that a draw's state is matched
-//! once for all of them.
+//! Groups are collected, and then go through the tests and the blend step by step, so that a draw's state is
+//! matched once for all of them.
 
 use super::depth_stencil::{answers, passing};
 use super::lanes::{Mask, lanes, select};
@@ -10,13 +10,13 @@ use etalon_scene::{DepthState, StencilFace};
 use fearless_simd::prelude::*;
 use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
 
-/// The most groups that are collected.
+/// The largest number of collected groups.
 pub(crate) const MOST: usize = 32;
 
 /// A mask for each group.
 type Masks = [Mask; MOST];
 
-/// Groups of fragments: their places in a sample's plane and the lanes that are drawn.
+/// Groups of fragments: their places in a sample's plane, and the lanes that are drawn.
 #[derive(Debug)]
 pub(crate) struct Fragments {
     masks: Masks,
@@ -25,7 +25,7 @@ pub(crate) struct Fragments {
 }
 
 impl Fragments {
-    /// Returns no groups.
+    /// Returns an empty collection.
     pub(crate) fn new() -> Self {
         Self {
             masks: [0; MOST],
@@ -34,12 +34,12 @@ impl Fragments {
         }
     }
 
-    /// Adds a group if it has lanes. Returns true if there is no room for another.
+    /// Adds a group if it has lanes. Returns true if the collection is then full.
     #[inline(always)]
     pub(crate) fn push(&mut self, place: usize, mask: Mask) -> bool {
         self.places[self.count] = place as u16;
         self.masks[self.count] = mask;
-        // Without a branch: which groups are empty is not foreseen.
+        // Without a branch, since empty groups are unpredictable.
         self.count += usize::from(mask != 0);
         self.count == MOST
     }
@@ -50,32 +50,32 @@ impl Fragments {
         self.count = 0;
     }
 
-    /// True if there are none.
+    /// Returns true if there are no groups.
     #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// Returns the places of groups and the masks.
+    /// Returns the places and the masks of the groups.
     #[inline(always)]
     pub(crate) fn parts(&self) -> (&[u16], &[Mask]) {
         (&self.places[..self.count], &self.masks[..self.count])
     }
 
-    /// Returns the groups' places with their masks.
+    /// Returns the places of the groups with their masks.
     #[inline(always)]
     pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, Mask)> {
         self.with(&self.masks)
     }
 
-    /// Returns the groups' places with other masks.
+    /// Returns the places of the groups with other masks.
     #[inline(always)]
     pub(crate) fn with(&self, masks: &Masks) -> impl Iterator<Item = (usize, Mask)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
         places.zip(masks.iter().copied())
     }
 
-    /// The groups, with masks that may be changed.
+    /// Returns the places of the groups with their masks, which can be changed.
     #[inline(always)]
     pub(crate) fn groups_mut(&mut self) -> impl Iterator<Item = (usize, &mut Mask)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
@@ -88,7 +88,7 @@ impl Fragments {
         self.masks
     }
 
-    /// Returns the lanes of former masks that are not drawn any more.
+    /// Returns the lanes of earlier masks that are no longer drawn.
     #[inline(always)]
     pub(crate) fn lost(&self, mut masks: Masks) -> Masks {
         for (lost, mask) in masks.iter_mut().zip(&self.masks) {
@@ -112,8 +112,8 @@ impl Fragments {
         }
     }
 
-    /// Keeps the lanes whose codes pass the depth test against a sample's plane, and writes them if they are to be.
-    /// Codes are given by the group's place.
+    /// Keeps the lanes whose codes pass the depth test against a sample's plane, and writes their codes if
+    /// the state says so. `codes` gives the codes of a group by its place.
     #[inline(always)]
     pub(crate) fn test_depth<S: Simd>(
         &mut self,
@@ -139,7 +139,8 @@ impl Fragments {
         }
     }
 
-    /// Replaces the words of a plane by those that a function makes of all groups.
+    /// Applies a function to the words of all groups in a plane, and stores the results in the lanes of the
+    /// masks.
     #[inline(always)]
     pub(crate) fn replace<S: Simd>(
         &self,

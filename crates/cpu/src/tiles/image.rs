@@ -1,4 +1,4 @@
-//! Attachments in memory, tile by tile.
+//! Attachments in memory, stored tile by tile.
 
 use super::TILE;
 use super::layout::{Field, Layout, Words};
@@ -8,31 +8,31 @@ use crate::surface::depth_encoding;
 use etalon_frame::Aspect;
 use etalon_scene::{Attachment, Contents};
 
-/// The codes of a texel's colour channels of 8 bits; those that the format lacks are 0. In memory they are the bytes
-/// of a word.
+/// The codes of a texel's 8-bit colour channels, which are the bytes of a word in memory. Channels that the
+/// format lacks are 0.
 pub(crate) type Texel = [u8; 4];
 
 /// The texels of a tile.
 pub(crate) const AREA: usize = TILE * TILE;
 
-/// The least codes that are read by several threads.
+/// The smallest number of codes that several threads read.
 const SHARED: usize = 1 << 16;
 
-/// An attachment. Each aspect holds tile after tile, in rows of tiles; a tile holds plane after plane, one for each
-/// word of each sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
+/// An attachment. Each aspect is stored tile by tile, in rows of tiles. A tile consists of planes, one for
+/// each word of each sample, and a plane of its rows. Texels beyond the attachment's edges have no meaning.
 #[derive(Debug)]
 pub(crate) struct Image {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Tiles side by side.
+    /// The number of tiles in a row of tiles.
     pub(crate) across: usize,
     pub(crate) samples: usize,
-    /// The words of a texel of colour.
+    /// The layout of a colour texel in words.
     pub(crate) layout: Layout,
     pub(crate) color: Vec<u32>,
     pub(crate) depth: Vec<u32>,
     pub(crate) stencil: Vec<u8>,
-    /// The values that all of an aspect has, as long as they are not in memory.
+    /// The clear values of aspects that are not in memory yet.
     pub(crate) clear: Clears,
 }
 
@@ -44,13 +44,13 @@ pub(crate) struct Clears {
     pub(crate) stencil: Option<u8>,
 }
 
-/// Returns the words of a texel again and again.
+/// Returns the words of a texel, repeated endlessly.
 fn cycle(texel: Words, words: usize) -> impl Iterator<Item = u32> {
     (0..words).cycle().map(move |word| texel[word])
 }
 
 impl Image {
-    /// Returns memory for an attachment, without its contents.
+    /// Returns memory for an attachment, without contents.
     pub(crate) fn new(attachment: &Attachment) -> Self {
         let [width, height] = attachment.size.map(|s| s as usize);
         let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
@@ -72,7 +72,7 @@ impl Image {
         }
     }
 
-    /// Begins with an attachment's initial contents.
+    /// Sets the attachment's initial contents.
     pub(crate) fn begin(&mut self, attachment: &Attachment) {
         let encodings = attachment.format.color_channels();
         self.clear = Clears::default();
@@ -99,7 +99,7 @@ impl Image {
         }
     }
 
-    /// Writes what was cleared and not drawn to.
+    /// Writes the clear values of aspects that were not drawn to.
     pub(crate) fn finish(&mut self) {
         let clear = std::mem::take(&mut self.clear);
         if let Some(value) = clear.color {
@@ -119,20 +119,20 @@ impl Image {
         }
     }
 
-    /// Returns the place of a word of a texel's sample in colour's memory.
+    /// Returns the index of a word of a texel's sample in the colour memory.
     pub(crate) fn color_place(&self, x: usize, y: usize, sample: usize, word: usize) -> usize {
         let tile = y / TILE * self.across + x / TILE;
         let plane = (tile * self.samples + sample) * self.layout.words + word;
         plane * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the place of a texel's sample in the memory of depth or stencil.
+    /// Returns the index of a texel's sample in the memory of depth or stencil.
     pub(crate) fn place(&self, x: usize, y: usize, sample: usize) -> usize {
         let tile = y / TILE * self.across + x / TILE;
         (tile * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`], read by so many threads.
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`]. This many threads read them.
     pub(crate) fn codes(&self, aspect: Aspect, channels: usize, threads: usize) -> Vec<u32> {
         let row = (self.width * self.samples * channels).max(1);
         let mut codes = vec![0; self.height * row];
@@ -150,7 +150,7 @@ impl Image {
         codes
     }
 
-    /// Writes the codes of a row of texels.
+    /// Writes the codes of one row of texels.
     fn tiles_row(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
         let parts = codes.chunks_mut(TILE * self.samples * channels);
         for (column, part) in parts.enumerate() {
@@ -163,7 +163,7 @@ impl Image {
         }
     }
 
-    /// Writes the codes of one sample of a tile's row, given its plane and the row's place in it.
+    /// Writes the codes of one sample of a tile's row, given the sample's plane and the row's place in it.
     fn row(&self, aspect: Aspect, channels: usize, [plane, within]: [usize; 2], codes: &mut [u32]) {
         let step = self.samples * channels;
         let place = plane * AREA + within;
@@ -198,7 +198,7 @@ impl Image {
     }
 }
 
-/// Writes what a function makes of values to every so many codes.
+/// Writes a function of each value to every `step`-th code.
 #[inline(always)]
 fn spread<T>(codes: &mut [u32], step: usize, values: &[T], code: impl Fn(&T) -> u32) {
     for (slot, value) in codes.iter_mut().step_by(step).zip(values) {

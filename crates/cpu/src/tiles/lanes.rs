@@ -4,31 +4,32 @@ use crate::lanes::{Codes, LANES};
 use fearless_simd::prelude::*;
 use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
 
-/// A bit for each lane, from the lowest on: set where it is covered.
+/// A bit per lane, from the lowest on, which is set if the lane is covered.
 pub(crate) type Mask = u16;
 
 /// The mask of all lanes.
 pub(crate) const ALL: Mask = Mask::MAX;
 
-/// The lanes' numbers.
+/// The numbers of the lanes.
 pub(crate) const NUMBERS: [i32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
-/// Returns the lanes of a row from a column on that lie in columns from one to before another.
+/// Returns the lanes of a row, which begin at column `x`, that are in the columns from `start` up to but not
+/// including `end`.
 #[inline(always)]
 pub(crate) fn columns(x: i32, [start, end]: [i32; 2]) -> Mask {
-    // Bits of as many lanes as there are before a column.
+    // A mask of the lanes before a column.
     let before = |column: i32| (1_u32 << (column - x).clamp(0, LANES as i32)) - 1;
     (before(end) & !before(start)) as Mask
 }
 
-/// Returns the lanes at a place of planes.
+/// Returns the lanes at an index of planes.
 #[inline(always)]
 pub(crate) fn lanes<T>(planes: &mut [T], at: usize) -> &mut [T; LANES] {
     let (lanes, _) = planes[at..at + LANES].as_chunks_mut();
     &mut lanes[0]
 }
 
-/// Returns the lanes of texels of bytes whose alpha is a code or more.
+/// Returns the lanes of texels of bytes whose alpha is at least `least`.
 #[inline(always)]
 pub(crate) fn alphas_from<S: Simd>(simd: S, texels: &Codes, least: u32) -> Mask {
     let mut alphas = *texels;
@@ -39,7 +40,7 @@ pub(crate) fn alphas_from<S: Simd>(simd: S, texels: &Codes, least: u32) -> Mask 
     kept.to_bitmask() as Mask
 }
 
-/// Replaces the words of a mask.
+/// Replaces the words in the lanes of a mask.
 #[inline(always)]
 pub(crate) fn select<S: Simd>(simd: S, words: &mut Codes, mask: Mask, new: &Codes) {
     let mask = mask32x16::from_bitmask(simd, mask.into());
@@ -48,7 +49,7 @@ pub(crate) fn select<S: Simd>(simd: S, words: &mut Codes, mask: Mask, new: &Code
     mask.select(new, old).store_slice(words);
 }
 
-/// Replaces the bytes of a mask.
+/// Replaces the bytes in the lanes of a mask.
 #[inline(always)]
 pub(crate) fn select_bytes<S: Simd>(
     simd: S,

@@ -1,13 +1,13 @@
-//! The words of a texel of colour: its channels from the lowest bits on, as many in a word as have room.
+//! The words of a colour texel. Channels start at the lowest bits, and a word has as many channels as fit.
 //!
-//! Words are little-endian in memory, so that channels of 8 bits are bytes in their order.
+//! Words are little-endian in memory, so that 8-bit channels are bytes in order.
 
 use etalon_frame::ChannelEncoding;
 
-/// The words of a texel; those that it lacks are 0.
+/// The words of a texel. Unused words are 0.
 pub(crate) type Words = [u32; 4];
 
-/// The words of a texel and the places of its channels in them.
+/// The number of words of a texel, and where its channels are in them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     fields: [Field; 4],
@@ -15,7 +15,7 @@ pub(crate) struct Layout {
     pub(crate) words: usize,
 }
 
-/// The place of a channel's codes.
+/// Where a channel's codes are.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Field {
     pub(crate) word: usize,
@@ -47,13 +47,13 @@ impl Layout {
         }
     }
 
-    /// Returns the places of all channels.
+    /// Returns where each channel is.
     #[inline(always)]
     pub(crate) fn fields(&self) -> &[Field] {
         &self.fields[..self.channels]
     }
 
-    /// Returns the texel whose codes a function gives.
+    /// Returns the texel with the codes that a function gives.
     pub(crate) fn texel(&self, code: impl Fn(usize) -> u32) -> Words {
         let mut texel = [0; 4];
         for (c, field) in self.fields().iter().enumerate() {
@@ -64,26 +64,26 @@ impl Layout {
 }
 
 impl Field {
-    /// Returns the code in a word.
+    /// Returns the code that a word contains.
     #[inline(always)]
     pub(crate) fn code(self, word: u32) -> u32 {
         u32::from_le(word) >> self.shift & self.mask
     }
 
-    /// Returns the word of a code beside zeros.
+    /// Returns a word that contains a code and otherwise zeros.
     #[inline(always)]
     pub(crate) fn word_of(self, code: u32) -> u32 {
         ((code & self.mask) << self.shift).to_le()
     }
 
-    /// Returns a word with another code.
+    /// Returns the word with its code replaced.
     #[inline(always)]
     pub(crate) fn replaced(self, word: u32, code: u32) -> u32 {
         word & !self.word_of(u32::MAX) | self.word_of(code)
     }
 }
 
-/// True if each of these channels has 8 bits.
+/// Returns true if all of these channels have 8 bits.
 pub(crate) fn are_bytes(encodings: &[ChannelEncoding]) -> bool {
     encodings.iter().all(|e| e.bits() == 8)
 }

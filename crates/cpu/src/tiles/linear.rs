@@ -1,4 +1,4 @@
-//! Linear functions of codes of 8 bits, in integers.
+//! Linear functions of 8-bit codes, in integers.
 
 use super::image::Texel;
 use fearless_simd::prelude::*;
@@ -7,14 +7,15 @@ use fearless_simd::{Simd, u8x16, u8x32, u16x16};
 /// The number of codes of a channel.
 pub(crate) const CODES: usize = 256;
 
-/// The bytes that a function is applied to at once: those of neighbouring texels.
+/// The number of bytes of neighbouring texels that a function processes at once.
 pub(crate) const BYTES: usize = 16;
 
-/// A linear function of each channel's code: inverts the code or leaves it, multiplies it by a 16-bit fraction, adds,
-/// subtracts, both saturating, and keeps the upper byte; byte by byte of neighbouring texels.
+/// A linear function of each channel's code. It optionally inverts the code, multiplies it by a 16-bit
+/// fraction, adds and subtracts with saturation, and keeps the upper byte. The parameters are stored per byte
+/// of neighbouring texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Linear {
-    /// All bits set where codes are inverted.
+    /// All bits set for channels whose codes are inverted.
     invert: [u8; BYTES],
     /// The upper and the lower byte of the factor.
     upper: [u16; BYTES],
@@ -33,8 +34,8 @@ struct ChannelFunction {
 }
 
 impl Linear {
-    /// Returns the function that is equal to tables in all codes, if there is one near their slopes, which are the
-    /// results' growth from the first code to the last.
+    /// Returns the function that equals the tables for all codes, if there is one near their slopes. A slope
+    /// is the growth of the result from the first code to the last.
     #[inline(always)]
     pub(crate) fn fitted(tables: &[[u8; CODES]; 4], slopes: [f32; 4]) -> Option<Self> {
         let mut found = [ChannelFunction::default(); 4];
@@ -55,16 +56,16 @@ impl Linear {
         })
     }
 
-    /// Applies the function to texels, whose bytes are a multiple of twice [`BYTES`].
+    /// Applies the function to texels, whose number of bytes must be a multiple of twice [`BYTES`].
     #[inline(always)]
     pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [Texel]) {
-        // By value, so that they stay in registers.
+        // Copied into locals, so that they stay in registers.
         let [upper, lower, plus, minus] = [&self.upper, &self.lower, &self.plus, &self.minus]
             .map(|part| u16x16::from_slice(simd, part));
         let invert = u8x16::from_slice(simd, &self.invert);
         let invert = invert.combine(invert);
         let of = |code: u16x16<S>| {
-            // 256 times the code times the fraction, in two parts that 16 bits hold.
+            // 256 times the code times the fraction, in two parts that fit 16 bits.
             let product = code * upper + ((code * lower) >> 8);
             product.saturating_add(plus).saturating_sub(minus) >> 8
         };
@@ -77,7 +78,7 @@ impl Linear {
 }
 
 impl ChannelFunction {
-    /// Returns the function that is equal to a table in all codes, if there is one near a slope.
+    /// Returns the function that equals a table for all codes, if there is one near a slope.
     #[inline(always)]
     fn fitted(table: &[u8; CODES], slope: f32) -> Option<Self> {
         if slope >= 0.0 {
@@ -92,7 +93,7 @@ impl ChannelFunction {
         })
     }
 
-    /// Returns the function that is equal to a table that does not fall, if there is one near a slope.
+    /// Returns the function that equals a table without falling steps, if there is one near a slope.
     #[inline(always)]
     fn rising(table: &[u8; CODES], slope: f32) -> Option<Self> {
         let near = (f64::from(slope) * 65536.0).round();
@@ -115,7 +116,7 @@ impl ChannelFunction {
                 plus: sum.clamp(0, 65535) as u16,
                 minus: (-sum).clamp(0, 65535) as u16,
             };
-            // Without an early end, in vectors.
+            // Without an early exit, so that the loop is vectorized.
             let mut different = 0;
             for (code, due) in table.iter().enumerate() {
                 different |= found.at(code as u8) ^ due;
@@ -127,7 +128,7 @@ impl ChannelFunction {
         None
     }
 
-    /// Returns the function of a code that is not inverted.
+    /// Returns the result for a code that is not inverted.
     #[inline(always)]
     fn at(&self, code: u8) -> u8 {
         let sum = product(code, self.factor).saturating_add(self.plus);

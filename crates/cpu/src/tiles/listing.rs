@@ -1,4 +1,4 @@
-//! The kernels of a scene in words.
+//! The kernels of a scene, in words.
 
 use super::layout::Layout;
 use super::paint::{Kernel, Paint};
@@ -6,7 +6,8 @@ use super::plan::{PassPlan, Plan, Shading};
 use etalon_scene::{Draw, Scene};
 use fearless_simd::{Level, dispatch};
 
-/// Returns the kernels of a scene's draws, a line for each; or one line with the reason why it has none.
+/// Returns the kernels of a scene's draws, one line per draw, or one line with the reason why the scene has
+/// no kernels.
 pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
     let plan = match Plan::new(scene, least) {
         Ok(plan) => plan,
@@ -49,10 +50,10 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
     lines
 }
 
-/// Returns the kernel of a draw's first colour.
+/// Returns the kernel of a draw's first colour, in words.
 fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     let color = match shading {
-        Shading::Texture { .. } => return "stored as they are",
+        Shading::Texture { .. } => return "stored unchanged",
         Shading::Vertex | Shading::Expensive(_) | Shading::Kept(_) => {
             draw.mesh.vertices.first().map_or([0.0; 4], |v| v.color)
         }

@@ -1,11 +1,12 @@
-//! Scenes of common states in tiles: kernels that are chosen once per draw, in vectors, on several threads.
+//! Scenes with common states, drawn in tiles: with kernels that are chosen once per draw, in vectors, on
+//! several threads.
 //!
-//! What the kernels draw is bit for bit what the [span code](crate::raster) draws, which tests hold; a scene with a
-//! state that has no kernel is left to it. [`plan`] chooses. A pass goes through [`setup`], which transforms vertices
-//! and sorts triangles into tiles, and through [`tile`], which draws a tile to its end before the next.
+//! The kernels draw the same bits as the [span code](crate::raster), which tests check. The span code draws
+//! scenes with a state that has no kernel. [`plan`] chooses. A pass goes through [`setup`], which transforms
+//! vertices and sorts triangles into tiles, and through [`tile`], which completes a tile before the next.
 //!
-//! A picture depends neither on the number of threads nor on the vector instructions: no tile is shared, each draws
-//! its triangles in their order, and no product is fused with a sum.
+//! A picture depends neither on the number of threads nor on the vector instructions: no tile is shared, each
+//! tile draws its triangles in order, and no product is fused with a sum.
 
 mod affine;
 mod bits;
@@ -38,7 +39,7 @@ pub(crate) use listing::lines;
 pub(crate) use plan::Plan;
 pub(crate) use scene::{Machine, TiledScene};
 
-/// The texels of a tile's sides.
+/// The width and height of a tile in texels.
 const TILE: usize = 64;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Opaque triangles: one colour, under a depth test or none.
+//! Opaque triangles: one colour, with or without a depth test.
 
 use super::TILE;
 use super::depth::Depths;
@@ -12,19 +12,20 @@ use crate::lanes::LANES;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 
-/// The lanes of narrow triangles.
+/// The number of lanes for narrow triangles.
 pub(crate) const NARROW: i32 = 8;
 
 /// What opaque triangles of a draw do to texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Store {
-    /// The draw and the paint that it belongs to.
+    /// The indices of the draw and the paint.
     of: [u32; 2],
-    /// The facing, if the other one's stencil state may do something.
+    /// The facing, if the stencil state of the other facing might do something.
     front: Option<bool>,
-    /// The word that a texel of one word becomes.
+    /// The word that replaces texels, which are one word each; `None` if colours are not written.
     color: Option<u32>,
-    /// Whether a code passes that is less than the stored one, equal and greater; `None` if depths are not tested.
+    /// Whether the depth test passes for a code that is less than, equal to and greater than the stored one;
+    /// `None` if depths are not tested.
     passes: Option<[bool; 3]>,
     /// True if the codes that pass are written.
     write: bool,
@@ -52,26 +53,26 @@ impl Store {
         })
     }
 
-    /// True if a triangle of the same part does the same.
+    /// Returns true if a triangle of the same part does the same.
     #[inline(always)]
     pub(crate) fn is_of(&self, triangle: &Triangle) -> bool {
         self.of == [triangle.draw, triangle.paint]
             && self.front.is_none_or(|front| front == triangle.front)
     }
 
-    /// True if texels are written.
+    /// Returns true if colours are written.
     #[inline(always)]
     pub(crate) fn colors(&self) -> bool {
         self.color.is_some()
     }
 
-    /// True if depths are tested.
+    /// Returns true if depths are tested.
     #[inline(always)]
     pub(crate) fn tests(&self) -> bool {
         self.passes.is_some()
     }
 
-    /// Draws one sample of small triangles. A function of its own: it is large.
+    /// Draws one sample of small triangles. It is large, so it is not inlined.
     #[inline(never)]
     pub(crate) fn small<'t, S: Simd>(
         &self,
@@ -91,7 +92,7 @@ impl Store {
         );
     }
 
-    /// Draws one sample of small triangles row by row, with depths or colours or both.
+    /// Draws one sample of small triangles row by row, with depths, colours or both.
     #[inline(always)]
     fn rows<'t, S: Simd, const DEPTH: bool, const COLOR: bool>(
         &self,
@@ -124,14 +125,13 @@ impl Store {
         }
     }
 
-    /// Returns masks that give the answer of the depth test from less and equal, which exclude one another: what all
-    /// other codes get, and where the two differ from it.
+    /// Returns masks that give the result of the depth test, as the booleans of `depth_stencil::answers` do.
     #[inline(always)]
     fn answers<S: Simd, I: SimdInt<S>>(&self, simd: S) -> [I::Mask; 3] {
         answers(self.passes.unwrap_or_default()).map(|answer| I::Mask::splat(simd, answer))
     }
 
-    /// Returns the covered lanes that pass the depth test, after their codes are written if they are to be.
+    /// Returns the covered lanes that pass the depth test. Writes their codes if the draw writes depth.
     #[inline(always)]
     fn passed<S, U>(
         &self,
@@ -157,7 +157,7 @@ impl Store {
     }
 }
 
-/// Replaces the words of a mask's lanes.
+/// Replaces the words in the lanes of a mask.
 #[inline(always)]
 fn replace<S, U>(simd: S, mask: U::Mask, new: U, stored: &mut [u32])
 where
@@ -174,34 +174,34 @@ pub(crate) struct Opaque<'a> {
     pub(crate) store: &'a Store,
     pub(crate) triangle: &'a Triangle,
     pub(crate) depths: Option<Depths>,
-    /// Left, top, right and bottom of the tile's texels.
+    /// The left, top, right and bottom edges of the tile's texels.
     pub(crate) texels: [i32; 4],
 }
 
 /// A sample's planes and position.
 pub(crate) struct Planes<'p> {
     pub(crate) position: [i32; 2],
-    /// The texels whose sample may be written.
+    /// The texels whose sample can be written.
     pub(crate) rect: [i32; 4],
-    /// Empty if none are written.
+    /// Empty if no colours are written.
     pub(crate) colors: &'p mut [u32],
-    /// Empty if none are tested.
+    /// Empty if no depths are tested.
     pub(crate) depths: &'p mut [u32],
 }
 
 /// The lanes of a triangle's rows.
 #[derive(Clone, Copy)]
 struct Area {
-    /// The column of the first lanes, and the number of lanes side by side.
+    /// The column of the first lanes, and the number of groups of lanes in a row.
     first: i32,
     chunks: i32,
     /// The first and the last row.
     rows: [i32; 2],
 }
 
-/// The depth codes of a triangle.
+/// A source of a triangle's depth codes.
 trait Source {
-    /// Returns the codes of neighbouring texels of a row.
+    /// Returns the codes of consecutive texels of a row.
     fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
         &mut self,
         simd: S,
@@ -210,7 +210,7 @@ trait Source {
     ) -> U;
 }
 
-/// One code.
+/// One code for all texels.
 struct Flat(u32);
 
 impl Source for Flat {
@@ -235,12 +235,12 @@ impl Source for Any<'_> {
     }
 }
 
-/// Codes of floats without a bias, whose growth to the right is known for the first lanes.
+/// Codes of floats without a bias. Their growth to the right is known for one group of lanes.
 struct Floats<'a> {
     depths: &'a Depths,
     position: [i32; 2],
     columns: [f64; LANES],
-    /// The number of the lanes whose growth is known.
+    /// The index of the group whose growth is known.
     chunk: i32,
 }
 
@@ -266,7 +266,7 @@ impl Source for Floats<'_> {
 }
 
 impl Opaque<'_> {
-    /// Draws the covered texels of a sample. A function of its own: it is large.
+    /// Draws the covered texels of a sample. It is large, so it is not inlined.
     #[inline(never)]
     pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
         simd.vectorize(
@@ -281,7 +281,7 @@ impl Opaque<'_> {
         let around = self.triangle.around.map(i32::from);
         let (start, last) = (around[0].max(left), around[2].min(right - 1));
         let rows = [around[1].max(top), around[3].min(bottom - 1)];
-        // What is narrow needs lanes once, wherever it stands.
+        // A narrow triangle needs one group of lanes, wherever it is.
         let near = start.min(left + TILE as i32 - NARROW);
         if last - near < NARROW {
             let area = Area {
@@ -306,7 +306,7 @@ impl Opaque<'_> {
         self.sample::<S, i32x16<S>, u32x16<S>>(simd, planes, area);
     }
 
-    /// Draws the covered texels of a sample with lanes of a kind.
+    /// Draws the covered texels of a sample, with lanes of these types.
     #[inline(always)]
     fn sample<S, I, U>(&self, simd: S, planes: Planes<'_>, area: Area)
     where
@@ -342,7 +342,7 @@ impl Opaque<'_> {
         }
     }
 
-    /// Goes through rows and lanes, with depths or without.
+    /// Processes rows and lanes, with or without depths.
     #[inline(always)]
     fn scan<S, I, U, D, const DEPTH: bool>(
         &self,

@@ -1,9 +1,10 @@
-//! Paints: what a source that is constant over a triangle makes of a colour attachment's codes.
+//! Paints: how a source that is constant over a triangle changes the codes of a colour attachment.
 //!
-//! With a constant source an 8-bit result is a function of the destination's codes, mostly channel by channel. Each
-//! function is made by the pipeline's plain arithmetic, over all codes; a [linear](Linear) one is used where it is equal
-//! to the function for every one of them. Other results have few operands that are not constant, so that
-//! [affine](Affine) functions and [weights](Weights) say them without a choice per texel.
+//! With a constant source, an 8-bit result is a function of the destination's codes, mostly of each channel
+//! alone. The pipeline's plain arithmetic computes each function for all codes; a [linear](Linear) function
+//! replaces it if it gives the same result for every code. Other results have few operands that are not
+//! constant, so that [affine](Affine) functions and [weights](Weights) express them without branches per
+//! texel.
 
 use super::affine::{Affine, Join, Term};
 use super::bits::Bits;
@@ -26,17 +27,17 @@ use etalon_scene::{
 };
 use fearless_simd::Simd;
 
-/// The encodings of four channels, and how many of them there are.
+/// The encodings of four channels, and the number of channels in use.
 type Channels = ([ChannelEncoding; 4], usize);
 
-/// The commonest channels.
+/// The most common channels.
 const UNORM: Channels = ([ChannelEncoding::Unorm(8); 4], 4);
 
-/// A function of a texel's codes, and the samples that it is applied to.
+/// A function of a texel's codes, and the samples to which it is applied.
 #[derive(Debug)]
 pub(crate) struct Paint {
     pub(crate) kernel: Kernel,
-    /// The functions of the colour attachments behind the first.
+    /// The functions of the colour attachments after the first.
     pub(crate) others: Vec<Kernel>,
     /// Bit `i` is set if sample `i` is drawn.
     pub(crate) samples: u32,
@@ -45,45 +46,46 @@ pub(crate) struct Paint {
 /// A function of a texel's codes.
 #[derive(Debug)]
 pub(crate) enum Kernel {
-    /// Leaves them.
+    /// Keeps the codes.
     Keep,
-    /// Replaces them by a word.
+    /// Replaces the codes by a word.
     Store(u32),
-    /// Keeps some bits, replaces the others, and inverts some of those that it keeps.
+    /// Keeps some bits and replaces the others, and then inverts some of the kept bits.
     Bits(Bits),
     /// A product and a sum in each channel.
     Linear(Box<Linear>),
-    /// A function of each channel's own code.
+    /// A function of each channel's code alone.
     Table(Box<[[u8; CODES]; 4]>),
-    /// A sum of products of few channels.
+    /// A sum of products of a few channels.
     Weighted(Box<Weights>),
-    /// A product and a sum in each channel, or the least or greatest.
+    /// A product and a sum in each channel, or the minimum or maximum.
     Affine(Box<Affine>),
     /// Any function.
     Lanes(Box<Blending>),
-    /// Replaces them by the words of fetched texels.
+    /// Replaces the codes by the words of fetched texels.
     Copy,
-    /// Any function of them and of fetched texels.
+    /// Any function of the codes and of fetched texels.
     Varying(Box<Varying>),
 }
 
-/// The state that colours are blended and stored by, with the source.
+/// The source, and the state that blends and stores colours.
 #[derive(Clone, Debug)]
 pub(crate) struct Blending {
     source: [f32; 4],
     target: ColorTarget,
     constant: [f32; 4],
-    /// The logic operation, if the attachment obeys one.
+    /// The logic operation, if it applies to the attachment.
     logic: Option<LogicOperation>,
     alpha_to_one: bool,
     channels: &'static [ChannelEncoding],
     layout: Layout,
-    /// The second source's alpha is 1.
+    /// True if the second source's alpha is 1.
     second_alpha: bool,
 }
 
 impl Paint {
-    /// Returns the paint of a source; with a function of any kind where no other is to be made.
+    /// Returns the paint of a source. If `quick` is true, it makes no tables and uses the general function
+    /// instead.
     #[inline(never)]
     pub(crate) fn new<S: Simd>(
         simd: S,
@@ -138,7 +140,7 @@ impl Paint {
         }
     }
 
-    /// Returns the paint of a source that is discarded.
+    /// Returns the paint of a discarded source.
     fn nothing() -> Self {
         Self {
             kernel: Kernel::Keep,
@@ -179,7 +181,7 @@ impl Blending {
                 }
             }
         }
-        // Bytes that no channel has are not read.
+        // Bytes without a channel are not read.
         table[count..].fill([0; CODES]);
         if let Some(bits) = bits(&table, &self.layout) {
             return Kernel::of_bits(bits);
@@ -194,11 +196,11 @@ impl Blending {
         }
     }
 
-    /// Returns the function of texels that are fetched from channels.
+    /// Returns the function of texels that are fetched from these channels.
     fn varying(self, fetched: &[ChannelEncoding]) -> Kernel {
         let replaces = self.target.blend.is_none() && self.logic.is_none();
         let all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
-        // Codes of 8 unsigned normalized bits are those of their values.
+        // The code of an 8-bit unsigned normalized value determines the value and vice versa.
         let same = fetched == UNORM.0 && *self.channels == UNORM.0;
         if replaces && all && same && !self.alpha_to_one {
             Kernel::Copy
@@ -214,7 +216,7 @@ impl Blending {
         }
     }
 
-    /// Returns the function of bits that colours are stored by without blending, logic operations among them.
+    /// Returns the bit function that stores colours without blending, including logic operations.
     fn bits<S: Simd>(&self, simd: S) -> Bits {
         let of = |code: u32| {
             let new = self.codes(simd, &self.channels().0.map(|e| [code & e.mask(); LANES]));
@@ -239,7 +241,7 @@ impl Blending {
             || !(other(src_factor) || other(dst_factor))
     }
 
-    /// Returns the linear function that is equal to a table, if one was found.
+    /// Returns the linear function that equals a table, if one was found.
     #[inline(always)]
     fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
         let blended = |code: u32| {
@@ -255,7 +257,8 @@ impl Blending {
         Linear::fitted(table, slopes)
     }
 
-    /// Returns the blend as weights, if it is one and each channel has 8 unsigned normalized bits.
+    /// Returns the blend as weights, if weights can express it and each channel has 8 unsigned normalized
+    /// bits.
     fn weights(&self) -> Option<Weights> {
         let blend = self.target.blend.filter(|_| self.logic.is_none())?;
         let unorm = self.channels.iter().all(|e| *e == UNORM.0[0]);
@@ -269,7 +272,7 @@ impl Blending {
         .filter(|_| unorm)
     }
 
-    /// Returns the blend as an affine function, if it is one.
+    /// Returns the blend as an affine function, if an affine function can express it.
     fn affine(&self) -> Option<Affine> {
         let blend = self.target.blend.filter(|_| self.logic.is_none())?;
         let mut terms = [None; 4];
@@ -292,7 +295,7 @@ impl Blending {
             src_factor,
             dst_factor,
         } = component;
-        // Of two numbers one of which is 0 the plain arithmetic gives the other, with its sign.
+        // If one of two numbers is 0, the plain arithmetic gives the other, with its sign.
         let alone = |operation, src_factor, dst_factor, stored: f32| {
             let component = BlendComponent {
                 operation,
@@ -348,7 +351,7 @@ impl Blending {
         })
     }
 
-    /// Returns the inputs of a blend, without the destination.
+    /// Returns the inputs of a blend, with a destination of zeros.
     #[inline(always)]
     fn input(&self) -> BlendInput<Real> {
         let Constants {
@@ -378,14 +381,14 @@ impl Blending {
         }
     }
 
-    /// Returns blended colours before they are stored, of the destination's codes channel by channel.
+    /// Returns the blended colours before they are stored, from the destination's codes by channel.
     #[inline(always)]
     fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
         let mut input = self.input();
         let Some(state) = &self.target.blend else {
             return input.src;
         };
-        // A loop, since closures of arrays would not be inlined.
+        // A loop, because closures over arrays would not be inlined.
         input.dst[3] = [Faithful.missing_alpha(state); LANES];
         for (c, dst) in input.dst.iter_mut().enumerate().take(count) {
             *dst = Faithful.color_value(encodings[c], codes[c]);
@@ -401,13 +404,13 @@ impl Blending {
         (all, count)
     }
 
-    /// Returns the codes after the function, channel by channel. A function of its own: it is large.
+    /// Returns the codes after the function, by channel. It is large, so it is not inlined.
     #[inline(never)]
     fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
         simd.vectorize(
             #[inline(always)]
             || {
-                // The same for all channels, and known to the compiler.
+                // All channels have the same encoding, and the compiler knows it.
                 if *self.channels == UNORM.0 {
                     self.codes_of(UNORM, old)
                 } else {
@@ -434,7 +437,7 @@ impl Blending {
         result
     }
 
-    /// Applies the function to lanes of a sample's planes, where a mask holds.
+    /// Applies the function to lanes of a sample's planes, in the lanes of a mask.
     #[inline(always)]
     fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: Mask) {
         let fields = self.layout.fields();
@@ -469,7 +472,7 @@ impl Kernel {
         }
     }
 
-    /// Returns true if the function leaves every texel as it is.
+    /// Returns true if the function keeps every texel.
     pub(crate) fn keeps(&self) -> bool {
         matches!(self, Self::Keep)
     }
@@ -527,8 +530,8 @@ impl Kernel {
         }
     }
 
-    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`], unless it
-    /// is one of fetched texels: those are drawn as fragments.
+    /// Applies the function to the first texels of a sample's planes. Their number must be a multiple of
+    /// [`LANES`]. Functions of fetched texels do nothing here, since these are drawn as fragments.
     #[inline(never)]
     pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         simd.vectorize(
@@ -563,7 +566,7 @@ impl Kernel {
     }
 }
 
-/// Returns the function of bits that is equal to tables in all codes, if there is one.
+/// Returns the bit function that equals the tables for all codes, if there is one.
 fn bits(tables: &[[u8; CODES]; 4], layout: &Layout) -> Option<Bits> {
     let equal = |table: &[u8; CODES]| {
         let (and, xor) = (table[0] ^ table[CODES - 1], table[0]);

@@ -1,4 +1,4 @@
-//! The choice of kernels: once per draw, when a scene is prepared.
+//! The choice of kernels, made once per draw when a scene is prepared.
 
 use super::resolve::Resolve;
 use crate::lanes::LANES;
@@ -15,7 +15,8 @@ use etalon_scene::{
     StencilState, Vertex,
 };
 
-/// The farthest that a vertex may lie from the window's corner, in texels: beyond it the kernels' integers overflow.
+/// The largest distance of a vertex from the window's corner in texels. Beyond it, the kernels' integers
+/// overflow.
 const FARTHEST: f32 = 16384.0;
 
 /// The kernels of a scene.
@@ -29,18 +30,18 @@ pub(crate) struct Plan {
 pub(crate) struct PassPlan {
     /// The colour attachment.
     pub(crate) color: Option<usize>,
-    /// The attachment that it is resolved to, and how.
+    /// The attachment that the colour attachment is resolved to, and how.
     pub(crate) resolve: Option<(usize, Resolve)>,
-    /// The attachment of depth and stencil.
+    /// The depth-stencil attachment.
     pub(crate) depth_stencil: Option<usize>,
     pub(crate) size: [usize; 2],
     /// The positions of samples in a texel, in sub-texel units.
     pub(crate) positions: Vec<[i32; 2]>,
     /// The channels of the colour attachment.
     pub(crate) channels: &'static [ChannelEncoding],
-    /// True if logic operations apply to it.
+    /// True if logic operations apply to the colour attachment.
     pub(crate) logic: bool,
-    /// The colour attachments behind the first.
+    /// The colour attachments after the first.
     pub(crate) others: Vec<TargetPlan>,
     pub(crate) depth: Option<ChannelEncoding>,
     pub(crate) draws: Vec<DrawPlan>,
@@ -51,38 +52,39 @@ pub(crate) struct PassPlan {
 pub(crate) struct TargetPlan {
     pub(crate) index: usize,
     pub(crate) channels: &'static [ChannelEncoding],
-    /// True if logic operations apply to it.
+    /// True if logic operations apply to the attachment.
     pub(crate) logic: bool,
 }
 
 /// The kernels of a draw.
 #[derive(Debug)]
 pub(crate) struct DrawPlan {
-    /// Its place in the pass.
+    /// The index of the draw in the pass.
     pub(crate) index: usize,
     pub(crate) shading: Shading,
-    /// Left, top, right and bottom of the texels whose sample may be written, sample by sample; the last two are
-    /// exclusive.
+    /// The left, top, right and bottom edges of the texels whose sample can be written, one rectangle per
+    /// sample. Right and bottom are exclusive.
     pub(crate) rects: Vec<[i32; 4]>,
-    /// The rectangle around all of them.
+    /// The smallest rectangle that contains all of them.
     pub(crate) bounds: [i32; 4],
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil: Option<StencilState>,
-    /// True if triangles may lie wholly before the near or behind the far plane, so that nothing of them is drawn.
+    /// True if whole triangles might be in front of the near plane or behind the far plane, and are then not
+    /// drawn.
     pub(crate) rejects: bool,
-    /// The runs of vertices or indices of which every three are a triangle whose first vertex is flat over it; `None` if
-    /// they are none.
+    /// The runs of whole triangles whose first vertex is the provoking vertex; `None` if the topology is not
+    /// such a list.
     pub(crate) runs: Option<Vec<PrimitiveRun>>,
 }
 
-/// Neighbouring primitives of a list, which a restart ends.
+/// Consecutive primitives of a list, up to a restart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PrimitiveRun {
-    /// The number of its first primitive.
+    /// The number of the run's first primitive.
     pub(crate) first: usize,
     /// The number of primitives.
     pub(crate) count: usize,
-    /// The place of its first vertex or index.
+    /// The index of the first vertex or index.
     pub(crate) at: usize,
 }
 
@@ -109,36 +111,36 @@ impl PrimitiveRun {
     }
 }
 
-/// The source of a triangle's colour, which is constant over it unless it is a texture's.
+/// The source of a triangle's colour, which is constant over the triangle unless it is a texture's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shading {
-    /// The provoking vertex's.
+    /// The provoking vertex's colour.
     Vertex,
-    /// The provoking vertex's, after so many steps of work for each texel.
+    /// The provoking vertex's colour, after this many steps of work for each texel.
     Expensive(f32),
-    /// The provoking vertex's, if its alpha is not below a limit; nothing is drawn otherwise.
+    /// The provoking vertex's colour, unless its alpha is below a limit; then nothing is drawn.
     Kept(f32),
-    /// The parameters' first, at the depth that is the provoking vertex's red.
+    /// The first colour of the parameters, at the depth that the provoking vertex's red gives.
     Depth,
-    /// The parameters' first or second, by facing.
+    /// The first or second colour of the parameters, depending on the facing.
     Facing,
-    /// The parameters' first.
+    /// The first colour of the parameters.
     Uniform,
-    /// None: zeros.
+    /// No source; the colour is zeros.
     Nothing,
-    /// The texels of one or two textures at the place that is drawn.
+    /// The texels of one or two textures at the position that is drawn.
     Texels(Fetched, Option<Fetched>),
-    /// The nearest texels of a texture, of the format that is drawn to.
+    /// The nearest texels of a texture that has the attachment's format.
     Texture {
         /// The texture's attachment.
         index: usize,
         address: [AddressMode; 2],
-        /// The least alpha that is not discarded; 256 if all are.
+        /// The least alpha that is not discarded; 256 if all texels are discarded.
         kept: u32,
     },
 }
 
-/// A texture whose texels are fetched where they are drawn.
+/// A texture whose texels are fetched at the position that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fetched {
     /// The texture's attachment.
@@ -150,7 +152,8 @@ pub(crate) struct Fetched {
 pub(crate) type Reason = &'static str;
 
 impl Plan {
-    /// Returns the kernels of a scene whose pictures have at least so many texels.
+    /// Returns the kernels of a scene whose largest picture has at least `least` texels, or the reason why it
+    /// has no kernels.
     pub(crate) fn new(scene: &Scene, least: usize) -> Result<Self, Reason> {
         if scene.pool.is_some() {
             return Err("a pool");
@@ -224,7 +227,8 @@ impl DrawPlan {
         pass: &PassPlan,
         stencil: bool,
     ) -> Result<Self, Reason> {
-        // Forced early tests store what the shader discards, and a depth that it does not write.
+        // Forced early tests also store for fragments that the shader discards, and store a depth that it
+        // does not write.
         let late = draw.early_tests == EarlyTests::Implicit;
         let shading = match draw.shader {
             Shader::FlatColor => Shading::Vertex,
@@ -269,16 +273,16 @@ impl DrawPlan {
             front && x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture
         });
         if !near {
-            return Err("far outside, or behind the eye");
+            return Err("vertices far outside, or behind the eye");
         }
         let w = draw.mesh.vertices.iter().map(|v| v.position[3]);
         if draw.shader.uses_uv() && w.clone().any(|w| w != draw.mesh.vertices[0].position[3]) {
-            return Err("coordinates in perspective");
+            return Err("texture coordinates in perspective");
         }
         let clips = |v: &Vertex| Behind::of(v).is_some();
         let rejects = !draw.depth_clamp && draw.mesh.vertices.iter().any(clips);
         if rejects && draw.primitives().iter().any(|p| is_cut(draw, p)) {
-            return Err("clipped by the near or the far plane");
+            return Err("triangles cut by the near or far plane");
         }
         let drawn = bounds(draw, size).map(|v| v as i32);
         let rects: Vec<_> = pass
@@ -310,7 +314,7 @@ impl DrawPlan {
     }
 }
 
-/// The plane of the clip volume behind which a vertex lies, if it lies behind one of these.
+/// The plane of the clip volume that a vertex is beyond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Behind {
     Near,
@@ -318,7 +322,7 @@ pub(crate) enum Behind {
 }
 
 impl Behind {
-    /// Returns the plane behind which a vertex lies, if it is the near or the far one.
+    /// Returns the plane that a vertex is beyond, if it is the near or the far plane.
     pub(crate) fn of(vertex: &Vertex) -> Option<Self> {
         let [.., z, w] = vertex.position;
         if z < 0.0 {
@@ -331,7 +335,7 @@ impl Behind {
     }
 }
 
-/// Returns true if the near or the far plane may cut a primitive.
+/// Returns true if the near or the far plane might cut a primitive.
 fn is_cut(draw: &Draw, primitive: &PrimitiveVertices) -> bool {
     let PrimitiveVertices::Triangle(triangle) = primitive else {
         return true;
@@ -342,7 +346,7 @@ fn is_cut(draw: &Draw, primitive: &PrimitiveVertices) -> bool {
     !(w && a == b && a == c)
 }
 
-/// Returns the shading by texels of textures that are as large as the attachments.
+/// Returns the shading by the texels of textures that have the attachments' size.
 fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason> {
     let fetched = |place: usize| match draw.textures.get(place) {
         Some(index) => {
@@ -363,12 +367,12 @@ fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason>
         return Err("a texture of another size, or of depths");
     }
     if draw.sampler.is_some() || draw.alpha_to_coverage() {
-        return Err("texels that are sampled or cover a part");
+        return Err("fetched texels with a sampler or alpha to coverage");
     }
     Ok(Shading::Texels(first, second))
 }
 
-/// Returns the shading by a texture, whose codes are stored as they are.
+/// Returns the shading by a texture whose codes are stored unchanged.
 fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reason> {
     let (Some(index), Some(sampler)) = (draw.textures.first(), draw.sampler) else {
         return Err("a shader without its texture");
@@ -398,10 +402,10 @@ fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reaso
     })
 }
 
-/// Returns the texels of a rectangle whose sample at a position lies in the viewport.
+/// Returns the texels of a rectangle whose sample, at a position in the texel, is inside the viewport.
 fn rect(draw: &Draw, [left, top, right, bottom]: [i32; 4], position: [i32; 2]) -> [i32; 4] {
     let [x, y, w, h] = draw.viewport.area();
-    // `as` saturates; the number of texels is far less.
+    // `as` saturates; the number of texels is far smaller.
     let edge = |v: f32, position: i32| {
         let edge = (v * UNITS as f32).ceil() as i64 - i64::from(position);
         // The quotient is rounded up.

@@ -1,13 +1,13 @@
-//! Planes: one channel of several groups of texels, decoded and encoded at once.
+//! Planes: one channel of several groups of texels, decoded and encoded together.
 
 use crate::lanes::LANES;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain, srgb_codes, srgb_values};
 
-/// The groups that are blended at once.
+/// The number of groups that are blended together.
 pub(crate) const GROUPS: usize = 8;
 
-/// The texels of the groups.
+/// The number of texels of the groups.
 pub(crate) const TEXELS: usize = GROUPS * LANES;
 
 /// The values of one channel.
@@ -16,8 +16,8 @@ pub(crate) type Plane = [f32; TEXELS];
 /// The codes of one channel, or words.
 pub(crate) type CodePlane = [u32; TEXELS];
 
-/// Runs code once with an encoding, in a branch of its own where it is common, so that the compiler knows it. Branches are
-/// patterns: of what comparisons exclude the compiler makes nothing.
+/// Runs code once with an encoding. A common encoding has a branch of its own, in which the compiler knows
+/// it. The branches are patterns, since the compiler does not use what comparisons exclude.
 macro_rules! with_encoding {
     ($encoding:expr, |$known:ident| $run:expr) => {{
         use etalon_frame::ChannelEncoding::{Float16, Float32, Ufloat, Unorm};
@@ -40,7 +40,7 @@ macro_rules! with_encoding {
 }
 pub(crate) use with_encoding;
 
-/// Gives the values of codes.
+/// Computes the values of codes.
 #[inline(always)]
 pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
     if encoding == ChannelEncoding::Srgb8 {
@@ -53,20 +53,20 @@ pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plan
     });
 }
 
-/// Gives the values of sRGB codes. A function of its own, so that it is compiled without gathers: they take longer than
-/// loads one by one.
+/// Computes the values of sRGB codes. It is not inlined, so that it is compiled without gathers, which take
+/// longer than single loads.
 #[inline(never)]
 fn decode_srgb(codes: &[u32], values: &mut Plane) {
     srgb_values(codes, values);
 }
 
-/// Gives the sRGB codes of values, like [`decode_srgb`].
+/// Computes the sRGB codes of values. It is not inlined, like [`decode_srgb`].
 #[inline(never)]
 fn encode_srgb(values: &[f32], codes: &mut CodePlane) {
     srgb_codes(values, codes);
 }
 
-/// Gives the codes of values.
+/// Computes the codes of values.
 #[inline(always)]
 pub(crate) fn encode(encoding: ChannelEncoding, values: &[f32], codes: &mut CodePlane) {
     if encoding == ChannelEncoding::Srgb8 {

@@ -1,4 +1,4 @@
-//! The resolve of colours: the average of a texel's samples.
+//! The resolve of colours, which averages a texel's samples.
 
 use super::image::AREA;
 use super::layout::Layout;
@@ -7,7 +7,7 @@ use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
 
-/// True if the average of equal samples is known to be their code, for all codes of these channels.
+/// Returns true if the average of equal samples has their code, for all codes of these channels.
 fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
     let share = 1.0 / samples as f32;
     let small = |e: &ChannelEncoding| matches!(e, Unorm(..=10) | Srgb8);
@@ -21,7 +21,7 @@ fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
     channels.iter().all(small) && channels.iter().all(same)
 }
 
-/// Returns the average of the samples of one channel, whose codes a function gives.
+/// Returns the average of the samples of one channel. `codes` gives the codes of a sample.
 #[inline(always)]
 fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> Codes) -> Codes {
     // Integers resolve to one sample.
@@ -44,12 +44,12 @@ pub(crate) struct Resolve {
     channels: &'static [ChannelEncoding],
     layout: Layout,
     samples: usize,
-    /// True if the average of equal samples is known to be their code.
+    /// True if the average of equal samples has their code.
     known: bool,
 }
 
 impl Resolve {
-    /// Returns the resolve of so many samples of these channels.
+    /// Returns the resolve of this many samples of these channels.
     pub(crate) fn new(channels: &'static [ChannelEncoding], samples: usize) -> Self {
         Self {
             channels,
@@ -59,7 +59,8 @@ impl Resolve {
         }
     }
 
-    /// Resolves the planes of a tile. With `same` the first sample stands for all.
+    /// Resolves the planes of a tile. If `same` is true, only the first sample is in memory, and all are
+    /// equal to it.
     #[inline(never)]
     pub(crate) fn tile<S: Simd>(&self, simd: S, planes: &[u32], same: bool, resolved: &mut [u32]) {
         simd.vectorize(

@@ -19,10 +19,10 @@ use fearless_simd::{Level, dispatch};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// The least vertices or primitives that are shared between threads.
+/// The smallest number of vertices or primitives that threads share.
 const SHARED: usize = 4096;
 
-/// The least draws whose triangles are shared between threads.
+/// The smallest number of draws whose triangles threads share.
 const DRAWS: usize = 64;
 
 /// The vector instructions and the threads that kernels use.
@@ -33,7 +33,7 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// Returns all that this machine has.
+    /// Returns everything that this machine has.
     pub(crate) fn whole() -> Self {
         Self {
             level: Level::new(),
@@ -68,7 +68,7 @@ impl TiledScene {
         }
     }
 
-    /// Clears what load operations clear.
+    /// Performs the clears of load operations.
     fn load(&mut self, pass: usize) {
         let pass = &self.scene.passes[pass];
         for (location, index) in pass.color.iter().enumerate() {
@@ -192,14 +192,14 @@ impl TiledScene {
     }
 }
 
-/// Returns an aspect's memory tile by tile, of so many planes each.
+/// Returns an aspect's memory tile by tile, with this many planes per tile.
 fn chunks<T>(memory: Option<&mut [T]>, planes: usize) -> std::slice::ChunksExactMut<'_, T> {
     memory
         .unwrap_or_default()
         .chunks_exact_mut(planes.max(1) * AREA)
 }
 
-/// Returns the vertices and primitives of a pass's draws.
+/// Returns the vertices and primitives of the pass's draws.
 fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &'a [Image]) -> Vec<Input<'a>> {
     let (mut base, mut first) = (0, 0);
     let mut all = Vec::with_capacity(plan.draws.len());
@@ -237,7 +237,7 @@ fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
     }
 }
 
-/// Sets up the triangles of a pass. Returns the used parts, in the order of drawing.
+/// Sets up the triangles of a pass. Returns the parts that are used, in drawing order.
 fn set_up<'p>(
     machine: Machine,
     pass: &PassPlan,
@@ -247,7 +247,7 @@ fn set_up<'p>(
 ) -> &'p [Part] {
     let tiles = pass.size.map(|s| s.div_ceil(TILE)).iter().product();
     let count = inputs.last().map_or(0, |i| i.first + i.count);
-    // A draw costs more than a triangle: its functions of codes are made.
+    // A draw costs more than a triangle, since its functions of codes are made.
     let shared = count >= SHARED || inputs.len() >= DRAWS;
     let used = if shared { parts.len() } else { 1 };
     let each = count.div_ceil(used);
@@ -260,7 +260,7 @@ fn set_up<'p>(
     &parts[..used]
 }
 
-/// Draws tiles, each on the thread that is free first.
+/// Draws tiles. Each thread takes the next tile when it is free.
 fn draw_tiles(
     machine: Machine,
     pass: &PassPlan,
@@ -304,7 +304,7 @@ impl Prepared for TiledScene {
             self.images[index].codes(aspect, channels, self.machine.threads)
         };
         let mut frame = frame(&self.scene, self.submitted, codes)?;
-        // No draw with kernels counts anything.
+        // No draw with kernels has counters.
         frame.counters = vec![0; self.scene.counters.len()];
         Ok(frame)
     }

@@ -19,24 +19,24 @@ use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVert
 use fearless_simd::Simd;
 use std::ops::Range;
 
-/// The distinct colours of a blending draw for each of which a function of codes is made.
+/// The number of distinct colours of a blending draw for which functions of codes are made.
 const FUNCTIONS: usize = 64;
 
-/// The paints that are known to later draws of a pass.
+/// The number of paints that later draws of a pass can find.
 const KNOWN: usize = 64;
 
-/// The triangles of a range of a pass's primitives. Neighbours are filled by different threads, so that none may share
-/// a cache line.
+/// The triangles of a range of a pass's primitives. Different threads fill adjacent parts, which must not
+/// share a cache line.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct Part {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) paints: Vec<Paint>,
-    /// The first paints of draws, with all that they depend on.
+    /// The first paints of draws, with everything that they depend on.
     known: Vec<(Ingredients, u32)>,
     /// The properties that few triangles have.
     rare: Vec<Rare>,
-    /// The entries of each tile, in the order of drawing.
+    /// The entries of each tile, in drawing order.
     pub(crate) bins: Vec<Vec<Entry>>,
 }
 
@@ -49,37 +49,37 @@ impl Entry {
         Self((triangle as u32) << 1 | u32::from(whole))
     }
 
-    /// Returns the place of the triangle in its part.
+    /// Returns the index of the triangle in its part.
     pub(crate) fn triangle(self) -> usize {
         (self.0 >> 1) as usize
     }
 
-    /// Returns true if it covers all samples of the tile.
+    /// Returns true if the triangle covers all samples of the tile.
     pub(crate) fn is_whole(self) -> bool {
         self.0 & 1 != 0
     }
 }
 
-/// A draw's vertices and primitives.
+/// The vertices and primitives of a draw.
 #[derive(Debug)]
 pub(crate) struct Input<'a> {
     pub(crate) draw: &'a Draw,
     pub(crate) plan: &'a DrawPlan,
-    /// The place of its first vertex among those of the pass.
+    /// The index of the first vertex among the pass's vertices.
     pub(crate) base: usize,
-    /// The number of its first primitive in the pass.
+    /// The number of the first primitive in the pass.
     pub(crate) first: usize,
     pub(crate) count: usize,
-    /// Vertices and provoking vertex of each primitive, unless the draw is a list.
+    /// The vertices and the provoking vertex of each primitive; empty if the plan has runs.
     pub(crate) primitives: Vec<([usize; 3], usize)>,
     /// The texture that the draw's shader samples.
     pub(crate) texture: Option<Texture>,
-    /// Those that it fetches from.
+    /// The textures that the draw's shader fetches from.
     pub(crate) texels: Option<Texels<'a>>,
 }
 
 impl<'a> Input<'a> {
-    /// Returns the input of a draw whose vertices and primitives stand behind others.
+    /// Returns the input of a draw. `base` and `first` are the numbers of vertices and primitives before it.
     pub(crate) fn new(
         draw: &'a Draw,
         plan: &'a DrawPlan,
@@ -120,7 +120,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Returns vertices and provoking vertex of a primitive in its run.
+    /// Returns the vertices and the provoking vertex of a primitive in its run.
     #[inline(always)]
     fn primitive(&self, run: &PrimitiveRun, number: usize) -> ([usize; 3], usize) {
         if self.plan.runs.is_none() {
@@ -143,7 +143,7 @@ impl<'a> Input<'a> {
 pub(crate) fn place(draw: &Draw, vertices: &[Vertex], placed: &mut [Placed]) {
     for (vertex, placed) in vertices.iter().zip(placed) {
         let [[x], [y], [z]] = window_position(&mut Plain::<1>, vertex.position, &draw.viewport);
-        // The plan has vertices near the window only.
+        // The plan only has vertices near the window.
         let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i32;
         *placed = Placed {
             at: [snap(x), snap(y)],
@@ -153,7 +153,7 @@ pub(crate) fn place(draw: &Draw, vertices: &[Vertex], placed: &mut [Placed]) {
 }
 
 impl Part {
-    /// Empties the part for a pass of so many tiles.
+    /// Empties the part for a pass with this many tiles.
     pub(crate) fn clear(&mut self, tiles: usize) {
         self.triangles.clear();
         self.paints.clear();
@@ -163,7 +163,7 @@ impl Part {
         self.bins.resize_with(tiles, Vec::new);
     }
 
-    /// Returns the properties of a triangle that few have.
+    /// Returns a triangle's properties that few triangles have.
     #[inline(always)]
     pub(crate) fn rare(&self, triangle: &Triangle) -> Rare {
         self.rare
@@ -172,7 +172,7 @@ impl Part {
             .unwrap_or_default()
     }
 
-    /// Sets up and sorts the primitives of a range of the pass's numbers.
+    /// Sets up and sorts the primitives whose numbers in the pass are in a range.
     #[inline(always)]
     pub(crate) fn set_up<S: Simd>(
         &mut self,
@@ -187,7 +187,7 @@ impl Part {
             let end = range.end.clamp(start, input.first + input.count);
             let mut draw = SetUp::new(simd, pass, input, number, self);
             let (start, end) = (start - input.first, end - input.first);
-            // Primitives that are not listed are one run.
+            // Without runs, all primitives are one run.
             let whole = [PrimitiveRun {
                 first: 0,
                 count: input.count,
@@ -209,7 +209,7 @@ impl Part {
     }
 }
 
-/// What a paint is made of, within a pass.
+/// Everything within a pass that a paint depends on.
 #[derive(Debug, PartialEq)]
 struct Ingredients {
     color: [u32; 4],
@@ -239,7 +239,7 @@ impl Ingredients {
     }
 }
 
-/// The set-up of a draw's triangles.
+/// The setup of a draw's triangles.
 struct SetUp<'a, S> {
     simd: S,
     pass: &'a PassPlan,
@@ -247,11 +247,11 @@ struct SetUp<'a, S> {
     plan: &'a DrawPlan,
     number: usize,
     part: &'a mut Part,
-    /// The first of the draw's paints.
+    /// The index of the draw's first paint.
     first: usize,
-    /// The last code of a flat triangle's depths, with depth and bias.
+    /// The depth and bias of the last flat triangle, and their code.
     code: Option<([u64; 2], u32)>,
-    /// The last paint with its colour.
+    /// The last paint, with its colour.
     last: Option<([u32; 4], u32)>,
     /// The least and the greatest offset of samples across and down.
     samples: [[i32; 2]; 2],
@@ -288,7 +288,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
     #[inline(always)]
     fn triangle(&mut self, vertices: [usize; 3], corners: [Placed; 3], provoking: usize) {
         let [a, b, c] = corners.map(|v| v.at);
-        // The extents of small triangles, and of most others, are small enough for the product.
+        // The extents of small triangles, and of most others, are small enough that the product fits.
         let area = (i64::from(b[1]) - i64::from(a[1])) * (i64::from(c[0]) - i64::from(a[0]))
             - (i64::from(b[0]) - i64::from(a[0])) * (i64::from(c[1]) - i64::from(a[1]));
         if area == 0 || self.plan.rejects && self.is_behind(vertices) {
@@ -304,8 +304,8 @@ impl<'a, S: Simd> SetUp<'a, S> {
             [a.min(b).min(c), a.max(b).max(c)]
         };
         let (wide, high) = (extent(0), extent(1));
-        // The first texel with a sample at or behind the least coordinate, and the last one with a sample before the
-        // greatest.
+        // The first texel with a sample at or after the least coordinate, and the last texel with a sample
+        // before the greatest.
         let texels = |[low, high]: [i32; 2], [first, last]: [i32; 2]| {
             [
                 -(last - low).div_euclid(units),
@@ -335,7 +335,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
             self.bias(&corners)
         };
         let around = around.map(|v| v as i16);
-        // Samples of a texel have rectangles of their own, which differ by a texel at most.
+        // Each sample of a texel has its own rectangle; they differ by at most one texel.
         let cut = left <= bounds[0] + 1
             || top <= bounds[1] + 1
             || right >= bounds[2] - 2
@@ -348,7 +348,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         } else {
             u32::MAX
         };
-        // What covers a tile is wider and higher.
+        // A triangle that covers a tile is wider and higher than the tile.
         let side = TILE as i32 * units;
         let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
         let tiles = around.map(|v| v as usize / TILE);
@@ -381,12 +381,13 @@ impl<'a, S: Simd> SetUp<'a, S> {
         self.sort(index, &triangle, covers);
     }
 
-    /// True if a triangle lies before the near or behind the far plane. None is cut by them.
+    /// Returns true if a triangle is in front of the near plane or behind the far plane. The plan has no
+    /// triangle that they cut.
     fn is_behind(&self, [vertex, ..]: [usize; 3]) -> bool {
         Behind::of(&self.draw.mesh.vertices[vertex]).is_some()
     }
 
-    /// Returns the depth that the shader writes, if it writes one.
+    /// Returns the depth that the shader writes, if it writes depth.
     #[inline(always)]
     fn exported(&self, provoking: usize) -> Option<f32> {
         match self.plan.shading {
@@ -395,7 +396,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         }
     }
 
-    /// Returns the code of a flat triangle's depths.
+    /// Returns the depth code of a flat triangle.
     #[inline(always)]
     fn code(&mut self, encoding: ChannelEncoding, depth: f32, bias: f64) -> u32 {
         let of = [u64::from(depth.to_bits()), bias.to_bits()];
@@ -410,7 +411,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         code
     }
 
-    /// Returns the bias of a triangle's depths.
+    /// Returns the depth bias of a triangle.
     #[inline(always)]
     fn bias(&self, corners: &[Placed; 3]) -> f64 {
         let state = &self.draw.depth_bias;
@@ -427,13 +428,13 @@ impl<'a, S: Simd> SetUp<'a, S> {
         )
     }
 
-    /// Returns the place of the paint of a triangle.
+    /// Returns the index of a triangle's paint.
     #[inline(always)]
     fn paint(&mut self, front: bool, provoking: usize) -> u32 {
         let params = &self.draw.params;
         let color = match self.plan.shading {
             Shading::Vertex => self.draw.mesh.vertices[provoking].color,
-            // The work adds 0.
+            // The shader's work adds 0.
             Shading::Expensive(_) | Shading::Kept(_) => {
                 self.draw.mesh.vertices[provoking].color.map(|v| v + 0.0)
             }
@@ -450,7 +451,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
 
     fn new_paint(&mut self, color: [f32; 4]) -> u32 {
         let bits = color.map(f32::to_bits);
-        // Draws mostly have one colour, and one of few states.
+        // Most draws have one colour, and few different states.
         let first = self.last.is_none();
         let ingredients = Ingredients::new(self.draw, self.plan.shading, bits);
         if first {
@@ -478,7 +479,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         place
     }
 
-    /// Adds a triangle, which may cover tiles, to those that it touches.
+    /// Adds a triangle to the tiles that it touches. `covers` is true if it might cover whole tiles.
     #[inline(always)]
     fn sort(&mut self, index: usize, triangle: &Triangle, covers: bool) {
         let [left, top, right, bottom] = triangle.around.map(|v| v as usize / TILE);
@@ -505,7 +506,8 @@ impl<'a, S: Simd> SetUp<'a, S> {
     }
 }
 
-/// Returns left, top, right and bottom of a tile's texels that the attachment has; the last two are exclusive.
+/// Returns the left, top, right and bottom edges of a tile's texels in the attachment. Right and bottom are
+/// exclusive.
 pub(crate) fn tile_texels(pass: &PassPlan, [x, y]: [usize; 2]) -> [i32; 4] {
     let [width, height] = pass.size;
     let (left, top) = (x * TILE, y * TILE);

@@ -1,4 +1,4 @@
-//! The kernels against the span code.
+//! Comparisons of the kernels with the span code.
 
 use super::{Machine, Plan, TiledScene};
 use crate::PreparedScene;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The vector instructions that this machine has, by name.
+/// Returns the sets of vector instructions that this machine has, with their names.
 fn levels() -> Vec<(&'static str, Level)> {
     let best = Level::new();
     let mut all = Vec::new();
@@ -33,14 +33,14 @@ fn levels() -> Vec<(&'static str, Level)> {
 }
 
 fn drawn(mut prepared: impl Prepared) -> Frame {
-    // The second submission meets the memory of the first.
+    // The second submission finds the memory that the first left.
     prepared.submit().expect("draws");
     prepared.submit().expect("draws");
     prepared.read_back().expect("reads")
 }
 
-/// Returns the first difference between the frames of the kernels and those of the span code, if the scene has
-/// kernels; the reason why it has none otherwise.
+/// Returns the first difference between the frames of the kernels and the frame of the span code, if the
+/// scene has kernels, or else the reason why it has none.
 fn compare(
     scene: &Scene,
     machines: &[(&'static str, Machine)],
@@ -90,7 +90,7 @@ fn difference(frame: &Frame, due: &Frame) -> String {
     "shapes".to_owned()
 }
 
-/// Every level, each with one of three numbers of threads.
+/// Returns every level, each with one of three numbers of threads.
 fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
     let all = levels().into_iter().enumerate();
     all.map(|(i, (name, level))| {
@@ -100,7 +100,7 @@ fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
     .collect()
 }
 
-/// One level with one number of threads; all pairs of them in turn.
+/// Returns one level with one number of threads. Consecutive turns go through all pairs.
 fn machine(turn: usize) -> Vec<(&'static str, Machine)> {
     let levels = levels();
     let (name, level) = levels[turn % levels.len()];
@@ -108,10 +108,10 @@ fn machine(turn: usize) -> Vec<(&'static str, Machine)> {
     vec![(name, Machine { level, threads })]
 }
 
-/// The scenes of which a test compares the pictures.
+/// The scenes whose pictures a test compares.
 type Scenes = Vec<(String, Scene)>;
 
-/// Compares the pictures of scenes, on two threads. Returns the number of scenes with kernels.
+/// Compares the pictures of scenes on two threads. Returns the number of scenes that have kernels.
 fn compare_all(
     count: usize,
     scenes: impl Fn(usize) -> Scenes + Sync,
@@ -165,7 +165,7 @@ struct Found {
     reasons: BTreeMap<&'static str, usize>,
 }
 
-/// Returns a scene with all sizes multiplied; `None` if it has texels of its own.
+/// Returns a scene with all sizes multiplied, or `None` if it has uploaded texels.
 fn enlarged(mut scene: Scene, by: u32) -> Option<Scene> {
     for attachment in &mut scene.attachments {
         if matches!(attachment.contents, Contents::Texels(_)) {
@@ -182,7 +182,7 @@ fn enlarged(mut scene: Scene, by: u32) -> Option<Scene> {
     Some(scene)
 }
 
-/// Returns a scene whose formats and shaders have kernels, in turn.
+/// Returns a scene with formats and shaders that have kernels, chosen by turn.
 fn adapted(mut scene: Scene, turn: usize) -> Scene {
     use etalon_frame::TextureFormat::{
         Bgra8Unorm, R8Unorm, Rgba8Snorm, Rgba8Unorm, Rgba8UnormSrgb,
@@ -233,15 +233,15 @@ fn adapted(mut scene: Scene, turn: usize) -> Scene {
     scene
 }
 
-/// True if all cases are compared, otherwise a sample.
+/// Returns true if all cases are compared, false for a sample.
 fn all() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
 }
 
-/// Returns the scene of a case in a list; none where others stand for it.
+/// Returns the scene of a case in a list, or an empty list if other cases are compared instead.
 fn scene_of(case: &CaseRef<'_>, turn: usize) -> Scenes {
     let id = case.id();
-    // Smaller pictures stand for large ones, and most of the matrix is one scene in other formats.
+    // Smaller pictures replace large ones, and most of the matrix is one scene in different formats.
     let large = ["1280x720", "1920x1080", "1024x1024"];
     let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !all();
     if large.iter().any(|size| id.contains(size)) || one_of_many {
@@ -267,7 +267,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
 
 #[test]
 fn kernels_draw_random_scenes_in_many_tiles_as_spans_do() {
-    // Each is drawn in two sizes: 1,800 pictures, or 10,200.
+    // Each scene is drawn in two sizes: 1,800 pictures, or 10,200.
     let count = if all() { 1_700 } else { 300 };
     let files = ["common", "extended", "multisample"].map(|flavor| {
         let text = format!(

@@ -1,4 +1,4 @@
-//! Textures whose texels a shader fetches where it draws.
+//! Textures whose texels a shader fetches at the position that it draws.
 
 use super::image::{AREA, Image};
 use super::plan::Fetched;
@@ -6,7 +6,7 @@ use super::planes::{CodePlane, Plane, decode};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 
-/// Where a shader fetches its sources.
+/// The textures that a shader fetches from, at a tile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sources<'a> {
     texels: Option<&'a Texels<'a>>,
@@ -14,13 +14,14 @@ pub(crate) struct Sources<'a> {
 }
 
 impl<'a> Sources<'a> {
-    /// Returns those of a tile, of the textures that there are.
+    /// Returns the sources at a tile.
     #[inline(always)]
     pub(crate) fn new(texels: Option<&'a Texels<'a>>, tile: usize) -> Self {
         Self { texels, tile }
     }
 
-    /// Returns the words of the first texture's texels at a place of the tile's plane, if they have one.
+    /// Returns the words of the first texture's texels at an index of the tile's plane, which must be one
+    /// word each.
     #[inline(always)]
     pub(crate) fn words(&self, at: usize) -> Codes {
         match self.texels {
@@ -29,7 +30,7 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// Returns whether values of the first and of the second texture may lie below 0 or above 1.
+    /// Returns whether values of the first and of the second texture can be below 0 or above 1.
     #[inline(always)]
     pub(crate) fn exceed_unit(&self) -> [bool; 2] {
         let texels = self.texels;
@@ -39,7 +40,7 @@ impl<'a> Sources<'a> {
         ]
     }
 
-    /// Gives the values of the first texture's texels at places of the tile's plane, channel by channel.
+    /// Computes the values of the first texture's texels at indices of the tile's plane, by channel.
     #[inline(always)]
     pub(crate) fn first(&self, places: &[u16], values: &mut [Plane; 4]) {
         if let Some(texels) = self.texels {
@@ -47,7 +48,7 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// The same of the second texture, if there is one.
+    /// Computes the values of the second texture's texels, if there is a second texture.
     #[inline(always)]
     pub(crate) fn second(&self, places: &[u16], values: &mut [Plane; 4]) {
         if let Some(texture) = self.texels.and_then(|t| t.second.as_ref()) {
@@ -63,7 +64,7 @@ pub(crate) struct Texels<'a> {
     second: Option<Texture<'a>>,
 }
 
-/// A texture as large as the attachments.
+/// A texture of the attachments' size.
 #[derive(Clone, Copy, Debug)]
 struct Texture<'a> {
     image: &'a Image,
@@ -84,14 +85,14 @@ impl<'a> Texels<'a> {
 }
 
 impl Texture<'_> {
-    /// True if values may lie below 0 or above 1.
+    /// Returns true if values can be below 0 or above 1.
     #[inline(always)]
     fn exceeds_unit(&self) -> bool {
         use ChannelEncoding::{Srgb8, Unorm};
         !self.channels.iter().all(|e| matches!(e, Unorm(_) | Srgb8))
     }
 
-    /// Returns a word of texels at a place of a tile's plane.
+    /// Returns a word of the texels at an index of a tile's plane.
     #[inline(always)]
     fn plane(&self, tile: usize, at: usize, word: usize) -> Codes {
         if let Some(clear) = self.image.clear.color {
@@ -102,8 +103,8 @@ impl Texture<'_> {
         lanes[0]
     }
 
-    /// Gives the values of texels at places of a tile's plane; those of channels that the format lacks are 0, and 1 of
-    /// alpha.
+    /// Computes the values of texels at indices of a tile's plane. Channels that the format lacks are 0, and
+    /// alpha 1.
     #[inline(always)]
     fn values(&self, tile: usize, places: &[u16], values: &mut [Plane; 4]) {
         let (mut words, mut codes): (CodePlane, CodePlane) = ([0; _], [0; _]);

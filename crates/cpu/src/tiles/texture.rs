@@ -1,4 +1,4 @@
-//! Textures: their nearest texels, as they are stored.
+//! Textures whose nearest texels are stored unchanged.
 
 use super::image::Image;
 use super::triangle::{Triangle, point};
@@ -7,7 +7,7 @@ use crate::linear::{CENTER, UNITS};
 use etalon_pipeline::{DepthPlane, texel_position};
 use etalon_scene::{AddressMode, Draw};
 
-/// The whole numbers below it have 22 bits, which a float keeps beside twice to four times as much.
+/// The limit of whole numbers that have 22 bits, which a float keeps exactly after adding three times this.
 const WHOLE: f32 = 4_194_304.0;
 
 /// A texture's texels, row by row.
@@ -19,7 +19,7 @@ pub(crate) struct Texture {
 }
 
 impl Texture {
-    /// Returns the texels of an image of one sample and one word.
+    /// Returns the texels of an image that has one sample and one word per texel.
     pub(crate) fn new(image: &Image) -> Self {
         let (width, height) = (image.width, image.height);
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -40,7 +40,7 @@ impl Texture {
         let columns = positions(address[0], u, self.width);
         let rows = positions(address[1], v, self.height);
         let mut result = [0; LANES];
-        // Textures mostly stand upright.
+        // Most textures are upright, so that a span has one row.
         if rows == [rows[0]; LANES] {
             let row = &self.texels[rows[0] as usize * self.width..][..self.width];
             for (texel, x) in result.iter_mut().zip(columns) {
@@ -55,7 +55,7 @@ impl Texture {
     }
 }
 
-/// Returns the texels of an axis at one coordinate per lane.
+/// Returns the texel positions along an axis, at one coordinate per lane.
 #[inline(always)]
 fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
     let mut scaled = [0.0; LANES];
@@ -66,7 +66,7 @@ fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
     let mut result = [0; LANES];
     if mode == AddressMode::Repeat && size.is_power_of_two() && small {
         for (place, v) in result.iter_mut().zip(scaled) {
-            // The sum's low bits are those of the whole number.
+            // The low bits of the sum are the low bits of the whole number.
             *place = (v + 3.0 * WHOLE).to_bits() & (size as u32 - 1);
         }
     } else {
@@ -81,7 +81,7 @@ fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coordinates {
     origin: [i32; 2],
-    /// Value at the origin, growth per unit to the right and down, axis by axis.
+    /// The value at the origin, and its growth per unit to the right and down, for each axis.
     axes: [[f64; 3]; 2],
 }
 
@@ -101,7 +101,7 @@ impl Coordinates {
         }
     }
 
-    /// Returns the coordinates at the centres of neighbouring texels.
+    /// Returns the coordinates at the centres of consecutive texels.
     #[inline(always)]
     pub(crate) fn at(&self, x: i32, y: i32) -> [Real; 2] {
         let units = UNITS as i32;

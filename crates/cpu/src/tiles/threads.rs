@@ -1,14 +1,14 @@
-//! The threads that share a pass.
+//! The threads that share the work of a pass.
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 use std::sync::LazyLock;
 use std::thread;
 
-/// The most threads that tests draw with, on a machine that has fewer, too.
+/// The largest number of threads that tests draw with, even on a machine with fewer.
 const TESTED: usize = 3;
 
 thread_local! {
-    /// This thread and its helpers, which wait between frames; `None` if the system gives no threads.
+    /// This thread and its helpers, which wait between frames; `None` if the system provides no threads.
     static POOL: Option<ThreadPool> = ThreadPoolBuilder::new()
         .num_threads(if cfg!(test) { available().max(TESTED) } else { available() })
         .thread_name(|number| format!("tiles-{number}"))
@@ -19,16 +19,17 @@ thread_local! {
 
 /// Returns the number of threads that this machine runs at once.
 pub(crate) fn available() -> usize {
-    // The answer takes a dozen files of the kernel to read, each time.
+    // Each query reads a dozen files of the kernel.
     static THREADS: LazyLock<usize> =
         LazyLock::new(|| thread::available_parallelism().map_or(1, usize::from));
     *THREADS
 }
 
-/// Does each job on a thread of its own, the first on this one. What no other thread has begun when this one is done
-/// is done here, too.
+/// Runs each job on a thread of its own, the first on this one. When this thread is done, it also runs jobs
+/// that no other thread has begun.
 ///
-/// `run` is called through a pointer, so that kernels are compiled once for the first job and the others.
+/// `run` is called through a pointer, so that kernels are compiled only once, for the first job and the
+/// others.
 pub(crate) fn on_threads<J: Send>(jobs: Vec<J>, run: &(dyn Fn(J) + Sync)) {
     if jobs.len() < 2 {
         return jobs.into_iter().for_each(run);
@@ -66,7 +67,7 @@ mod tests {
 
     #[test]
     fn helpers_end_with_their_thread() {
-        // Threads have folders on Linux; elsewhere nothing tells.
+        // On Linux, threads have folders; elsewhere their end cannot be observed.
         let folder = || std::fs::read_link("/proc/thread-self").ok();
         let own = thread::spawn(move || {
             let (all, folders) = (Barrier::new(TESTED), Mutex::new(Vec::new()));

@@ -1,4 +1,4 @@
-//! A tile: all its triangles in the order of drawing, while its texels are near the processor.
+//! A tile: draws all its triangles in drawing order, while its texels are in the processor's caches.
 
 use super::TILE;
 use super::depth::Depths;
@@ -26,18 +26,18 @@ use fearless_simd::prelude::*;
 use std::hint::black_box;
 use std::iter;
 
-/// One aspect of a tile: its planes, sample by sample; empty if the pass lacks the aspect.
+/// One aspect of a tile: the planes of its samples; empty if the pass lacks the aspect.
 #[derive(Debug)]
 pub(crate) struct Layer<'a, T> {
     pub(crate) planes: &'a mut [T],
-    /// The planes of a sample.
+    /// The number of planes of a sample.
     pub(crate) words: usize,
-    /// The value of all texels in each plane of a sample, as long as it is not in memory.
+    /// The value of all texels in each plane of a sample, while it is not in memory.
     pub(crate) clear: Option<[T; 4]>,
 }
 
 impl<T: Copy> Layer<'_, T> {
-    /// Writes the clear value, to the first sample alone if that stands for all.
+    /// Writes the clear value, only to the first sample if `same` is true.
     #[inline(always)]
     fn touch(&mut self, same: bool) {
         if let Some(value) = self.clear.take() {
@@ -73,12 +73,12 @@ impl<T: Copy> Layer<'_, T> {
 /// A tile of a pass's attachments.
 #[derive(Debug)]
 pub(crate) struct Tile<'a> {
-    /// Its column and row.
+    /// The column and row of the tile.
     pub(crate) at: [usize; 2],
     pub(crate) color: Layer<'a, u32>,
-    /// The colour attachments behind the first.
+    /// The colour attachments after the first.
     pub(crate) others: Vec<Layer<'a, u32>>,
-    /// The tile of the attachment that colour is resolved to.
+    /// The tile of the attachment that the colour is resolved to.
     pub(crate) resolved: &'a mut [u32],
     pub(crate) depth: Layer<'a, u32>,
     pub(crate) stencil: Layer<'a, u8>,
@@ -101,19 +101,19 @@ impl<'a> Tile<'a> {
 struct Drawing<'t, 'a> {
     pass: &'t PassPlan,
     tile: Tile<'a>,
-    /// The number of the tile in the attachments.
+    /// The index of the tile in the attachments.
     index: usize,
-    /// Left, top, right and bottom of its texels.
+    /// The left, top, right and bottom edges of its texels.
     texels: [i32; 4],
-    /// True if the first plane stands for all.
+    /// True if only the first sample is in memory, and all samples are equal to it.
     same: bool,
-    /// The least and the greatest depth code, or a range around them.
+    /// A range that contains all depth codes.
     range: [u32; 2],
-    /// The same of stencil values.
+    /// A range that contains all stencil values.
     stencils: [u8; 2],
 }
 
-/// What the tests of all texels of a triangle come to.
+/// The result of the tests for all texels of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TestResult {
     StencilFails,
@@ -122,7 +122,7 @@ enum TestResult {
 }
 
 impl TestResult {
-    /// Returns what two answers come to, if it is one.
+    /// Returns the result of a stencil and a depth test, if it is the same for all texels.
     fn of(stencil: Option<Decided>, depth: Option<Decided>) -> Option<Self> {
         match (stencil?, depth) {
             (Decided::Fail, _) => Some(Self::StencilFails),
@@ -174,7 +174,7 @@ pub(crate) fn draw<S: Simd>(
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
             let whole = entry.is_whole();
-            // The planes are ready for another triangle of the same draw and paint.
+            // The planes are ready for further triangles of the same draw and paint.
             if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
                 last = drawing.triangle(simd, triangle, input, part, whole);
             }
@@ -194,8 +194,8 @@ pub(crate) fn draw<S: Simd>(
 }
 
 impl Drawing<'_, '_> {
-    /// Draws a triangle. One that is opaque and covers a part of the tile is left to [`opaque`](Self::opaque): what it
-    /// does to texels is returned, and the planes are ready for it.
+    /// Draws a triangle. An opaque triangle that covers a part of the tile is left to
+    /// [`opaque`](Self::opaque): this makes the planes ready for it, and returns what it does to texels.
     #[inline(always)]
     fn triangle<S: Simd>(
         &mut self,
@@ -215,9 +215,10 @@ impl Drawing<'_, '_> {
             None => Some(Decided::Pass),
         };
         let outcome = TestResult::of(stencil, answer);
-        // Stencil state that passes and changes nothing is none.
+        // Stencil state that passes and changes nothing can be ignored.
         let face = face.filter(|face| match outcome {
-            // Those behind a triangle that covers a part may have another answer.
+            // After a triangle that covers only a part, later triangles of the draw might have another
+            // result.
             Some(outcome) if whole || outcome == TestResult::StencilFails => {
                 !keeps(face, outcome.operation(face))
             }
@@ -278,7 +279,7 @@ impl Drawing<'_, '_> {
         None
     }
 
-    /// Returns the answer of the depth test, if all texels have one.
+    /// Returns the result of the depth test, if it is the same for all texels.
     #[inline(always)]
     fn answer(&self, triangle: &Triangle, plan: &DrawPlan) -> Option<Decided> {
         match plan.depth {
@@ -288,7 +289,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Returns the depths of a triangle, unless it is flat or none are tested.
+    /// Returns the depths of a triangle, unless it is flat or depths are not tested.
     #[inline(always)]
     fn depths(&self, triangle: &Triangle, input: &Input<'_>, part: &Part) -> Option<Depths> {
         match (input.plan.depth, self.pass.depth) {
@@ -300,7 +301,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Keeps the range of depths around what a triangle may have written, to all texels or some.
+    /// Widens the range of depths to what a triangle might have written, to all texels or to some.
     #[inline(always)]
     fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, all: bool) {
         if !plan.depth.is_some_and(|d| d.write) {
@@ -316,7 +317,7 @@ impl Drawing<'_, '_> {
         };
     }
 
-    /// Keeps the range of stencil values around what a face may have made of all or some of them.
+    /// Widens the range of stencil values to what a face might have written, to all texels or to some.
     #[inline(always)]
     fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<TestResult>) {
         let old = self.stencils;
@@ -334,7 +335,7 @@ impl Drawing<'_, '_> {
         };
     }
 
-    /// Makes planes of their own for all samples.
+    /// Gives every sample its own planes.
     #[inline(always)]
     fn expand(&mut self) {
         if self.pass.positions.len() > 1 {
@@ -355,7 +356,7 @@ impl Drawing<'_, '_> {
         whole: bool,
         outcome: Option<TestResult>,
     ) {
-        // All samples were made different before a part of a tile is drawn.
+        // If the triangle covers only a part of the tile, every sample has its own planes by now.
         let planes = if self.same {
             1
         } else {
@@ -373,7 +374,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws all texels of a sample, whose tests come to the same.
+    /// Draws all texels of a sample, for which the tests have the same result.
     #[inline(always)]
     fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, outcome: TestResult) {
         let [left, top, right, bottom] = self.texels;
@@ -401,7 +402,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws a triangle that replaces colour, depth or both under a depth test.
+    /// Draws a triangle that replaces colour, depth or both, with a depth test.
     #[inline(always)]
     fn opaque<S: Simd>(
         &mut self,
@@ -451,8 +452,8 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws the small triangles that entries begin with, as long as they do the same to texels as the first. Returns
-    /// the other entries.
+    /// Draws the small triangles at the beginning of `entries`, while they do the same to texels as the
+    /// first. Returns the remaining entries.
     #[inline(always)]
     fn small<'e, S: Simd>(
         &mut self,
@@ -487,8 +488,8 @@ impl Drawing<'_, '_> {
         others
     }
 
-    /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile. A function of
-    /// its own: it is large.
+    /// Draws the texels of one sample that a triangle covers, which are all of them if `whole` is true. It is
+    /// large, so it is not inlined.
     #[inline(never)]
     fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
         simd.vectorize(
@@ -544,7 +545,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Tests, blends and stores fragments of one sample. A function of its own: it is large.
+    /// Tests, blends and stores fragments of one sample. It is large, so it is not inlined.
     #[inline(never)]
     fn fragments<S: Simd>(
         &mut self,
@@ -629,7 +630,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Writes what is only noted so far, and resolves colour.
+    /// Writes clear values that are not in memory yet, and resolves colour.
     #[inline(always)]
     fn finish<S: Simd>(&mut self, simd: S) {
         let Tile {
@@ -653,7 +654,8 @@ impl Drawing<'_, '_> {
     }
 }
 
-/// Does an expensive shader's work for neighbouring texels. It adds 0 to their colours.
+/// Does an expensive shader's work for consecutive texels. The work adds 0 to their colours, so its result is
+/// dropped.
 #[inline(always)]
 fn work_off(steps: f32, [x, y]: [i32; 2]) {
     let columns: [u32; LANES] = std::array::from_fn(|lane| x as u32 + lane as u32);

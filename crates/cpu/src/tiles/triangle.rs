@@ -5,32 +5,32 @@ use etalon_pipeline::Point;
 /// A vertex in the window.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Placed {
-    /// In sub-texel units.
+    /// The position in sub-texel units.
     pub(crate) at: [i32; 2],
     pub(crate) z: f32,
 }
 
-/// A triangle that may cover samples: a line of the processor's cache.
+/// A triangle that might cover samples. It fills one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Triangle {
-    /// In the order of the primitive, which the depth's plane depends on.
+    /// The vertices in the order of the primitive, on which the depth plane depends.
     pub(crate) corners: [Placed; 3],
-    /// The place in its part of what few triangles have; the number of all of them if it has nothing.
+    /// The index of its rare properties in its part; `u32::MAX` if it has none.
     pub(crate) rare: u32,
-    /// The code of all its depths, if it is flat.
+    /// The depth code, if the triangle is flat.
     pub(crate) code: u32,
-    /// The place of its draw among the pass's kernels.
+    /// The index of its draw among the pass's kernels.
     pub(crate) draw: u32,
-    /// The place of its paint in its part.
+    /// The index of its paint in its part.
     pub(crate) paint: u32,
-    /// The first and the last column and row of the texels that it may cover.
+    /// The first column, first row, last column and last row of the texels that it might cover.
     pub(crate) around: [i16; 4],
     pub(crate) front: bool,
     pub(crate) shape: Shape,
-    /// True if its corners stand counter-clockwise on the screen.
+    /// True if the vertices are counter-clockwise on the screen.
     pub(crate) counter: bool,
-    /// True if scissor or viewport may cut it.
+    /// True if scissor or viewport might cut it.
     pub(crate) cut: bool,
 }
 
@@ -39,42 +39,42 @@ const _: () = assert!(size_of::<Triangle>() == 64);
 /// The properties that few triangles have.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Rare {
-    /// The bias of its depths.
+    /// The depth bias.
     pub(crate) bias: f64,
-    /// Its vertices, if its colour is a texture's.
+    /// The vertices, if the colour is a texture's.
     pub(crate) vertices: [u32; 3],
 }
 
-/// The form of a triangle.
+/// The kind of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// Of several depths.
+    /// It has several depths.
     Sloped,
-    /// The same, and not larger than a tile.
+    /// It has several depths, and is not larger than a tile.
     SlopedNear,
-    /// Of one depth.
+    /// It has one depth.
     Flat,
-    /// The same, and not larger than a tile.
+    /// It has one depth, and is not larger than a tile.
     FlatNear,
-    /// Of one depth, within one tile, in few columns, and cut by nothing.
+    /// It has one depth, is inside one tile and few columns wide, and nothing cuts it.
     Small,
 }
 
 impl Triangle {
-    /// True if all of it has one depth.
+    /// Returns true if all of it has one depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Flat | Shape::FlatNear | Shape::Small)
     }
 
-    /// True if it is not larger than a tile.
+    /// Returns true if it is not larger than a tile.
     #[inline(always)]
     pub(crate) fn is_near(&self) -> bool {
         !matches!(self.shape, Shape::Flat | Shape::Sloped)
     }
 }
 
-/// Returns a position as the pipeline has it.
+/// Returns a position in the pipeline's type.
 pub(crate) fn point([x, y]: [i32; 2]) -> Point {
     Point {
         x: i64::from(x),

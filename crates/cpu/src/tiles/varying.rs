@@ -1,7 +1,7 @@
-//! Blends of fetched texels: channel by channel of several groups, so that encodings, factors and operations are matched
-//! once for all of them.
+//! Blends of fetched texels. They process one channel of several groups at a time, so that encodings, factors
+//! and operations are matched once for all of them.
 //!
-//! The steps and their order are those of the pipeline's plain arithmetic. Planes are flat, since loops over groups of
+//! The steps and their order are the pipeline's plain arithmetic. Planes are flat, since loops over groups of
 //! lanes become gathers and scatters.
 
 use super::fragments::Fragments;
@@ -22,39 +22,39 @@ use fearless_simd::Simd;
 pub(crate) struct Varying {
     pub(crate) target: ColorTarget,
     pub(crate) constant: [f32; 4],
-    /// The operation that takes the place of blending.
+    /// The logic operation that replaces blending.
     pub(crate) logic: Option<LogicOperation>,
-    /// Whether the alphas of both sources are 1.
+    /// Whether the alpha of the first and of the second source is 1.
     pub(crate) opaque: [bool; 2],
     pub(crate) channels: &'static [ChannelEncoding],
     pub(crate) layout: Layout,
 }
 
-/// The inputs of a blend: source, second source and destination, channel by channel.
+/// The inputs of a blend by channel: source, second source and destination.
 struct Inputs {
     source: [Plane; 4],
     second: [Plane; 4],
     stored: [Plane; 4],
 }
 
-/// What is made of the inputs, in memory that is not cleared for each few groups.
+/// Intermediate results, in memory that is reused and not cleared.
 struct Buffers {
     words: [CodePlane; 4],
     /// The destination's codes.
     old: [CodePlane; 4],
-    /// The blended values of a channel and their codes.
+    /// The blended values of a channel, and their codes.
     values: Plane,
     codes: CodePlane,
-    /// The factors that are no inputs.
+    /// The factors that are not inputs.
     factors: [Plane; 2],
 }
 
-/// A factor before it is multiplied.
+/// A factor that is not multiplied yet.
 enum Factor<'a> {
     Zero,
     One,
     Value(&'a [f32]),
-    /// 1 less this.
+    /// 1 minus these values.
     Complement(&'a [f32]),
 }
 
@@ -174,13 +174,14 @@ impl Varying {
         }
     }
 
-    /// Returns the encoding of a channel; the last one's of those that the format lacks.
+    /// Returns the encoding of a channel. Channels that the format lacks have the encoding of the last
+    /// channel.
     #[inline(always)]
     fn encoding(&self, c: usize) -> ChannelEncoding {
         self.channels[c.min(self.channels.len() - 1)]
     }
 
-    /// Takes the operands at blending precision: those of normalized channels, unless they are in range already.
+    /// Converts the operands of normalized channels to blending precision, unless they are already in range.
     #[inline(always)]
     fn hold(&self, sources: &Sources<'_>, inputs: &mut Inputs, count: usize) {
         let wide = sources.exceed_unit();
@@ -202,7 +203,7 @@ impl Varying {
         }
     }
 
-    /// True if all operands of a channel lie from 0 to 1, and its blend is a sum of products.
+    /// Returns true if all operands of a channel are between 0 and 1, and its blend is a sum of products.
     #[inline(always)]
     fn in_unit(&self, sources: &Sources<'_>, part: BlendComponent) -> bool {
         use ChannelEncoding::{Srgb8, Unorm};
@@ -223,8 +224,9 @@ impl Varying {
         sum && factors && target && sources.exceed_unit() == [false; 2]
     }
 
-    /// Gives the blended values of a channel whose operands lie from 0 to 1. There a factor is a constant and a multiple
-    /// of an operand, of 0, 1 and -1, so that all of them are one loop; the sign of a zero is not stored.
+    /// Computes the blended values of a channel whose operands are between 0 and 1. A factor is then a
+    /// constant plus an operand times 0, 1 or -1, so that one loop handles all factors. The sign of a zero is
+    /// not stored.
     #[inline(always)]
     fn blended_in_unit(
         &self,
@@ -256,7 +258,7 @@ impl Varying {
         }
     }
 
-    /// Gives the blended values of a channel.
+    /// Computes the blended values of a channel.
     #[inline(always)]
     fn blended(
         &self,
@@ -288,7 +290,7 @@ impl Varying {
             self.factor(part.src_factor, c, inputs, first),
             self.factor(part.dst_factor, c, inputs, second),
         );
-        // Complements of numbers below 0 are out of a normalized range.
+        // For signed channels, the complement of a number below 0 exceeds the normalized range.
         let held = matches!(encoding, ChannelEncoding::Snorm(_));
         let (same, rest) = (|x: f32| x, |x: f32| 1.0 - x);
         match factors {
@@ -315,7 +317,7 @@ impl Varying {
         }
     }
 
-    /// Gives the products of one side of the equation.
+    /// Computes the products of one side of the equation.
     #[inline(always)]
     fn product(
         &self,
@@ -345,7 +347,7 @@ impl Varying {
         }
     }
 
-    /// Returns a factor of a channel. What is no input is put into a plane of its own.
+    /// Returns a factor of a channel. A factor that is not an input is written to the plane `own`.
     #[inline(always)]
     fn factor<'a>(
         &self,
@@ -408,7 +410,8 @@ impl Varying {
     }
 }
 
-/// Gives the sum or the difference of two sides: operands, and factors before a function of them.
+/// Computes the sum or difference of two sides. Each side has its operands, its factors, and a function to
+/// apply to the factors.
 #[inline(always)]
 fn summed(
     operation: BlendOperation,

@@ -1,7 +1,8 @@
-//! Blends of channels of 8 unsigned normalized bits whose factors depend on several channels of the destination.
+//! Blends of 8-bit unsigned normalized channels whose factors depend on several channels of the destination.
 //!
-//! Every factor is a sum of a constant and of the destination's own channel and its alpha, each times 0, 1 or -1, and
-//! held to a limit. All numbers are from 0 to 1, so that products with 0 and sums with 0 change nothing.
+//! Every factor is a sum of a constant, the destination's channel and the destination's alpha, the latter two
+//! times 0, 1 or -1, and is clamped to a limit. All numbers are between 0 and 1, so that products with 0 and
+//! sums with 0 change nothing.
 
 use super::image::Texel;
 use crate::lanes::{Codes, LANES, Real};
@@ -16,15 +17,15 @@ const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
 /// A function of a texel's codes.
 #[derive(Debug)]
 pub(crate) struct Weights {
-    /// Channel by channel.
+    /// The weights of each channel.
     channels: [ChannelWeights; 4],
-    /// A summand and a factor of the stored alpha: 1 and 0 if the format has none.
+    /// The summand and the factor of the stored alpha: 1 and 0 if the format has no alpha.
     alpha: [f32; 2],
-    /// The bits that are not written.
+    /// The mask of bits that are not written.
     keep: u32,
 }
 
-/// The function of one channel: the source times its factor, and the destination times its factor.
+/// The function of one channel: the sum of the source and the destination, each times its factor.
 #[derive(Clone, Copy, Debug)]
 struct ChannelWeights {
     source: f32,
@@ -39,11 +40,11 @@ struct Weight {
     own: f32,
     alpha: f32,
     most: f32,
-    /// 1, or -1 where the product is subtracted.
+    /// 1, or -1 if the product is subtracted.
     sign: f32,
 }
 
-/// The inputs of a blend that are constant.
+/// The constant inputs of a blend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
     pub(crate) source: [f32; 4],
@@ -52,7 +53,8 @@ pub(crate) struct Constants {
 }
 
 impl Weights {
-    /// Returns the function of blends by two components, of so many channels, if operations are sums.
+    /// Returns the function of a blend with two components and this many channels, if the operations are
+    /// sums.
     pub(crate) fn new(
         [color, alpha]: [BlendComponent; 2],
         constants: &Constants,
@@ -105,7 +107,7 @@ impl Weights {
         })
     }
 
-    /// Applies the function to texels. A function of its own: it is large.
+    /// Applies the function to texels. It is large, so it is not inlined.
     #[inline(never)]
     pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [[Texel; LANES]]) {
         simd.vectorize(
@@ -127,7 +129,7 @@ impl Weights {
         for alpha in &mut alpha {
             *alpha = self.alpha[0] + self.alpha[1] * *alpha;
         }
-        // Each by itself, so that shifts are known.
+        // One by one, so that shifts are constants.
         let mut new = a.codes(&last, &alpha);
         for code in &mut new {
             *code <<= 24;
@@ -142,13 +144,13 @@ impl Weights {
     }
 }
 
-/// Returns the values of the bytes that stand at a bit.
+/// Returns the values of the bytes at a bit position.
 #[inline(always)]
 fn stored(words: &Codes, bit: u32) -> Real {
     Faithful.color_value(UNORM, words.map(|word| word >> bit & 0xff))
 }
 
-/// Puts bytes into words from a bit on.
+/// Inserts bytes into words at a bit position.
 #[inline(always)]
 fn join(words: &mut Codes, codes: &Codes, bit: u32) {
     for (word, code) in words.iter_mut().zip(codes) {
@@ -157,7 +159,7 @@ fn join(words: &mut Codes, codes: &Codes, bit: u32) {
 }
 
 impl ChannelWeights {
-    /// Returns the codes of one channel from the stored values of it and of alpha.
+    /// Returns the codes of one channel, from the stored values of the channel and of alpha.
     #[inline(always)]
     fn codes(&self, own: &Real, alpha: &Real) -> Codes {
         let mut result = *own;

@@ -1,4 +1,4 @@
-//! A triangle in a tile, for its kernels.
+//! A triangle in a tile, as kernels need it.
 
 use super::depth::Depths;
 use super::paint::Paint;
@@ -8,22 +8,22 @@ use super::texture::{Coordinates, Texture};
 use super::triangle::Triangle;
 use etalon_scene::StencilFace;
 
-/// What the kernels read of a triangle in a tile.
+/// What the kernels read about a triangle in a tile.
 pub(crate) struct Work<'a> {
     pub(crate) triangle: &'a Triangle,
     pub(crate) plan: &'a DrawPlan,
-    /// The stencil state of its facing, if it may do something.
+    /// The stencil state of the triangle's facing, if it might do something.
     pub(crate) face: Option<&'a StencilFace>,
     pub(crate) paint: &'a Paint,
-    /// The depths, unless the triangle is flat or none are tested.
+    /// The depths, unless the triangle is flat or depths are not tested.
     pub(crate) depths: Option<Depths>,
     pub(crate) texture: Option<(&'a Texture, Coordinates)>,
-    /// The textures that are fetched from.
+    /// The textures that the shader fetches from.
     pub(crate) texels: Option<Texels<'a>>,
 }
 
 impl Work<'_> {
-    /// True if all texels have one colour.
+    /// Returns true if all texels have one colour.
     pub(crate) fn is_constant(&self) -> bool {
         self.texture.is_none() && self.texels.is_none()
     }

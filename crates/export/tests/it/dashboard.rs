@@ -33,7 +33,8 @@ fn samples() -> String {
     fs::read_to_string(out.join("history.om")).unwrap()
 }
 
-/// The words of a query: names, and every other character for itself. A text in quotes is one word with its quotes.
+/// Returns the words of a query: names, and every other character as a word. A quoted string is one word with
+/// its quotes.
 fn words(query: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut rest = query.trim_start();

@@ -1,24 +1,25 @@
-//! The functions that are recorded, and those that need not be.
+//! The functions that are recorded, and the functions that need not be.
 
 use super::kinds::*;
 use super::recorder::{Pointer, announced, driver, keep, keeps, new_output};
 use etalon_backend::Argument;
 use std::ffi::{CStr, c_char, c_void};
 
-/// True if a function only asks about the context, reports messages or deletes: it stays the driver's own.
+/// Returns true if a function only queries the context, reports messages or deletes objects. It is not
+/// recorded.
 pub(super) fn only_asks(name: &str) -> bool {
     ["glGet", "glIs", "glDelete", "glDebugMessage"]
         .iter()
         .any(|start| name.starts_with(start))
 }
 
-/// Declares functions whose arguments say all by themselves, and names those of [`special`].
+/// Declares functions whose arguments are recorded by value, and lists the functions of [`special`].
 macro_rules! functions {
     (
         $($name:ident($($arg:ident: $kind:ident),*) $(-> $result:ident)?;)+
         ;special $($other:ident)+
     ) => {
-        /// Functions that call the driver's and keep the call.
+        /// Functions that call the driver's function and keep the call.
         mod plain {
             use super::*;
             $(
@@ -29,10 +30,10 @@ macro_rules! functions {
                     type Own = unsafe extern "system" fn(
                         $(<$kind as Kind>::Raw),*
                     ) $(-> <$result as Kind>::Raw)?;
-                    // SAFETY: the backend found this function in place of the driver's, whose address was kept, and
-                    // the specification gives the name this type.
+                    // SAFETY: the backend found this function instead of the driver's, whose address was
+                    // kept, and the specification gives the name this type.
                     let own: Own = unsafe { std::mem::transmute(driver(stringify!($name))) };
-                    // SAFETY: the arguments are the caller's.
+                    // SAFETY: the caller passed the arguments to a function of this type.
                     let result = unsafe { own($($arg),*) };
                     if keeps() {
                         let made: Option<Argument> = None$(.or(Some($result::value(result))))?;
@@ -43,7 +44,7 @@ macro_rules! functions {
             )+
         }
 
-        /// Returns the function that stands before one of the driver's.
+        /// Returns the function that records the driver's function of this name, with its name.
         pub(super) fn shim(name: &str) -> Option<(&'static str, Pointer)> {
             match name {
                 $(stringify!($name) => Some((stringify!($name), plain::$name as Pointer)),)+
@@ -218,7 +219,7 @@ functions! {
     glScissorArrayv glShaderSource glTexImage2D glTexImage3D glTexSubImage2D glTexSubImage3D glViewportArrayv
 }
 
-/// Functions with addresses among their arguments.
+/// Functions that have addresses among their arguments.
 mod special {
     #![expect(non_snake_case, reason = "the names are the API's")]
 
@@ -228,27 +229,27 @@ mod special {
     macro_rules! own {
         ($name:ident($($arg:ident: $kind:ty),*) $(-> $result:ty)?) => {{
             type Own = unsafe extern "system" fn($($kind),*) $(-> $result)?;
-            // SAFETY: the backend found this function in place of the driver's, whose address was kept, and the
-            // specification gives the name this type.
+            // SAFETY: the backend found this function instead of the driver's, whose address was kept, and
+            // the specification gives the name this type.
             let own: Own = unsafe { std::mem::transmute(driver(stringify!($name))) };
-            // SAFETY: the arguments are the caller's.
+            // SAFETY: the caller passed the arguments to a function of this type.
             unsafe { own($($arg),*) }
         }};
     }
 
-    /// Returns the values at an address.
+    /// Returns the values at an address, or none if it is null.
     ///
     /// # Safety
-    /// Behind the address are so many, unless it is null.
+    /// The address is null, or points to `count` values.
     unsafe fn values<T: Copy>(address: *const T, count: usize) -> Vec<T> {
         if address.is_null() {
             return Vec::new();
         }
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe { std::slice::from_raw_parts(address, count) }.to_vec()
     }
 
-    /// Returns the bytes at an address; no address where it is null.
+    /// Returns the bytes at an address, or the null argument if it is null.
     ///
     /// # Safety
     /// As for [`values`].
@@ -256,7 +257,7 @@ mod special {
         if address.is_null() {
             return Argument::Null;
         }
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         Argument::Bytes(unsafe { values(address.cast::<u8>(), count) })
     }
 
@@ -266,7 +267,7 @@ mod special {
                 pub(super) unsafe extern "system" fn $name(count: i32, names: *mut u32) {
                     own!($name(count: i32, names: *mut u32));
                     if keeps() {
-                        // SAFETY: the driver wrote so many.
+                        // SAFETY: the driver wrote `count` names.
                         let made = unsafe { values(names.cast_const(), count.max(0) as usize) };
                         let made = made.into_iter().map(u64::from).collect();
                         let arguments = vec![
@@ -308,7 +309,7 @@ mod special {
         };
     }
 
-    /// Returns the number of values that clear a buffer.
+    /// Returns the number of values that `glClearBuffer*` reads.
     fn of_clear(buffer: u32) -> usize {
         if buffer == glow::COLOR { 4 } else { 1 }
     }
@@ -337,7 +338,7 @@ mod special {
             target: u32, count: i32, points: *const u32, x: i32, y: i32, width: i32, height: i32
         ));
         if keeps() {
-            // SAFETY: the caller's points are so many.
+            // SAFETY: the caller passed `count` points.
             let points = unsafe { values(points, count.max(0) as usize) };
             let mut arguments = vec![
                 Enum::value(target),
@@ -389,7 +390,7 @@ mod special {
         }
     }
 
-    /// Returns the image named in a copy: renderbuffers have names of their own.
+    /// Returns the image that a copy names: a renderbuffer or a texture.
     fn copied(name: u32, target: u32) -> Argument {
         match target {
             glow::RENDERBUFFER => Renderbuffer::value(name),
@@ -449,12 +450,12 @@ mod special {
         glGetQueryObjectuiv: u32;
     }
 
-    /// Returns the text at an address.
+    /// Returns the string at an address.
     ///
     /// # Safety
-    /// A terminated text is there.
+    /// The address points to a zero-terminated string.
     unsafe fn text(address: *const c_char) -> Argument {
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         let text = unsafe { CStr::from_ptr(address) };
         Argument::Text(text.to_string_lossy().into_owned())
     }
@@ -465,7 +466,7 @@ mod special {
     ) -> i32 {
         let place = own!(glGetUniformLocation(program: u32, name: *const c_char) -> i32);
         if keeps() {
-            // SAFETY: the caller's name is terminated.
+            // SAFETY: the caller's name is zero-terminated.
             let arguments = vec![Program::value(program), unsafe { text(name) }];
             keep(
                 "glGetUniformLocation",
@@ -482,7 +483,7 @@ mod special {
     ) -> u32 {
         let place = own!(glGetUniformBlockIndex(program: u32, name: *const c_char) -> u32);
         if keeps() {
-            // SAFETY: the caller's name is terminated.
+            // SAFETY: the caller's name is zero-terminated.
             let arguments = vec![Program::value(program), unsafe { text(name) }];
             keep(
                 "glGetUniformBlockIndex",
@@ -551,7 +552,7 @@ mod special {
             shader: u32, count: i32, texts: *const *const c_char, lengths: *const i32
         ));
         if keeps() {
-            // SAFETY: the caller's arrays have so many elements.
+            // SAFETY: the caller's arrays have `count` elements.
             let (texts, lengths) = unsafe {
                 (
                     values(texts, count.max(0) as usize),
@@ -563,7 +564,7 @@ mod special {
                 match lengths.get(i).copied().map(usize::try_from) {
                     // SAFETY: the part has this length.
                     Some(Ok(length)) => bytes.extend(unsafe { values(part.cast::<u8>(), length) }),
-                    // SAFETY: without a length it is terminated.
+                    // SAFETY: a part without a length is zero-terminated.
                     _ => bytes.extend(unsafe { CStr::from_ptr(part) }.to_bytes()),
                 }
             }
@@ -576,7 +577,7 @@ mod special {
         }
     }
 
-    /// Returns the size of a client image whose rows are packed tightly.
+    /// Returns the size of a client image in bytes. Its rows are tightly packed.
     fn image_bytes(size: [i32; 3], format: u32, kind: u32) -> usize {
         let channels = match format {
             glow::RED | glow::DEPTH_COMPONENT | glow::STENCIL_INDEX | glow::RED_INTEGER => 1,
@@ -612,7 +613,7 @@ mod special {
                         $($arg: <$kind as Kind>::Raw,)* format: u32, kind: u32, pixels: Pointer
                     ));
                     if keeps() {
-                        // SAFETY: the backend uploads whole images, packed tightly.
+                        // SAFETY: the backend uploads whole images, tightly packed.
                         let pixels = unsafe { bytes(pixels, image_bytes($size, format, kind)) };
                         let mut arguments = vec![$($kind::value($arg)),*];
                         arguments.extend([Enum::value(format), Enum::value(kind), pixels]);

@@ -1,4 +1,4 @@
-//! The kinds of arguments that say all by themselves.
+//! The kinds of arguments that are recorded by value.
 
 use super::names::{
     barrier_bits, buffer_bits, constant, factor, map_bits, or_none, parameter, primitive,
@@ -8,9 +8,9 @@ use etalon_backend::Argument;
 
 /// A kind of argument.
 pub(super) trait Kind {
-    /// Its type in C.
+    /// The argument's type in C.
     type Raw: Copy;
-    /// Returns its value.
+    /// Returns the recorded value.
     fn value(raw: Self::Raw) -> Argument;
 }
 
@@ -41,31 +41,31 @@ kinds! {
     Enum(u32): |v| Argument::Constant(constant(v));
     /// A blend factor or a stencil operation.
     Factor(u32): |v| Argument::Constant(factor(v));
-    /// A buffer that is drawn to or read.
+    /// A buffer that is drawn to or read, or `GL_NONE`.
     Draw(u32): |v| Argument::Constant(or_none(v));
-    /// The mode of a draw.
+    /// The primitive mode of a draw.
     Mode(u32): |v| Argument::Constant(primitive(v));
-    /// The buffers of a blit.
+    /// The buffer bits of a blit.
     Buffers(u32): |v| Argument::Bits(buffer_bits(v));
-    /// The access to a mapped buffer.
+    /// The access bits of a mapped buffer.
     Access(u32): |v| Argument::Bits(map_bits(v));
-    /// The barriers of a memory barrier.
+    /// The bits of a memory barrier.
     Barriers(u32): |v| Argument::Bits(barrier_bits(v));
-    /// The value of a parameter.
+    /// The value of a parameter: a constant or a number.
     Parameter(i32): |v| parameter(v).map_or(Argument::Integer(v), Argument::Constant);
     /// A signed number.
     Int(i32): Argument::Integer;
     /// An unsigned number.
     Uint(u32): Argument::Unsigned;
-    /// True or false.
+    /// A boolean.
     Bool(u8): |v| Argument::Boolean(v != 0);
-    /// A size or an offset in a buffer.
+    /// A size in bytes, or an offset in a buffer.
     Size(isize): |v| Argument::Size(v as i64);
     /// A float.
     Float(f32): |v| Argument::Float(v.to_bits());
-    /// A float of 64 bits.
+    /// A 64-bit float.
     Double(f64): |v| Argument::Double(v.to_bits());
-    /// An offset in the buffer that is bound.
+    /// An offset in the bound buffer.
     Offset(Pointer): |v| Argument::Offset(v as u64);
     /// A buffer.
     Buffer(u32): |v| object("buffer", v);
@@ -85,11 +85,11 @@ kinds! {
     Program(u32): |v| object("program", v);
     /// A shader.
     Shader(u32): |v| object("shader", v);
-    /// The place of a uniform in the programs of the context.
+    /// The location of a uniform in its program.
     Location(i32): |v| match u32::try_from(v) {
         Ok(place) => object("location", place + 1),
         Err(_) => Argument::Integer(v),
     };
-    /// The place of a uniform block in its program.
+    /// The index of a uniform block in its program.
     Block(u32): |v| object("block", v.wrapping_add(1));
 }

@@ -1,11 +1,10 @@
-//! The calls of a scene, recorded at the entry points.
+//! Recording of the calls of a scene, at the entry points.
 //!
-//! A backend that is opened to record finds functions of this module where the driver's would be: they call the
-//! driver's and keep what was asked of it. Functions that only ask about the context, or delete, are the driver's own.
-//! Any other function is missing, so that a call which nobody records cannot be made.
+//! A backend opened to record finds functions of this module instead of the driver's: they call the driver's
+//! function and keep the call. Functions that only query the context, or delete, are the driver's own. All
+//! other functions are missing, so that a call that would not be recorded cannot be made.
 //!
-//! As entry points have nothing but their arguments to tell contexts apart, the state is the thread's, as a context
-//! is.
+//! An entry point cannot carry a state, so the recorder is kept per thread, as a context is.
 
 mod functions;
 mod kinds;
@@ -20,7 +19,7 @@ pub(crate) use recorder::{
 use recorder::stands_before;
 use std::ffi::CStr;
 
-/// Returns the address under which the backend finds an entry point.
+/// Returns the address that the backend finds for an entry point.
 pub(crate) fn address(name: &CStr, address: Pointer) -> Pointer {
     if address.is_null() || !is_installed() {
         return address;

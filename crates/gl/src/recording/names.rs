@@ -97,14 +97,14 @@ fn nameless(value: u32) -> Constant {
     }
 }
 
-/// Returns a constant of which nothing else is known.
+/// Returns a constant whose kind is unknown.
 pub(super) fn constant(value: u32) -> Constant {
     of(NAMES, value)
         .or_else(|| of(EXTENSIONS, value))
         .unwrap_or_else(|| nameless(value))
 }
 
-/// Returns a constant that may be `GL_NONE`.
+/// Returns a constant, or `GL_NONE`.
 pub(super) fn or_none(value: u32) -> Constant {
     of(&[("GL_NONE", 0)], value).unwrap_or_else(|| constant(value))
 }
@@ -119,7 +119,7 @@ pub(super) fn primitive(value: u32) -> Constant {
     of(PRIMITIVES, value).unwrap_or_else(|| nameless(value))
 }
 
-/// Returns the value of a parameter that may be a constant: small numbers are none.
+/// Returns the constant that a parameter's value names, if any. Small numbers are not constants.
 pub(super) fn parameter(value: i32) -> Option<Constant> {
     let value = u32::try_from(value).ok().filter(|v| *v >= 0x100)?;
     Some(constant(value)).filter(|c| !c.name.is_empty())
@@ -142,17 +142,17 @@ fn bits(table: &[(&str, u32)], value: u32) -> Vec<Constant> {
     bits
 }
 
-/// Returns the buffers of a blit.
+/// Returns the buffer bits of a blit.
 pub(super) fn buffer_bits(value: u32) -> Vec<Constant> {
     bits(BUFFER_BITS, value)
 }
 
-/// Returns the access to a mapped buffer.
+/// Returns the access bits of a mapped buffer.
 pub(super) fn map_bits(value: u32) -> Vec<Constant> {
     bits(MAP_BITS, value)
 }
 
-/// Returns the barriers of a memory barrier.
+/// Returns the bits of a memory barrier.
 pub(super) fn barrier_bits(value: u32) -> Vec<Constant> {
     bits(BARRIER_BITS, value)
 }

@@ -15,50 +15,50 @@ thread_local! {
     static RECORDER: RefCell<Option<Recorder>> = const { RefCell::new(None) };
 }
 
-/// The size of a memory, whatever it is.
+/// The number of bytes that stands for all bytes of a memory.
 pub(crate) const WHOLE: u32 = u32::MAX;
 
 /// The calls so far.
 #[derive(Default)]
 struct Recorder {
-    /// The driver's own functions.
+    /// The driver's functions, by name.
     driver: HashMap<&'static str, usize>,
-    /// The phase of the calls; `None` while they are not kept.
+    /// The phase of the calls; `None` while they are not recorded.
     phase: Option<Phase>,
     calls: Vec<Call>,
-    /// The memories that calls wrote to.
+    /// The number of memories that calls have written.
     outputs: u32,
-    /// The size of the last one in bytes.
+    /// The size of the last memory in bytes.
     last_size: u32,
-    /// The memory that is to be written to next: its address, number and size.
+    /// The memory that the next reads write: its address, number and size.
     open: Option<(usize, u32, u64)>,
-    /// The planes that belong to no image yet.
+    /// The planes that no image has yet.
     planes: Vec<(Aspect, Plane)>,
     images: Vec<RecordedImage>,
     counters: Vec<RecordedCounter>,
 }
 
-/// Prepares to record the context that is opened on this thread, or not to.
+/// Starts recording the calls of the context that this thread opens, or no recording if `record` is false.
 pub(crate) fn install(record: bool) {
     RECORDER.set(record.then(Recorder::default));
 }
 
-/// True if the context of this thread was opened to record.
+/// Returns true if the context of this thread is recorded.
 pub(crate) fn is_installed() -> bool {
     with(|_| ()).is_some()
 }
 
-/// Keeps the calls from now on, as those of a phase.
+/// Records the calls from now on, in a phase.
 pub(crate) fn begin(phase: Phase) {
     with(|r| r.phase = Some(phase));
 }
 
-/// Keeps no call any more.
+/// Stops recording calls.
 pub(crate) fn end() {
     with(|r| r.phase = None);
 }
 
-/// Announces the memory that the next calls of `glReadPixels` write to.
+/// Announces the memory that the next calls of `glReadPixels` write.
 pub(crate) fn memory(bytes: &[u8]) {
     with(|r| {
         let number = r.output(bytes.len() as u64);
@@ -66,7 +66,7 @@ pub(crate) fn memory(bytes: &[u8]) {
     });
 }
 
-/// Notes a plane of texels in the memory that was announced last.
+/// Adds a plane of texels in the memory that was announced last.
 pub(crate) fn plane(aspect: Aspect, texel: u32, channels: Vec<[u32; 2]>, form: Form) {
     with(|r| {
         if let Some((_, output, _)) = r.open {
@@ -81,7 +81,7 @@ pub(crate) fn plane(aspect: Aspect, texel: u32, channels: Vec<[u32; 2]>, form: F
     });
 }
 
-/// Names the images that the planes since the last images make up.
+/// Adds images, each with the planes of its aspect that were added since the last images.
 pub(crate) fn images(images: &[Image]) {
     with(|r| {
         let planes = std::mem::take(&mut r.planes);
@@ -98,7 +98,7 @@ pub(crate) fn images(images: &[Image]) {
     });
 }
 
-/// Notes the counters before their parts are known.
+/// Adds the counters, before their parts are known.
 pub(crate) fn counters(any: impl Iterator<Item = bool>) {
     with(|r| {
         let counter = |any| RecordedCounter {
@@ -109,7 +109,7 @@ pub(crate) fn counters(any: impl Iterator<Item = bool>) {
     });
 }
 
-/// Adds bytes of the memory that was written last to a counter, or the [`WHOLE`] of it.
+/// Adds bytes of the memory that was written last to a counter, or the [`WHOLE`] memory.
 pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
     with(|r| {
         let output = r.outputs.saturating_sub(1);
@@ -127,7 +127,7 @@ pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
     });
 }
 
-/// Returns what was recorded.
+/// Returns the recording, if calls are recorded.
 pub(crate) fn recorded(context: RecordedContext) -> Option<Recording> {
     with(|r| Recording {
         context,
@@ -137,7 +137,7 @@ pub(crate) fn recorded(context: RecordedContext) -> Option<Recording> {
     })
 }
 
-/// Returns what a function makes of the recorder of this thread, if there is one.
+/// Calls a function with the recorder of this thread, if there is one, and returns its result.
 fn with<R>(call: impl FnOnce(&mut Recorder) -> R) -> Option<R> {
     RECORDER.with_borrow_mut(|recorder| recorder.as_mut().map(call))
 }
@@ -151,19 +151,19 @@ impl Recorder {
     }
 }
 
-/// Returns the driver's own function behind one of this module's, which the backend found in its place.
+/// Returns the address of the driver's function that a function of this module replaces.
 pub(super) fn driver(name: &'static str) -> usize {
     with(|r| r.driver.get(name).copied())
         .flatten()
         .unwrap_or_default()
 }
 
-/// True if calls are kept.
+/// Returns true if calls are recorded at the moment.
 pub(super) fn keeps() -> bool {
     with(|r| r.phase.is_some()).unwrap_or(false)
 }
 
-/// Keeps a call.
+/// Records a call, if calls are recorded at the moment.
 pub(super) fn keep(function: &str, arguments: Vec<Argument>, result: Option<Argument>) {
     with(|r| {
         if let Some(phase) = r.phase {
@@ -177,12 +177,12 @@ pub(super) fn keep(function: &str, arguments: Vec<Argument>, result: Option<Argu
     });
 }
 
-/// Returns a memory of the call that is made: a new one.
+/// Returns a new memory that the current call writes.
 pub(super) fn new_output(bytes: u64) -> Argument {
     Argument::Output(with(|r| r.output(bytes)).unwrap_or_default(), bytes)
 }
 
-/// Returns the memory that was announced at an address.
+/// Returns the memory that was announced at this address, or the null argument.
 pub(super) fn announced(address: usize) -> Argument {
     let open = with(|r| r.open).flatten();
     match open.filter(|(start, ..)| *start == address) {
@@ -191,7 +191,7 @@ pub(super) fn announced(address: usize) -> Argument {
     }
 }
 
-/// Keeps the address of a driver's function behind one of this module's.
+/// Keeps the address of the driver's function that a function of this module replaces.
 pub(super) fn stands_before(name: &'static str, address: Pointer) {
     with(|r| r.driver.insert(name, address as usize));
 }

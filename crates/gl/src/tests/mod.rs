@@ -1,4 +1,4 @@
-//! Checks of the insides: the choices that a context makes, and drivers held back.
+//! Checks of internals: the choices that a context makes, and drivers with capabilities disabled.
 
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
 use etalon_backend::{Backend, BackendError};
@@ -8,7 +8,7 @@ use etalon_conformance::{
 };
 use etalon_frame::Feature;
 
-/// The contexts of each driver, core profile first.
+/// Returns the contexts of a driver, core profile first.
 fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
     [Profile::Core, Profile::Es].map(|profile| {
         let options = Options {
@@ -28,7 +28,7 @@ fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
     })
 }
 
-/// Every check without `glClipControl`, whose place takes the vertex shader.
+/// Runs every check without `glClipControl`. The vertex shader adapts instead.
 fn without_clip_control(driver: &str, defects: &'static [&'static [Defect]]) {
     for backend in &contexts(driver, false) {
         let prefix = if backend.context.caps.es {
@@ -65,19 +65,19 @@ fn softpipe_without_clip_control() {
     });
 }
 
-/// Limits follow what the context has; the drivers' descriptions hold the rest.
+/// Checks that the limits follow from the context. The drivers' descriptions cover the other features.
 fn features(backend: &GlBackend) {
     let caps = &backend.context.caps;
     let has = |feature| backend.limits().features.contains(&feature);
     assert_eq!(has(Feature::PreciseOcclusion), !caps.es);
     assert_eq!(has(Feature::FragmentInvocations), !caps.es);
     assert!(has(Feature::ForcedEarlyTests));
-    // In ES it takes an extension.
+    // ES needs an extension for it.
     assert!(caps.es || caps.conservative_depth);
     assert_eq!(has(Feature::ConservativeDepth), caps.conservative_depth);
 }
 
-/// GL may round a viewport where it keeps no bits below the texel, and then it must not be drawn.
+/// GL may round a viewport if it has no sub-pixel bits, so such a viewport must be refused.
 fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
     let bits = backend.context.caps.viewport_bits;
     let between = scene(json!({
@@ -92,7 +92,7 @@ fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
     assert_eq!(refused, bits.unwrap_or(0) == 0);
 }
 
-/// Debug output listens: without this, its silence elsewhere would prove nothing.
+/// Debug output reports errors: without this, its silence elsewhere would prove nothing.
 fn a_planted_mistake_is_told(backend: &GlBackend) {
     backend.context.make_current().expect("it becomes current");
     assert_eq!(backend.messages(), Vec::<String>::new());

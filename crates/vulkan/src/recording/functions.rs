@@ -1,6 +1,6 @@
-//! The functions that record.
+//! The functions that record calls.
 
-/// Declares functions that call the driver's and keep the call, unless it fails.
+/// Declares functions that call the driver's function and keep the call unless it fails.
 macro_rules! functions {
     ($($name:ident $(-> $result:ty)? { $($argument:ident: $type:ty = $kind:expr,)+ })+) => {
         #[expect(non_snake_case, reason = "the names are the API's")]
@@ -21,15 +21,16 @@ macro_rules! functions {
                         kind: $kind,
                     }),+];
                     type Own = unsafe extern "system" fn($($type),+) $(-> $result)?;
-                    // SAFETY: the backend found this function in place of the driver's, whose address was kept, and
-                    // the registry gives the name this type.
+                    // SAFETY: the backend found this function instead of the driver's, whose address was
+                    // kept, and the registry gives the name this type.
                     let own: Own = unsafe { transmute(driver(stringify!($name))) };
-                    // SAFETY: the arguments are the caller's.
+                    // SAFETY: the caller passed the arguments to a function of this type.
                     let result = unsafe { own($($argument),+) };
                     let failed = false $(|| <$result>::as_raw(result) < 0)?;
                     if !failed {
                         let arguments = Arguments { $($argument),+ };
-                        // SAFETY: the arguments are as the specification says, and the driver wrote what it makes.
+                        // SAFETY: the arguments are as the specification requires, and the driver wrote the
+                        // objects it created.
                         let members = || unsafe { members(FIELDS, (&raw const arguments).cast()) };
                         keep(stringify!($name), || members().into_iter().map(|member| member.value).collect());
                     }
@@ -38,7 +39,7 @@ macro_rules! functions {
             )+
         }
 
-        /// Returns the function that records one of the device's, with its name.
+        /// Returns the function that records the device's function of this name, with its name.
         pub(super) fn shim(name: &str) -> Option<(&'static str, *const ())> {
             match name {
                 $(stringify!($name) => Some((stringify!($name), recording::$name as *const ())),)+

@@ -1,4 +1,4 @@
-//! The layouts by which structures and arguments of the API are taken apart.
+//! The layouts of the API's structures and arguments, by which the recorder takes them apart.
 
 use super::recorder::{fail, flags_of, new_output};
 use ash::vk;
@@ -30,33 +30,33 @@ pub(super) enum Kind {
     I32,
     F32,
     U64,
-    /// 32 bits whose values have names.
+    /// 32 bits with named values.
     Named(fn(u32) -> String),
     /// A handle of this type.
     Handle(&'static str),
-    /// A structure in place.
+    /// A structure stored inline.
     Struct(&'static Layout),
-    /// Values in place.
+    /// Values stored inline.
     Values(&'static Kind, usize),
     /// The address of values.
     Array(&'static Kind, Count),
     /// The address of bytes.
     Bytes(Count),
-    /// The address of a text that ends with a zero byte.
+    /// The address of a zero-terminated string.
     Text,
-    /// The address of the next structure of a chain, whose layout its type tells.
+    /// The address of the next structure of a chain; its type gives its layout.
     Next(fn(vk::StructureType) -> Option<&'static Layout>),
-    /// The address of handles of this type, which the call makes.
+    /// The address of handles of this type, which the call creates.
     Made(&'static str, Count),
     /// The address of bytes that the call writes.
     Output(Count),
-    /// The address of the address at which the call maps memory.
+    /// The address where the call stores the address of mapped memory.
     Mapped,
-    /// The address of the requirements of memory, which differ between drivers.
+    /// The address of memory requirements, which differ between drivers.
     Requirements,
-    /// The address of an allocation of memory: the properties of its memory type stand for it.
+    /// A memory type index. It is recorded as the properties of the memory type.
     MemoryType,
-    /// An address that the backend never gives.
+    /// An address that the backend always leaves null.
     Unused,
 }
 
@@ -64,7 +64,8 @@ pub(super) enum Kind {
 #[derive(Clone, Copy)]
 pub(super) enum Count {
     Fixed(usize),
-    /// The value of a field beside the address, or of one in a structure beside it: `pInfo->count`.
+    /// The value of another field of the structure, or of a field of a structure that it points to:
+    /// `pInfo->count`.
     By(&'static str),
 }
 
@@ -85,7 +86,7 @@ macro_rules! structures {
     };
 }
 
-/// Declares unions, whose values are kept as words.
+/// Declares unions, whose values are recorded as words.
 macro_rules! unions {
     ($($name:ident: $type:ty,)+) => {
         $(
@@ -102,10 +103,10 @@ macro_rules! unions {
     };
 }
 
-/// Declares the structures that a chain may hold.
+/// Declares the structures that a chain can contain.
 macro_rules! chained {
     ($($name:ident: $type:ident,)+) => {
-        /// Returns the layout of the structures of a type.
+        /// Returns the layout of the structure with this type, if it is recorded.
         fn chained(kind: vk::StructureType) -> Option<&'static Layout> {
             match kind {
                 $(vk::StructureType::$type => Some(&$name),)+
@@ -115,14 +116,14 @@ macro_rules! chained {
     };
 }
 
-/// An enumeration, with the names of its values.
+/// The kind of an enumeration, with the names of its values.
 macro_rules! named {
     ($type:ty) => {
         Named(|raw| format!("{:?}", <$type>::from_raw(raw.cast_signed())))
     };
 }
 
-/// Bits, with their names.
+/// The kind of a bit mask, with the names of its bits.
 macro_rules! flags {
     ($type:ty) => {
         Named(|raw| format!("{:?}", <$type>::from_raw(raw)))
@@ -134,11 +135,12 @@ pub(super) use {chained, flags, named, structures, unions};
 /// Returns the values of fields, with their names.
 ///
 /// # Safety
-/// Such fields are at the address, and everything that they point to is as the specification says.
+/// `address` points to a structure with these fields, and everything that they point to is as the
+/// specification requires.
 pub(super) unsafe fn members(fields: &'static [Field], address: *const u8) -> Vec<Member> {
     let member = |field: &Field| Member {
         name: field.name.to_owned(),
-        // SAFETY: the field lies beside the others.
+        // SAFETY: the field is in the structure.
         value: unsafe { field.kind.read(address.add(field.offset), fields, address) },
     };
     fields.iter().map(member).collect()
@@ -153,7 +155,7 @@ impl Layout {
         Argument::Struct {
             kind: self.name.to_owned(),
             size: self.size as u64,
-            // SAFETY: the caller's.
+            // SAFETY: upheld by the caller.
             members: unsafe { members(self.fields, address) },
         }
     }
@@ -162,9 +164,9 @@ impl Layout {
 /// Returns the value at an address.
 ///
 /// # Safety
-/// It is there.
+/// `address` points to a value of this type, aligned or not.
 unsafe fn get<T: Copy>(address: *const u8) -> T {
-    // SAFETY: the caller's.
+    // SAFETY: upheld by the caller.
     unsafe { address.cast::<T>().read_unaligned() }
 }
 
@@ -177,7 +179,7 @@ fn constant(value: u32, name: fn(u32) -> String) -> Argument {
 }
 
 impl Count {
-    /// Returns the number, of which the fields at an address may tell.
+    /// Returns the number, which can be the value of one of the fields at `address`.
     ///
     /// # Safety
     /// As for [`members`].
@@ -191,7 +193,7 @@ impl Count {
             fail(path);
             return 0;
         };
-        // SAFETY: the caller's.
+        // SAFETY: upheld by the caller.
         unsafe {
             let place = address.add(field.offset);
             match field.kind {
@@ -216,26 +218,26 @@ impl Kind {
         }
     }
 
-    /// Returns values that lie one after the other.
+    /// Returns the values of consecutive elements.
     ///
     /// # Safety
-    /// They are there, each as for [`members`].
+    /// `start` points to `count` elements, each as for [`members`].
     unsafe fn run(&self, start: *const u8, count: usize) -> Vec<Argument> {
         let places = (0..count).map(|i| start.wrapping_add(i * self.size()));
-        // SAFETY: the caller's. No value of a run counts by another.
+        // SAFETY: upheld by the caller. The kind of an element takes no count from a field.
         places
             .map(|place| unsafe { self.read(place, &[], place) })
             .collect()
     }
 
-    /// Returns the value at an address, which is one of the fields at another.
+    /// Returns the value at `place`, which is one of the fields of the structure at `structure`.
     ///
     /// # Safety
     /// As for [`members`].
     unsafe fn read(&self, place: *const u8, fields: &[Field], structure: *const u8) -> Argument {
-        // SAFETY: the caller's; kinds and counts are those of the registry.
+        // SAFETY: upheld by the caller; kinds and counts are the registry's.
         unsafe {
-            // Where an address leads, and the number of values there.
+            // The address stored at `place`, and the number of values there.
             let start = || get::<*const u8>(place);
             let count = |count: &Count| {
                 if start().is_null() {
@@ -296,7 +298,7 @@ impl Kind {
     }
 }
 
-/// Ends the recording at something that it cannot keep.
+/// Ends the recording at something that it cannot represent.
 fn unknown(what: &str) -> Argument {
     fail(what);
     Argument::Null

@@ -1,10 +1,10 @@
-//! The calls of a scene, recorded at the functions of the device.
+//! Recording of the calls of a scene, at the functions of the device.
 //!
-//! An instance that is opened to record answers with functions of this module where the device's would be: they call
-//! the driver's and keep what was asked of it. Functions that only ask or destroy are the driver's own. Any other one is
-//! missing, so that a call which nobody records ends the process.
+//! An instance opened to record returns functions of this module instead of the device's: they call the
+//! driver's function and keep the call. Functions that only query or destroy are the driver's own. All other
+//! functions are missing, so that a call that would not be recorded ends the process.
 //!
-//! As functions have nothing but their arguments to tell devices apart, the state is the thread's, as a backend is.
+//! A function cannot carry a state, so the recorder is kept per thread, as a backend belongs to one thread.
 
 mod functions;
 mod layout;
@@ -23,7 +23,7 @@ use ash::vk;
 use recorder::{driver, stands_before};
 use std::ffi::{CStr, c_char};
 
-/// Returns the instance with the functions that find and record those of its devices.
+/// Returns the instance with functions that find and record the functions of its devices.
 pub(crate) fn instance(instance: &ash::Instance) -> ash::Instance {
     let mut v10 = instance.fp_v1_0().clone();
     stands_before("vkGetDeviceProcAddr", v10.get_device_proc_addr as usize);
@@ -41,14 +41,16 @@ pub(crate) fn instance(instance: &ash::Instance) -> ash::Instance {
     )
 }
 
-/// Returns the function that records one of the driver's, which is at an address.
+/// Returns the function that records the driver's function of this name. Keeps `address`, where the driver's
+/// is.
 fn before(name: &str, address: usize) -> Option<*const ()> {
     let (name, shim) = registry::shim(name)?;
     stands_before(name, address);
     Some(shim)
 }
 
-/// Returns the function under which the backend finds one of the device's.
+/// Returns the function that the backend finds for a device's function: the recording one, the driver's, or
+/// none.
 unsafe extern "system" fn get_device_proc_addr(
     device: vk::Device,
     name: *const c_char,
@@ -56,12 +58,12 @@ unsafe extern "system" fn get_device_proc_addr(
     // SAFETY: the address was the driver's function of this type.
     let own: vk::PFN_vkGetDeviceProcAddr =
         unsafe { std::mem::transmute(driver("vkGetDeviceProcAddr")) };
-    // SAFETY: the arguments are the caller's.
+    // SAFETY: the caller passed the arguments to a function of this type.
     let address = unsafe { own(device, name) }?;
-    // SAFETY: the caller's name is terminated.
+    // SAFETY: the caller's name is zero-terminated.
     let text = unsafe { CStr::from_ptr(name) }.to_str().ok()?;
     if let Some(shim) = before(text, address as usize) {
-        // SAFETY: a function's address is one of a function without arguments, which nobody calls as such.
+        // SAFETY: the API returns every function as one without arguments; it is never called with this type.
         return Some(unsafe {
             std::mem::transmute::<*const (), unsafe extern "system" fn()>(shim)
         });
@@ -69,7 +71,8 @@ unsafe extern "system" fn get_device_proc_addr(
     only_asks(text).then_some(address)
 }
 
-/// True if a function only asks about the device, waits for all of it, or destroys: it stays the driver's own.
+/// Returns true if a function only queries the device, waits for all of its work, or destroys an object. It
+/// is not recorded.
 fn only_asks(name: &str) -> bool {
     ["vkGet", "vkDestroy", "vkFree", "vkDeviceWaitIdle"]
         .iter()

@@ -1,6 +1,7 @@
 //! The features and extensions that a scene needs.
 //!
-//! The backend enables all that it may ever use. A program that did so would run on no other device.
+//! The backend enables everything that it might use. A program that did so would run only on devices that
+//! have it all.
 
 use ash::vk;
 use etalon_backend::{Argument, Call, VulkanNeeds};
@@ -16,12 +17,12 @@ pub(crate) struct Needed {
     features: Vec<&'static str>,
     extensions: Vec<&'static str>,
     pub(super) further: VulkanNeeds,
-    /// True if all is kept, since the scene's path uses further states.
+    /// True if every feature and extension is kept, because the scene's path uses further states.
     all: bool,
 }
 
 impl Needed {
-    /// Returns the needs of a scene; `native` returns the `VkFormat` of a format.
+    /// Returns what a scene needs. `native` returns the `VkFormat` of a format.
     pub(crate) fn of(scene: &Scene, native: impl Fn(TextureFormat) -> Option<vk::Format>) -> Self {
         let mut needed = Self {
             all: scene.path.state != PathState::default()
@@ -47,7 +48,7 @@ impl Needed {
         needed
     }
 
-    /// Leaves out of a call that makes a device what is not needed.
+    /// Removes from the call that creates the device what the scene does not need.
     pub(super) fn narrow(&self, call: &mut Call) {
         if self.all || call.function != "vkCreateDevice" {
             return;
@@ -88,7 +89,7 @@ impl Needed {
         }
     }
 
-    /// Takes the structures of extensions that are left out from a chain.
+    /// Removes from a chain the structures of extensions that the scene does not need.
     fn unchain(&self, chain: &mut Argument) {
         let Argument::Array(structures) = chain else {
             return;
@@ -121,7 +122,7 @@ impl Needed {
     }
 }
 
-/// Returns the feature of the device behind one of a scene.
+/// Returns the member of `VkPhysicalDeviceFeatures` that a scene's feature needs.
 fn member(feature: Feature) -> Option<&'static str> {
     Some(match feature {
         Feature::AlphaToOne => "alphaToOne",
@@ -145,7 +146,7 @@ fn member(feature: Feature) -> Option<&'static str> {
     })
 }
 
-/// Adds the way in which depth or stencil is resolved.
+/// Adds the resolve mode of depth or stencil that a scene's feature needs.
 fn resolve(feature: Feature, needs: &mut VulkanNeeds) {
     match feature {
         Feature::DepthResolveAverage => {
@@ -161,7 +162,7 @@ fn resolve(feature: Feature, needs: &mut VulkanNeeds) {
     }
 }
 
-/// Returns the extension behind a feature of a scene.
+/// Returns the extension that a scene's feature needs.
 fn extension(feature: Feature) -> Option<&'static str> {
     Some(match feature {
         Feature::AdvancedBlend | Feature::AdvancedBlendCoherent => {

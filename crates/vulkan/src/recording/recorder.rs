@@ -16,21 +16,21 @@ thread_local! {
 
 /// The calls so far.
 struct Recorder {
-    /// The driver's own functions.
+    /// The driver's functions, by name.
     driver: HashMap<&'static str, usize>,
     phase: Phase,
     calls: Vec<Call>,
-    /// The memories that calls wrote to.
+    /// The number of memories that calls have written.
     outputs: u32,
     memory: vk::PhysicalDeviceMemoryProperties,
     images: Vec<RecordedImage>,
     counters: Vec<RecordedCounter>,
     needed: Needed,
-    /// The first thing that could not be kept.
+    /// The first thing that could not be represented.
     failed: Option<String>,
 }
 
-/// Prepares to record the device that is opened on this thread, or not to.
+/// Starts recording the calls of the device that this thread opens, or no recording if `record` is false.
 pub(crate) fn install(record: bool) {
     RECORDER.set(record.then(|| Recorder {
         driver: HashMap::new(),
@@ -45,27 +45,27 @@ pub(crate) fn install(record: bool) {
     }));
 }
 
-/// Returns what a function makes of the recorder of this thread, if there is one.
+/// Calls a function with the recorder of this thread, if there is one, and returns its result.
 fn with<R>(call: impl FnOnce(&mut Recorder) -> R) -> Option<R> {
     RECORDER.with_borrow_mut(|recorder| recorder.as_mut().map(call))
 }
 
-/// True if the device of this thread was opened to record.
+/// Returns true if the device of this thread is recorded.
 pub(crate) fn is_installed() -> bool {
     with(|_| ()).is_some()
 }
 
-/// Keeps the calls from now on as those of a phase.
+/// Assigns the calls from now on to a phase.
 pub(crate) fn phase(phase: Phase) {
     with(|r| r.phase = phase);
 }
 
-/// Tells the memory types of the device.
+/// Sets the memory types of the device.
 pub(crate) fn memory_types(properties: &vk::PhysicalDeviceMemoryProperties) {
     with(|r| r.memory = *properties);
 }
 
-/// Tells what the scene needs.
+/// Sets what the scene needs.
 pub(crate) fn needs(needed: Needed) {
     with(|r| r.needed = needed);
 }
@@ -81,7 +81,7 @@ pub(super) fn flags_of(memory_type: u32) -> u32 {
     with(flags).flatten().unwrap_or_default()
 }
 
-/// Keeps bytes that the host wrote to mapped memory.
+/// Records the bytes that the host wrote to mapped memory.
 pub(crate) fn written(mapped: *const u8, offset: u64, bytes: &[u8]) {
     keep("write", || {
         vec![
@@ -92,7 +92,7 @@ pub(crate) fn written(mapped: *const u8, offset: u64, bytes: &[u8]) {
     });
 }
 
-/// Keeps that the host read mapped memory. The bytes are those of a new memory.
+/// Records that the host read mapped memory. The bytes go to a new memory.
 pub(crate) fn read(mapped: *const u8, offset: u64, length: usize) {
     let output = new_output(length as u64);
     keep("read", || {
@@ -104,7 +104,7 @@ fn memory(mapped: *const u8) -> Argument {
     Argument::Object("mapped".to_owned(), mapped.addr() as u64)
 }
 
-/// Names an image of which the memory that was read last has the texels.
+/// Records the image whose texels are in the memory that was read last.
 pub(crate) fn image(image: &Image, planes: impl Iterator<Item = Plane>) {
     with(|r| {
         let output = r.outputs.saturating_sub(1);
@@ -118,7 +118,7 @@ pub(crate) fn image(image: &Image, planes: impl Iterator<Item = Plane>) {
     });
 }
 
-/// Notes the counters before their parts are known.
+/// Adds the counters, before their parts are known.
 pub(crate) fn counters(any: impl Iterator<Item = bool>) {
     let counter = |any| RecordedCounter {
         parts: Vec::new(),
@@ -127,7 +127,7 @@ pub(crate) fn counters(any: impl Iterator<Item = bool>) {
     with(|r| r.counters = any.map(counter).collect());
 }
 
-/// Adds bytes of the memory that was written last to a counter.
+/// Adds bytes of the memory that was read last to a counter.
 pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
     with(|r| {
         let output = r.outputs.saturating_sub(1);
@@ -141,7 +141,7 @@ pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
     });
 }
 
-/// Returns what was recorded; `None` if something could not be kept.
+/// Returns the recording, or `None` if something could not be represented.
 pub(crate) fn recorded(device: &str, version: u32) -> Option<Recording> {
     with(|r| match r.failed {
         Some(_) => None,
@@ -163,24 +163,24 @@ pub(crate) fn recorded(device: &str, version: u32) -> Option<Recording> {
     .flatten()
 }
 
-/// Notes that something could not be kept.
+/// Records that something could not be represented.
 pub(super) fn fail(what: &str) {
     with(|r| r.failed.get_or_insert_with(|| what.to_owned()).clone());
 }
 
-/// Returns the driver's own function behind one of this module's, which the backend found in its place.
+/// Returns the address of the driver's function that a function of this module replaces.
 pub(super) fn driver(name: &'static str) -> usize {
     with(|r| r.driver.get(name).copied())
         .flatten()
         .unwrap_or_default()
 }
 
-/// Keeps the address of a driver's function behind one of this module's.
+/// Keeps the address of the driver's function that a function of this module replaces.
 pub(super) fn stands_before(name: &'static str, address: usize) {
     with(|r| r.driver.insert(name, address));
 }
 
-/// Keeps a call.
+/// Records a call.
 pub(super) fn keep(function: &str, arguments: impl FnOnce() -> Vec<Argument>) {
     if !is_installed() {
         return;
@@ -196,7 +196,7 @@ pub(super) fn keep(function: &str, arguments: impl FnOnce() -> Vec<Argument>) {
     });
 }
 
-/// Returns a new memory, which the call that is made writes to.
+/// Returns a new memory that the current call writes.
 pub(super) fn new_output(bytes: u64) -> Argument {
     let number = with(|r| {
         r.outputs += 1;

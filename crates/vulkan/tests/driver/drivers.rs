@@ -9,7 +9,7 @@ fn name() -> String {
     std::env::var("ETALON_VULKAN_ADAPTER").unwrap_or("vulkan:lavapipe".to_owned())
 }
 
-/// True if the adapter under test is the one that must have everything.
+/// Returns true if the adapter under test must support everything.
 pub(crate) fn is_lavapipe() -> bool {
     name() == "vulkan:lavapipe"
 }
