@@ -120,7 +120,7 @@ const GRAPHICS: [&str; 9] = [
     "wgpu-types",
 ];
 
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     root.canonicalize().unwrap()
 }
@@ -282,7 +282,7 @@ fn no_graphics_library_is_linked() {
 }
 
 /// Files that git tracks or would track.
-fn files() -> Vec<String> {
+pub(crate) fn files() -> Vec<String> {
     let output = Command::new("git")
         .args([
             "ls-files",

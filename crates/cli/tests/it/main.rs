@@ -32,6 +32,7 @@ mod news;
 mod odd_inputs;
 mod parts;
 mod pipes;
+mod plain_words;
 mod prose;
 mod read_faults;
 mod reduce;
