@@ -77,7 +77,7 @@ impl BenchWriter {
     /// Appends one line in a single write.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn append(&mut self, line: &BenchLine) -> Result<(), RecordError> {
         self.write(&json_line("a line of a bench", line)?)
     }
