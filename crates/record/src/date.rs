@@ -12,7 +12,7 @@ pub(crate) fn check_date(key: &str, date: &str) -> Result<(), String> {
     }
     let date = shortened(date);
     Err(format!(
-        "\"{key}\": {date:?} is no day; days are written as \"2027-01-31\""
+        "\"{key}\": {date:?} is not a day; days are written as \"2027-01-31\""
     ))
 }
 

@@ -123,7 +123,7 @@ pub enum RecordError {
     },
     /// The file is in another format.
     #[error(
-        "{} is in format {found} where this etalon reads formats up to {expected}; \
+        "{} is in format {found}, but this etalon reads formats up to {expected}; \
          read it with the version that wrote it, or record the run again",
         path.display()
     )]
@@ -148,7 +148,7 @@ pub enum RecordError {
         remedy: &'static str,
     },
     /// A path in a record leaves the run folder.
-    #[error("{path:?} is no path below a run folder; the record that names it is damaged")]
+    #[error("{path:?} is not a path below a run folder; the record that names it is damaged")]
     Outside {
         /// The path as recorded.
         path: String,

@@ -358,7 +358,7 @@ impl Expectations {
                 return Err(RecordError::Parse {
                     path: path.to_owned(),
                     line: line_of(text, &entry.case),
-                    message: format!("entry {}: reason and evidence must say something", i + 1),
+                    message: format!("entry {}: reason and evidence must not be empty", i + 1),
                     remedy: REMEDY,
                 });
             }
@@ -410,7 +410,7 @@ impl Expectations {
             known.cases.iter().cloned().partition(|g| is_plain(g));
         if let Some(symptom) = &known.symptom {
             let wrong = if symptom.is_empty() {
-                Some("names nothing; it takes attachment, aspect, codes, side or counter")
+                Some("is empty; its keys are attachment, aspect, codes, side and counter")
             } else if !known.verdict.is_violation() && known.verdict != Verdict::Flaky {
                 Some("describes a wrong value, which this verdict does not have")
             } else {

@@ -193,14 +193,14 @@ impl Finding {
         };
         for (key, empty) in parts {
             if empty {
-                return Err(fail(line_of(key), format!("\"{key}\" must say something")));
+                return Err(fail(line_of(key), format!("\"{key}\" must not be empty")));
             }
         }
         if let Some(reading) = &finding.read {
             check_date("date", &reading.date).map_err(|message| fail(line_of("date"), message))?;
             for (key, text) in [("clause", &reading.clause), ("reason", &reading.reason)] {
                 if text.trim().is_empty() {
-                    let message = format!("\"{key}\" of \"read\" must say something");
+                    let message = format!("\"{key}\" of \"read\" must not be empty");
                     return Err(fail(line_of("read"), message));
                 }
             }
@@ -276,7 +276,7 @@ mod tests {
             ("OpenGL 4.6: 17.3.6.5", " ", 7, "\"clause\""),
             ("\"texel\": [1, 2]", "\"texels\": [1, 2]", 9, "texels"),
             ("The blend constant stays.", "", 2, "\"title\""),
-            ("2027-01-31", "2027-13-01", 11, "no day"),
+            ("2027-01-31", "2027-13-01", 11, "not a day"),
             ("OpenGL 4.6: 17.3.6.5 Blend Color", "", 11, "\"clause\""),
             ("lowered", "fine", 11, "upheld"),
             ("No text says when it is read.", "", 11, "\"reason\""),

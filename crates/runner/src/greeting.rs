@@ -39,7 +39,7 @@ pub(crate) fn check(from: &mut impl BufRead, launched: bool) -> Result<bool, Los
     }
     if text.starts_with(WORDS) {
         return Err(Loss::NotStarted(format!(
-            "the program that answers is `{}`, and this one `{}`: start the same program there",
+            "the program that answered is `{}`, but this one is `{}`: start the same program there",
             text.escape_debug(),
             own()
         )));

@@ -9,6 +9,6 @@ use std::path::Path;
 pub(super) fn started(path: &Path, text: &str) -> Result<i64, HistoryError> {
     parse_time(text).ok_or_else(|| HistoryError::Header {
         path: path.to_owned(),
-        message: format!("{:?} is no time", shortened(text)),
+        message: format!("{:?} is not a time", shortened(text)),
     })
 }

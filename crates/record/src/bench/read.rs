@@ -175,10 +175,7 @@ impl Assembly {
         let record = self.open(&round.case, &round.adapter)?;
         let expected = record.rounds.len();
         if round.round as usize != expected {
-            return Err(format!(
-                "round {} where round {expected} is due",
-                round.round
-            ));
+            return Err(format!("round {} instead of round {expected}", round.round));
         }
         record.rounds.push(round);
         Ok(())

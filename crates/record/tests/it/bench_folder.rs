@@ -188,7 +188,7 @@ fn impossible_lines_are_told_with_file_and_line() {
         (
             vec![pass(), BenchLine::Round(round(1))],
             3,
-            "round 0 is due",
+            "round 1 instead of round 0",
         ),
         (
             vec![pass(), ended(), BenchLine::Round(round(0))],

@@ -170,8 +170,8 @@ fn fails(record: &Record) -> bool {
     record.verdict.is_bad() && !right
 }
 
-/// Describes a failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, and 3 was
-/// due`.
+/// Describes a failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, expected
+/// 3`.
 fn account(record: &Record) -> String {
     let cause = match record.wrong.first() {
         Some(wrong) => wrong.channels.first().map(|channel| {
@@ -190,7 +190,7 @@ fn account(record: &Record) -> String {
             };
             let (x, y) = (wrong.x, wrong.y);
             format!(
-                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, and {expected} was due"
+                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, expected {expected}"
             )
         }),
         None => {
