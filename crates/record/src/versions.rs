@@ -27,7 +27,7 @@ pub struct VersionsHeader {
     pub format: u32,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The machine.

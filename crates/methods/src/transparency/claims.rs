@@ -75,7 +75,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Weighted blended transparency is nearer to the truth than blending in no order.",
+        "Weighted blended transparency is nearer to the truth than unsorted blending.",
         "McGuire and Bavoil 2013, Weighted Blended Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,

@@ -10,7 +10,7 @@ const COUNTED: [&str; 2] = ["unsorted", "no-test"];
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "A depth test shades fewer fragments front to back than in no order.",
+        "A depth test shades fewer fragments front to back than in arbitrary order.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -37,7 +37,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .where_fewer(COUNTED),
     Claim::new(
         QUESTION,
-        "A depth prepass takes less time than no order where shading is expensive.",
+        "A depth prepass takes less time than arbitrary order if shading is expensive.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Time,

@@ -11,7 +11,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     ),
     Lesson::new(
         "unsorted",
-        "A depth test with triangles in no order.",
+        "A depth test with triangles in arbitrary order.",
         "A fragment is skipped only if a nearer one came first: of n layers, about the nth harmonic number is shaded.",
         "Catmull 1974, A Subdivision Algorithm for Computer Display of Curved Surfaces",
     ),
