@@ -1,4 +1,4 @@
-//! A bundle on disk: a folder, and the same as an archive.
+//! A bundle on disk: a folder, and an archive with the same files.
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -43,13 +43,13 @@ pub struct Written {
     pub archive: PathBuf,
 }
 
-/// The error of a bundle that could not be written.
+/// Why a bundle could not be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is one of the same name.
+    /// A bundle of the same name exists.
     #[error("{path} exists; replace it with --force, or choose another folder with --out", path = .0.display())]
     Exists(PathBuf),
-    /// There is a folder of the same name that holds something else.
+    /// A folder of the same name exists that is not a bundle.
     #[error("{path} holds no bundle of etalon; name another folder with --out", path = .0.display())]
     Foreign(PathBuf),
     /// The system refused.
@@ -62,7 +62,7 @@ pub enum WriteError {
     },
 }
 
-/// The files that a bundle may have.
+/// The files that a bundle can have.
 const NAMES: [&str; 10] = [
     "report.md",
     "repro.c",
@@ -75,13 +75,13 @@ const NAMES: [&str; 10] = [
     "difference.png",
     CASE,
 ];
-/// The file by which a bundle is known: a case file.
+/// The case file, by which a folder is recognized as a bundle.
 const CASE: &str = "case.json";
 
-/// Checks that nothing is lost by writing a bundle of a name.
+/// Checks that writing a bundle of this name overwrites nothing.
 ///
 /// # Errors
-/// If there is one, unless it may be replaced, or something else.
+/// If anything other than a bundle exists there, or a bundle that may not be replaced.
 pub fn free(out: &Path, name: &str, replace: bool) -> Result<(), WriteError> {
     let Written { folder, archive } = places(out, name);
     if folder.exists() && !is_bundle(&folder) {
@@ -95,7 +95,7 @@ pub fn free(out: &Path, name: &str, replace: bool) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// True if a folder is empty or holds the case file of a bundle.
+/// Returns true if a folder is empty or has the case file of a bundle.
 fn is_bundle(folder: &Path) -> bool {
     let case = fs::read_to_string(folder.join(CASE)).unwrap_or_default();
     let empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
@@ -103,7 +103,8 @@ fn is_bundle(folder: &Path) -> bool {
     empty || has("about") && has("scene")
 }
 
-/// Puts the files of a folder into another one, without those of an earlier bundle there. Other files stay.
+/// Moves the files of a folder into another one, and removes the files of an earlier bundle there. Other
+/// files stay.
 fn put(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for name in NAMES {
@@ -119,10 +120,10 @@ fn put(from: &Path, to: &Path) -> io::Result<()> {
     fs::remove_dir(from)
 }
 
-/// Writes a bundle. It is complete or not there: what is unfinished has another name.
+/// Writes a bundle. It is either complete or absent: an unfinished bundle has another name.
 ///
 /// # Errors
-/// If there is one of the same name that may not be replaced, or the system refuses.
+/// If a bundle of the same name exists and may not be replaced, or if the system refuses.
 pub fn write(out: &Path, name: &str, files: &[File], replace: bool) -> Result<Written, WriteError> {
     free(out, name, replace)?;
     let written = places(out, name);
@@ -161,7 +162,7 @@ fn places(out: &Path, name: &str) -> Written {
     }
 }
 
-/// Returns the files as an archive, below a folder of the bundle's name. The same files give the same bytes.
+/// Returns the files as an archive, in a folder with the bundle's name. The same files give the same bytes.
 fn packed(name: &str, files: &[File]) -> io::Result<Vec<u8>> {
     let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::default()));
     for file in files {

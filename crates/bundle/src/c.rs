@@ -1,4 +1,4 @@
-//! Texts and numbers as C.
+//! Writing texts and numbers as C.
 
 /// Returns a text as a string literal, quotes included. Bytes beyond ASCII and trigraphs are escaped.
 pub(crate) fn string(text: &str) -> String {
@@ -12,7 +12,7 @@ pub(crate) fn string(text: &str) -> String {
             b'\t' => literal.push_str("\\t"),
             b'?' if before == Some(b'?') => literal.push_str("\\?"),
             b' '..=b'~' => literal.push(char::from(byte)),
-            // Three octal digits never take the next character with them.
+            // An octal escape of three digits never includes the next character.
             byte => literal.push_str(&format!("\\{byte:03o}")),
         }
         before = Some(byte);
@@ -21,7 +21,7 @@ pub(crate) fn string(text: &str) -> String {
     literal
 }
 
-/// Returns a text as string literals, one for each of its lines.
+/// Returns a text as string literals, one per line.
 pub(crate) fn lines(text: &str, indent: &str) -> String {
     let lines: Vec<String> = text.split_inclusive('\n').map(string).collect();
     if lines.is_empty() {
@@ -31,14 +31,14 @@ pub(crate) fn lines(text: &str, indent: &str) -> String {
     }
 }
 
-/// True if a name may stand in C as it is.
+/// Returns true if a name is a valid C identifier.
 pub(crate) fn is_identifier(name: &str) -> bool {
     let first = name.chars().next();
     first.is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Returns a text that may stand in a comment: it ends none, starts none, and continues no line.
+/// Returns a text that is safe in a comment: it neither ends nor starts a comment, and continues no line.
 pub(crate) fn comment(text: &str) -> String {
     let printable = |c: char| match c {
         '\\' => '/',
@@ -51,7 +51,7 @@ pub(crate) fn comment(text: &str) -> String {
         .replace("??", "? ?")
 }
 
-/// Returns a text in lines of a comment, at most as long as C's readers like.
+/// Returns a text as lines of a comment, wrapped at a readable width.
 pub(crate) fn paragraph(text: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     for word in comment(text).split_whitespace() {
@@ -66,7 +66,7 @@ pub(crate) fn paragraph(text: &str) -> String {
     lines.iter().map(|line| format!(" * {line}\n")).collect()
 }
 
-/// Returns a float as a constant of its value.
+/// Returns a constant with the value of a float.
 pub(crate) fn float(bits: u32) -> String {
     let value = f32::from_bits(bits);
     match value {
@@ -76,7 +76,7 @@ pub(crate) fn float(bits: u32) -> String {
     }
 }
 
-/// Returns a double as a constant that has exactly its value.
+/// Returns a constant with exactly the value of a double.
 pub(crate) fn double(value: f64) -> String {
     match value {
         v if v == f64::INFINITY => "INFINITY".to_owned(),

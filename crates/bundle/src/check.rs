@@ -1,4 +1,4 @@
-//! The comparison of what came back with what is allowed, as C.
+//! The comparison of the values read back with the permitted ones, as C.
 
 use crate::c;
 use crate::due::Due;
@@ -7,7 +7,7 @@ use crate::table::{self, Order};
 use etalon_backend::Recording;
 use std::fmt::Write;
 
-/// The types and functions of the table, as C.
+/// The types and functions for the table of expected values, as C.
 const TYPES: &str = r#"
 /* How the bits of a channel are compared: as a number, a signed number, a float of 16 bits (by its sign and magnitude),
  * a float of 32 bits, or a byte that a shorter code was widened to. */
@@ -117,7 +117,7 @@ static void tell(const struct texel *t)
 }
 "#;
 
-/// Returns the function that checks what was read.
+/// Returns the function that checks the values that were read.
 pub(crate) fn check(recording: &Recording, due: &Due) -> Result<String, BundleError> {
     let mut text = String::new();
     if !due.texels.is_empty() {

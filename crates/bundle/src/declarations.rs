@@ -1,4 +1,4 @@
-//! The declarations and functions of a C program, whatever its API.
+//! The declarations and functions of a C program, for any API.
 
 use crate::error::BundleError;
 use etalon_backend::{Call, Phase};
@@ -14,7 +14,8 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    /// Returns a function for each run of calls of one phase. `statement` prints a call, in one line or several.
+    /// Returns one function per run of calls of the same phase. `statement` prints a call, in one or several
+    /// lines.
     pub(crate) fn of<'a>(
         calls: impl IntoIterator<Item = &'a Call>,
         mut statement: impl FnMut(&Call) -> Result<String, BundleError>,
@@ -62,22 +63,23 @@ fn name_of(phase: Phase) -> &'static str {
     }
 }
 
-/// A type, and the function that prints a word of data as a value of it; `None` of a word that is no such value.
+/// A type, and the function that prints a word of data as a value of it, or returns `None` if the word has
+/// no such value.
 pub(crate) type Words = (&'static str, fn(u32) -> Option<String>);
 
-/// The functions, variables and data that the statements so far need.
+/// The functions, variables and data that the statements printed so far need.
 #[derive(Default)]
 pub(crate) struct Declarations {
-    /// The functions: result and parameters.
+    /// The functions, with their results and parameters.
     functions: BTreeMap<String, (&'static str, Vec<String>)>,
     /// The variables, with their types.
     variables: Vec<(String, String)>,
-    /// The variables of each stem so far.
+    /// The number of variables per stem so far.
     counts: HashMap<String, u32>,
     /// Arrays, as declarations.
     data: String,
     arrays: u32,
-    /// The memory that the driver writes to: its size by its number.
+    /// The memory that the driver writes to: sizes by number.
     memories: BTreeMap<u32, u64>,
 }
 
@@ -89,7 +91,7 @@ impl Declarations {
             .or_insert((result, parameters));
     }
 
-    /// Returns a new variable.
+    /// Declares a new variable and returns its name.
     pub(crate) fn variable(&mut self, kind: &str, stem: &str) -> String {
         let count = self.counts.entry(stem.to_owned()).or_default();
         *count += 1;
@@ -98,13 +100,13 @@ impl Declarations {
         variable
     }
 
-    /// Returns the name of memory that the driver writes to.
+    /// Returns the name of memory that the driver writes to, and declares it.
     pub(crate) fn memory(&mut self, number: u32, bytes: u64) -> String {
         self.memories.insert(number, bytes);
         format!("memory_{number}")
     }
 
-    /// Returns the name of a new text. `literals` are its string literals.
+    /// Declares a new text and returns its name. `literals` are its string literals.
     pub(crate) fn text(&mut self, literals: &str) -> String {
         self.arrays += 1;
         let name = format!("source_{}", self.arrays);
@@ -115,7 +117,8 @@ impl Declarations {
         name
     }
 
-    /// Returns the name of a new array of `bytes`: zeros, values that `print` makes of all words, words, or single bytes.
+    /// Declares a new array of `bytes` and returns its name. The array has zeros, values if `print` accepts
+    /// all words, words, or single bytes.
     pub(crate) fn bytes(&mut self, bytes: &[u8], print: Option<Words>) -> String {
         self.arrays += 1;
         let name = format!("data_{}", self.arrays);
@@ -160,7 +163,8 @@ impl Declarations {
         text
     }
 
-    /// Returns a definition of `head`, which finds the functions and those of `own`: `find` is what a name is appended to.
+    /// Returns a function with the signature `head` that loads the declared functions and `functions`.
+    /// `find` is the code to which a name is appended.
     pub(crate) fn load(&self, head: &str, find: &str, functions: &[&str]) -> String {
         let mut text = format!("\nstatic void {head}\n{{\n");
         let called = self.functions.keys().map(String::as_str);

@@ -1,8 +1,8 @@
-//! The values that a frame must have for the bug to be absent.
+//! The values that a frame must have if the bug is absent.
 
 use etalon_frame::{Aspect, ChannelEncoding, CountRange};
 
-/// The values that are checked.
+/// The values to check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Due {
     /// Samples of texels.
@@ -11,7 +11,7 @@ pub struct Due {
     pub counters: Vec<DueCounter>,
 }
 
-/// A sample and the values that it may have.
+/// A sample, and its permitted values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DueTexel {
     /// The column, counted from the left.
@@ -22,8 +22,8 @@ pub struct DueTexel {
     pub sample: u32,
     /// The channels that are read.
     pub channels: Vec<DueChannel>,
-    /// The permitted outcomes: of each, the least and the greatest order of each channel. The sample is right if one of
-    /// them holds it.
+    /// The permitted outcomes. Each has the lowest and the highest order of each channel. The sample is
+    /// right if it is within any outcome.
     pub allowed: Vec<Vec<[i64; 2]>>,
 }
 
@@ -34,25 +34,25 @@ pub struct DueChannel {
     pub attachment: String,
     /// The aspect.
     pub aspect: Aspect,
-    /// The channel's place in its image.
+    /// The channel's index in its image.
     pub channel: usize,
     /// The encoding.
     pub encoding: ChannelEncoding,
 }
 
-/// A counter and the counts that it may have.
+/// A counter, and its permitted counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DueCounter {
     /// The name.
     pub name: String,
-    /// The place among the scene's counters.
+    /// The index among the scene's counters.
     pub index: usize,
-    /// The counts.
+    /// The permitted counts.
     pub range: CountRange,
 }
 
 impl DueChannel {
-    /// Returns the channel's name: `red` of a colour, else the aspect's.
+    /// Returns the channel's name, `red of color`; depth and stencil have the aspect's name.
     pub(crate) fn name(&self) -> String {
         format!(
             "{} of {}",

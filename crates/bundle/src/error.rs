@@ -1,18 +1,18 @@
-//! The error of a program that cannot be printed.
+//! Errors of programs that cannot be printed.
 
 use thiserror::Error;
 
-/// The error of a program that cannot be printed.
+/// Why a program cannot be printed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BundleError {
-    /// A call uses an object that no recorded call made.
+    /// A call uses an object that no recorded call created.
     #[error("{function} uses {kind} {number}, which no recorded call made")]
     Unknown {
         /// The call.
         function: String,
         /// The kind of object.
         kind: String,
-        /// The API's number of it.
+        /// The object's number in the API.
         number: u64,
     },
     /// A call has arguments that cannot be printed.

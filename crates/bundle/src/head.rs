@@ -1,19 +1,19 @@
-//! The head of a program: sentences for people.
+//! The head of a program: a comment for its readers.
 
 use crate::c::{comment, paragraph};
 
 /// The head of a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Head {
-    /// The bug in a line.
+    /// The bug, in one line.
     pub title: String,
-    /// A sentence on the wrong value.
+    /// A sentence about the wrong value.
     pub sentence: String,
     /// The command that runs the program on the driver.
     pub run: String,
 }
 
-/// The headers of a C program, and its results.
+/// The headers of a C program, and its exit statuses.
 const BEGINNING: &str = r#"
 #include <dlfcn.h>
 #include <math.h>
@@ -26,8 +26,8 @@ enum { BUG = 1, FAILED = 2, LACKS = 77 };
 "#;
 
 impl Head {
-    /// Returns the beginning of a C program. `argument` says what its first argument is, `names` how the API's names are
-    /// declared.
+    /// Returns the beginning of a C program. `argument` describes its first argument, and `names` how the
+    /// API's names are declared.
     pub(crate) fn beginning(&self, build: &str, argument: &str, names: &str) -> String {
         format!(
             "/*\n{} *\n{} *\n * Build and run:\n *   {build}\n *   {}\n *\n{}{} */\n{BEGINNING}",
@@ -35,11 +35,11 @@ impl Head {
             paragraph(&self.sentence),
             comment(&self.run),
             paragraph(&format!(
-                "The first argument, if there is one, is {argument}. Exit status: 1 if the bug is there, 0 if not, 77 if \
+                "The optional first argument is {argument}. Exit status: 1 if the bug is there, 0 if not, 77 if \
                  the driver lacks something, 2 if a call fails."
             )),
             paragraph(&format!(
-                "Needs the headers of the C library and none of the API. {names}"
+                "Needs only the headers of the C library, not those of the API. {names}"
             )),
         )
     }

@@ -1,6 +1,6 @@
-//! The language of a program, and how it is built and run.
+//! The language of a program, and how to build and run it.
 
-/// The command that builds a program of C in its folder.
+/// The command that builds a C program in its folder.
 pub(crate) const BUILD_C: &str = "cc repro.c -ldl -o repro";
 
 /// The language of a program.
@@ -15,8 +15,8 @@ pub enum Language {
 }
 
 impl Language {
-    /// Returns the commands that build the program as `repro` in its folder and run it, the latter given; `None` for a
-    /// page, which a browser opens.
+    /// Returns the commands that build the program as `repro` in its folder, and then run it with `run`.
+    /// `None` for a page, which a browser opens.
     pub(crate) fn commands(self, run: &str) -> Option<[String; 2]> {
         let build = match self {
             Self::C => BUILD_C,
@@ -26,16 +26,16 @@ impl Language {
         Some([build, run].map(str::to_owned))
     }
 
-    /// Returns what building needs, or how a page is opened and answers, in sentences.
+    /// Returns what building requires, or how to open a page and read its result, in sentences.
     pub(crate) fn needs(self) -> &'static str {
         match self {
-            Self::C => "`repro.c` needs a C compiler and no header of the API.",
+            Self::C => "`repro.c` needs a C compiler, but no headers of the API.",
             Self::Rust => {
                 "It needs Rust; `Cargo.toml` names wgpu in the version whose calls were recorded."
             }
             Self::Page => {
-                "Open `repro.html` in the browser, from the disk or from a server of this machine. Its title becomes what is \
-                 wrong, `right`, what the browser lacks, or the call that fails."
+                "Open `repro.html` in the browser, from disk or from a local server. Its title becomes the wrong \
+                 value, `right`, what the browser does not support, or the call that fails."
             }
         }
     }

@@ -1,8 +1,8 @@
-//! Reproducers of driver bugs that need nothing of the suite: a program printed from the calls that a backend made,
-//! and a report to send with it.
+//! Reproducers of driver bugs that need nothing of the suite: a program printed from the calls that a
+//! backend made, and a report to send with it.
 //!
-//! Everything comes as data: the recorded calls, the texels that are wrong with what is allowed there, the device.
-//! Names and ids are a user's own and reach neither C code nor a shell without being quoted.
+//! All inputs are data: the recorded calls, the wrong texels with their permitted values, and the device.
+//! Names and ids come from users, so they are quoted before they reach C code or a shell.
 
 #![cfg_attr(
     test,

@@ -1,4 +1,4 @@
-//! The program of a bundle, by the API whose calls were recorded.
+//! The program of a bundle, for the API whose calls were recorded.
 
 use crate::archive::File;
 use crate::due::Due;
@@ -15,11 +15,11 @@ use etalon_backend::{RecordedContext, Recording};
 pub struct Program {
     /// Its language.
     pub language: Language,
-    /// The files that it is built from, and others that show the same.
+    /// The files that it is built from, and other files that show the same bug.
     pub files: Vec<File>,
 }
 
-/// Returns the program, with `trim` taken out of it.
+/// Returns the program, with the state that `trim` names removed.
 ///
 /// # Errors
 /// If a call cannot be printed, or a value that must be checked was not read.

@@ -1,4 +1,4 @@
-//! The report that goes with a program: what a maintainer asks first.
+//! The report that goes with a program. It answers a maintainer's first questions.
 
 use crate::language::Language;
 use etalon_backend::AdapterInfo;
@@ -7,9 +7,9 @@ use std::fmt::Write;
 /// The facts of a report.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// The bug in a line.
+    /// The bug, in one line.
     pub title: String,
-    /// A sentence on the first wrong texel or counter.
+    /// A sentence about the first wrong texel or counter.
     pub sentence: String,
     /// The clause that is violated.
     pub clause: Option<String>,
@@ -21,34 +21,35 @@ pub struct Report {
     pub versions: Option<Versions>,
     /// The first wrong values.
     pub expected: Vec<Expected>,
-    /// The states that are not the default.
+    /// The states that differ from the default.
     pub states: Vec<String>,
-    /// The runs that failed, and all.
+    /// The number of runs that failed, and of all runs.
     pub frequency: [u32; 2],
-    /// The answer of the API's own checks.
+    /// The result of the API's own checks.
     pub checks: Checks,
     /// The program's language.
     pub language: Language,
     /// The command that runs the program.
     pub run: String,
-    /// The last line of the program, if it was built and run and showed the bug.
+    /// The program's last line of output, if it was built and run and showed the bug.
     pub built: Option<String>,
     /// Words to search for in the tracker.
     pub search: Vec<String>,
     /// The operations that lead to the value, in order.
     pub story: Vec<String>,
-    /// The files beside the report, each with what it is.
+    /// The other files of the bundle, with descriptions.
     pub files: Vec<(String, String)>,
 }
 
-/// The answer of an API's own checks: debug output, a validation layer.
+/// The result of an API's own checks: debug output, or a validation layer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Checks {
     /// They report nothing.
     Clean,
-    /// There are none.
+    /// They were not available.
     Absent,
-    /// The API accepts the calls. The checks of the API below it report this of what its implementation makes of them.
+    /// The API accepts the calls, but the checks of the API below it report this about the calls of its
+    /// implementation.
     Below(String),
 }
 
@@ -57,23 +58,23 @@ pub enum Checks {
 pub struct Versions {
     /// The ranges, in words.
     pub bad: String,
-    /// True, with its version, if the newest release that was tried has the bug; false if not.
+    /// The newest release that was tried, and whether it has the bug.
     pub newest: Option<(String, bool)>,
 }
 
 /// A wrong value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expected {
-    /// The place.
+    /// The place, in words.
     pub place: String,
-    /// The value that is due.
+    /// The expected value.
     pub due: String,
     /// The value that came back.
     pub actual: String,
 }
 
 impl Report {
-    /// Returns the way to run the program, in a line.
+    /// Returns how to run the program, in one line.
     pub fn way(&self) -> String {
         match self.language.commands(&self.run) {
             Some(commands) => format!("build and run: {}", commands.join(" && ")),
@@ -91,7 +92,7 @@ impl Report {
             let words: Vec<String> = self.search.iter().map(|word| code(word)).collect();
             let _ = write!(text, "Words to search for: {}. ", words.join(", "));
         }
-        text.push_str("Delete these lines then.\n\n");
+        text.push_str("Then delete these lines.\n\n");
         let _ = write!(text, "{}\n\n", plain(&self.sentence));
         if let Some(clause) = &self.clause {
             let _ = write!(text, "Violated: {}\n\n", plain(clause));
@@ -110,7 +111,7 @@ impl Report {
         let [failed, runs] = self.frequency;
         let _ = write!(
             text,
-            "\nIt fails in {failed} of {runs} runs, each in a process of its own. "
+            "\nIt fails in {failed} of {runs} runs, each in its own process. "
         );
         text.push_str(&match &self.checks {
             Checks::Clean => {
@@ -141,7 +142,7 @@ impl Report {
             None => "\nIt was not run on the driver above.\n".to_owned(),
         });
         if !self.states.is_empty() {
-            text.push_str("\n## State\n\nWhat is not the default:\n\n");
+            text.push_str("\n## State\n\nStates that differ from the default:\n\n");
             for state in &self.states {
                 let _ = writeln!(text, "- {}", code(state));
             }
@@ -192,12 +193,12 @@ impl Report {
     }
 }
 
-/// Returns a text of one line that Markdown leaves as it is.
+/// Escapes a text as one line of plain Markdown.
 fn plain(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars() {
         match c {
-            // In front of a paragraph it begins a quotation.
+            // At the start of a paragraph it would begin a quotation.
             '>' if !safe.trim().is_empty() => safe.push('>'),
             '\n' | '\r' | '\t' => safe.push(' '),
             '<' => safe.push_str("&lt;"),
@@ -213,7 +214,7 @@ fn plain(text: &str) -> String {
     safe
 }
 
-/// Returns a text as code in a line.
+/// Returns a text as inline code.
 fn code(text: &str) -> String {
     format!("`{}`", text.replace(['`', '\n', '\r'], "'"))
 }

@@ -1,56 +1,56 @@
-//! The comparison of what came back with what is allowed, as a table that each language prints.
+//! The comparison of the values read back with the permitted ones, as a table that each language prints.
 
 use crate::due::{Due, DueChannel, DueCounter, DueTexel};
 use crate::error::BundleError;
 use etalon_backend::{Form, RecordedCounter, Recording};
 use etalon_frame::ChannelEncoding;
 
-/// The order in which the bits of a channel are compared.
+/// How the bits of a channel are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// As a number.
+    /// As an unsigned number.
     Unsigned,
-    /// As a number with a sign.
+    /// As a signed number.
     Signed,
-    /// As a float of 16 bits, by its sign and magnitude.
+    /// As a 16-bit float, by sign and magnitude.
     Half,
-    /// As a float of 32 bits, by its sign and magnitude.
+    /// As a 32-bit float, by sign and magnitude.
     Single,
-    /// As the value of a float of 32 bits.
+    /// As a 32-bit float, by value.
     Value,
-    /// As a byte that a shorter code was widened to.
+    /// As a byte to which a shorter code was widened.
     Widened,
 }
 
-/// A sample that is checked.
+/// A sample to check.
 pub(crate) struct Texel {
-    /// The place in words.
+    /// The place, in words.
     pub(crate) place: String,
     /// The channels.
     pub(crate) channels: Vec<CheckedChannel>,
-    /// The permitted outcomes: the least and the greatest number of each channel.
+    /// The permitted outcomes: the lowest and the highest number of each channel.
     pub(crate) allowed: Vec<Vec<[f64; 2]>>,
 }
 
-/// A channel that is checked.
+/// A channel to check.
 pub(crate) struct CheckedChannel {
     /// The name.
     pub(crate) name: String,
-    /// The number of the memory.
+    /// The number of the memory that it was read to.
     pub(crate) output: u32,
-    /// The first byte of the texel.
+    /// The offset of the texel's first byte.
     pub(crate) at: u64,
-    /// The first bit there.
+    /// The first bit, counted from there.
     pub(crate) bit: u32,
     /// The number of bits.
     pub(crate) bits: u32,
-    /// The order in which they are compared.
+    /// How the bits are compared.
     pub(crate) order: Order,
-    /// The width of the code in bits.
+    /// The width of the code, in bits.
     pub(crate) width: u32,
 }
 
-/// Returns the samples that are checked.
+/// Returns the samples to check.
 pub(crate) fn texels(recording: &Recording, due: &Due) -> Result<Vec<Texel>, BundleError> {
     let texel = |texel: &DueTexel| {
         let channels = texel.channels.iter().map(|c| place(recording, texel, c));
@@ -71,7 +71,7 @@ pub(crate) fn texels(recording: &Recording, due: &Due) -> Result<Vec<Texel>, Bun
     due.texels.iter().map(texel).collect()
 }
 
-/// Returns where a counter that is checked came back.
+/// Returns where a counter was read back.
 pub(crate) fn counter<'a>(
     recording: &'a Recording,
     due: &DueCounter,
@@ -86,7 +86,7 @@ fn unread(channel: &DueChannel) -> BundleError {
     BundleError::Unread(channel.name())
 }
 
-/// Returns the form in which a channel came back.
+/// Returns the form in which a channel was read back.
 fn form(recording: &Recording, channel: &DueChannel) -> Form {
     let image = recording
         .images
@@ -97,7 +97,7 @@ fn form(recording: &Recording, channel: &DueChannel) -> Form {
         .map_or(Form::Code, |plane| plane.form)
 }
 
-/// Returns where a channel came back.
+/// Returns where a channel was read back.
 fn place(
     recording: &Recording,
     texel: &DueTexel,
@@ -143,8 +143,8 @@ fn place(
     })
 }
 
-/// Returns the bounds of a range of orders, as the numbers that the program compares. Of a value that came back as a
-/// float the bounds lie half way to the next code.
+/// Returns the bounds of a range of orders, as the numbers that the program compares. For a value that was
+/// read back as a float, the bounds are halfway to the next code.
 fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f64; 2] {
     let encoding = match (form, encoding) {
         (Form::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),

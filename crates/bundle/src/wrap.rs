@@ -1,6 +1,6 @@
 //! Long lines of printed programs.
 
-/// Breaks lines that are too long, at the commas of what is in brackets there.
+/// Breaks long lines at the commas inside their longest brackets.
 pub(crate) fn wrapped(statement: &str) -> String {
     const LONGEST: usize = 108;
     let lines = statement.lines().map(|line| {
@@ -26,7 +26,8 @@ pub(crate) fn wrapped(statement: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the places of the longest outermost pair of brackets and of the commas in it, texts and comments aside.
+/// Returns the positions of the longest outermost pair of brackets and of the commas in it, ignoring texts
+/// and comments.
 fn brackets(line: &str) -> Option<(usize, usize, Vec<usize>)> {
     let mut longest: Option<(usize, usize, Vec<usize>)> = None;
     let (mut depth, mut open, mut commas) = (0, 0, Vec::new());

@@ -1,16 +1,16 @@
-//! Tests in a process of their own, whose environment chooses the driver before it is loaded.
+//! Tests in their own process, whose environment selects the driver before it is loaded.
 
 use std::env;
 use std::process::Command;
 
-/// Set in a child, to the test that it runs.
+/// The variable that names a child's test.
 const CHILD: &str = "ETALON_TEST_CHILD";
 
-/// Runs `body` in a process with this environment: the test of this name, once more. Without any
+/// Runs `body` in a process with this environment, by running the test of this name again. Without any
 /// variable, runs it in this process.
 ///
 /// # Panics
-/// When the child fails, with all that it wrote.
+/// If the child fails, with all its output.
 pub fn in_child(test: &str, environment: &[(&str, String)], body: impl FnOnce()) {
     if environment.is_empty() || env::var_os(CHILD).is_some_and(|child| child == test) {
         body();
@@ -19,7 +19,7 @@ pub fn in_child(test: &str, environment: &[(&str, String)], body: impl FnOnce())
     let output = Command::new(env::current_exe().expect("the path of the test"))
         .args([test, "--exact", "--nocapture"])
         .env(CHILD, test)
-        // Mesa complains where there is none.
+        // Mesa prints a warning if this is not set.
         .env("XDG_RUNTIME_DIR", env::temp_dir())
         .envs(environment.iter().map(|(name, value)| (name, value)))
         .output()

@@ -1,4 +1,4 @@
-//! Drivers: how tests reach them, and how the checks are run on them.
+//! Drivers: how tests reach them, and how checks run on them.
 
 use crate::checks::{CHECKS, Check};
 use crate::child::in_child;
@@ -25,22 +25,22 @@ pub const ZINK: &[(&str, &str)] = &[
     ("MESA_LOADER_DRIVER_OVERRIDE", "zink"),
     ("GALLIUM_DRIVER", "zink"),
 ];
-/// The remedy where these are missing.
+/// The remedy if these drivers are missing.
 pub const GALLIUM_INSTALL: &str = "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers";
 
-/// One way to a driver, and what the tests know of it.
+/// How tests open a driver, and what they know about it.
 pub struct Driver<'a> {
-    /// Its missing features and its known faults.
+    /// Its missing features and known faults.
     pub known: Known,
-    /// Variables of the process that opens it; none where it is opened in this process.
+    /// Environment variables of the process that opens it; if empty, it is opened in this process.
     pub environment: Vec<(&'a str, String)>,
-    /// Opens it, with validation where asked for. Panics where that fails: nothing would be tested.
+    /// Opens it, with validation if requested. Panics on failure, since nothing would be tested.
     pub open: fn(bool) -> Box<dyn Backend>,
-    /// Parts of messages of validation that are not the backend's fault.
+    /// Parts of validation messages that are not the backend's fault.
     pub tolerated: &'a [&'a str],
 }
 
-/// Variables of an environment as a [`Driver`] has them.
+/// Converts the variables of an environment for [`Driver::environment`].
 pub fn variables<'a>(environment: &[(&'a str, &str)]) -> Vec<(&'a str, String)> {
     let owned = |(name, value): &(&'a str, &str)| (*name, (*value).to_owned());
     environment.iter().map(owned).collect()
@@ -72,7 +72,7 @@ impl Driver<'_> {
         assert!(failed.is_empty(), "these checks fail: {failed:#?}");
     }
 
-    /// Runs a check, and holds that it draws where the driver's description says so.
+    /// Runs a check, and asserts that it draws if the driver's description says so.
     fn run(&self, check: &Check, subject: &Subject<'_>) {
         let mut defects = self.known.defects.iter().copied().flatten();
         if let Some((_, defect)) = defects.find(|d| d.0 == check.name) {
@@ -91,7 +91,7 @@ impl Driver<'_> {
         }
         if let Some(lacks) = &self.known.lacks {
             let expected = lacks.limits(subject.limits().api);
-            // The driver offers what the tests leave out.
+            // The driver supports features that the tests leave out.
             let denied = |r: &&Requirement| subject.backend.limits().missing(&[**r]).is_some();
             let unknown = missing.iter().filter(denied);
             let unknown = unknown.filter(|r| expected.missing(&[**r]).is_none());
@@ -109,10 +109,10 @@ impl Driver<'_> {
     }
 }
 
-/// Runs the checks of one subject on a driver, as the test of this path.
+/// Runs the checks of one subject on a driver, as part of the test with this path.
 ///
 /// # Panics
-/// When checks fail; after all have run, with their names.
+/// If checks fail; after all have run, with their names.
 pub fn run(test: &str, subject: &str, driver: &Driver<'_>) {
     in_driver(test, driver, |backend| {
         driver.run_each(backend, |check| check.subject == subject);
@@ -122,12 +122,12 @@ pub fn run(test: &str, subject: &str, driver: &Driver<'_>) {
 /// Runs every check on one open backend.
 ///
 /// # Panics
-/// When checks fail; after all have run, with their names.
+/// If checks fail; after all have run, with their names.
 pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>) {
     driver.run_each(backend, |_| true);
 }
 
-/// Opens the driver in a process with its environment, as the test of this path.
+/// Opens the driver in a process with its environment, as part of the test with this path.
 pub fn in_driver(test: &str, driver: &Driver<'_>, body: impl FnOnce(&dyn Backend)) {
     let (_, test) = test.split_once("::").expect("a path within the crate");
     in_child(test, &driver.environment, || body(&*(driver.open)(false)));

@@ -1,13 +1,12 @@
-//! The macro that makes tests of checks.
+//! The macro that generates tests from checks.
 //!
-//! A test is a subject on a driver, not a check: opening a driver costs as much as several checks.
+//! A test is a subject on a driver, not a single check: opening a driver costs as much as several checks.
 
 #[cfg(test)]
 use crate::checks::CHECKS;
 
-/// Makes a test of every subject for each driver `NAME`, which a function `drivers::NAME`
-/// describes as a [`Driver`](crate::Driver); and one of each function in brackets, which takes the
-/// open backend.
+/// Generates a test of every subject for each driver `NAME`, which a function `drivers::NAME` returns as a
+/// [`Driver`](crate::Driver), and a test of each function in brackets, which takes the open backend.
 #[macro_export]
 macro_rules! driver_tests {
     ($($driver:ident)+; $more:tt) => {
@@ -31,7 +30,7 @@ macro_rules! subject_tests {
     };
 }
 
-/// The tests of one driver that are not the suite's.
+/// The further tests of one driver.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! more_tests {

@@ -1,4 +1,4 @@
-//! Images of a frame, and the texels that must be in them.
+//! Images of a frame, and the texels that they must have.
 
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 
@@ -7,7 +7,7 @@ pub(crate) const GREEN: [u32; 4] = [0, 255, 0, 255];
 pub(crate) const BLUE: [u32; 4] = [0, 0, 255, 255];
 pub(crate) const NONE: [u32; 4] = [0; 4];
 
-/// The image of an attachment's aspect.
+/// Returns the image of an attachment's aspect.
 pub(crate) fn image<'a>(frame: &'a Frame, attachment: &str, aspect: Aspect) -> &'a Image {
     let mut images = frame.images.iter();
     let found = images.find(|i| i.attachment == attachment && i.aspect == aspect);
@@ -26,18 +26,18 @@ pub(crate) fn stencil<'a>(frame: &'a Frame, attachment: &str) -> &'a Image {
     image(frame, attachment, Aspect::Stencil)
 }
 
-/// The positions of all texels, or of all within a border.
+/// Returns the positions of all texels.
 pub(crate) fn texels([width, height]: [u32; 2]) -> impl Iterator<Item = (u32, u32)> {
     (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
 }
 
-/// Holds every sample against the codes due at its column and row.
+/// Asserts that every sample has the codes that are expected at its column and row.
 #[track_caller]
 pub(crate) fn check<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u32) -> C) {
     check_samples(image, |x, y, _| due(x, y));
 }
 
-/// Holds every sample against the codes due at its column, row and number.
+/// Asserts that every sample has the codes that are expected at its column, row and index.
 #[track_caller]
 pub(crate) fn check_samples<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u32, u32) -> C) {
     let Image {
@@ -55,21 +55,22 @@ pub(crate) fn check_samples<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u3
     }
 }
 
-/// Holds images of a frame against what is due at each column and row, in all samples.
+/// Assertions about images of a frame: the expected values depend on column and row, and apply to all
+/// samples.
 pub(crate) trait Expect {
-    /// Holds `color` to be red where told and blue elsewhere.
+    /// Asserts that `color` is red at the given texels and blue elsewhere.
     #[track_caller]
     fn is_red(&self, red: impl Fn(u32, u32) -> bool) {
         self.color_is("color", |x, y| if red(x, y) { RED } else { BLUE });
     }
 
-    /// Holds an attachment against the codes due.
+    /// Asserts the codes of a colour attachment.
     fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, due: impl Fn(u32, u32) -> C);
 
-    /// Holds an attachment against the codes of depths.
+    /// Asserts the depths of an attachment.
     fn depth_is(&self, attachment: &str, due: impl Fn(u32, u32) -> f64);
 
-    /// Holds an attachment against stencil values.
+    /// Asserts the stencil values of an attachment.
     fn stencil_is(&self, attachment: &str, due: impl Fn(u32, u32) -> u32);
 }
 
@@ -91,25 +92,22 @@ impl Expect for Frame {
     }
 }
 
-/// Holds numbers to be near others.
+/// Asserts that numbers are within `off` of others.
 #[track_caller]
 pub(crate) fn check_near(came: &[f64], due: &[f64], off: f64) {
     assert_eq!(came.len(), due.len());
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= off;
-    assert!(
-        came.iter().zip(due).all(near),
-        "{came:?}, and {due:?} is due"
-    );
+    assert!(came.iter().zip(due).all(near), "{came:?}, expected {due:?}");
 }
 
-/// Holds codes to differ by 1 at most from others.
+/// Asserts that codes differ from others by at most 1.
 #[track_caller]
 pub(crate) fn check_within_one(came: &[u32], due: [u32; 4]) {
     let near = came.iter().zip(due).all(|(a, b)| a.abs_diff(b) <= 1);
-    assert!(near, "{came:?}, and {due:?} is due");
+    assert!(near, "{came:?}, expected {due:?}");
 }
 
-/// The values of a texel's channels.
+/// Returns the values of a texel's channels.
 pub(crate) fn values(image: &Image, x: u32, y: u32) -> Vec<f64> {
     let codes = image.channels.iter().zip(image.sample(x, y, 0));
     codes
@@ -117,7 +115,7 @@ pub(crate) fn values(image: &Image, x: u32, y: u32) -> Vec<f64> {
         .collect()
 }
 
-/// The codes of values that the channels hold exactly.
+/// Returns the codes of values that the channels represent exactly.
 pub(crate) fn codes(channels: &[ChannelEncoding], values: [f64; 4]) -> Vec<u32> {
     let both = channels.iter().zip(values);
     both.map(|(e, value)| e.nearest_code(value)).collect()

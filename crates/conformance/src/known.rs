@@ -1,22 +1,23 @@
-//! The software drivers under test: what each lacks and what it is known to do wrong.
+//! The software drivers under test: their missing features and known faults.
 
 use crate::lacks::Lacks;
 use crate::subject::Subject;
 use etalon_backend::Backend;
 use etalon_frame::{Api, Feature, PathTarget, PathValue};
 
-/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`], sample masks or mip levels.
+/// A check and its defect in a driver. Instead of a check, the name can be [`FOUR_SAMPLES`],
+/// [`COUNTING_SHADERS`], sample masks or mip levels.
 pub type Defect = (&'static str, &'static str);
 
-/// The name of a defect of four samples: all scenes that need them are left out.
+/// The name of a defect of four samples: scenes that need them are left out.
 pub const FOUR_SAMPLES: &str = "four samples";
-/// The name of a defect of shaders that count or write other storage: all scenes that need them are left out.
+/// The name of a defect of shaders that count or write other storage: scenes that need them are left out.
 pub const COUNTING_SHADERS: &str = "counting shaders";
-/// The name of a defect of sample masks: all scenes whose shaders read or write one are left out.
+/// The name of a defect of sample masks: scenes whose shaders read or write a mask are left out.
 pub(crate) const SAMPLE_MASKS: &str = "sample masks";
-/// The name of a defect of mip levels: all scenes drawn to one but the first are left out.
+/// The name of a defect of mip levels: scenes that draw to a level other than the first are left out.
 pub(crate) const MIP_LEVELS: &str = "mip levels";
-/// The names of defects that are no check's.
+/// The names of defects that do not belong to a check.
 pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASKS, MIP_LEVELS];
 
 /// The known faults and missing features of a driver.
@@ -24,16 +25,17 @@ pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASK
 pub struct Known {
     /// The adapter's name.
     pub name: &'static str,
-    /// The API whose rules bind it.
+    /// The API whose rules apply to it.
     pub api: Api,
-    /// Its missing features; any feature, if nothing is known.
+    /// Its missing features; if nothing is known, it may lack any.
     pub lacks: Option<Lacks>,
-    /// Checks that it fails. They are not run.
+    /// Checks that it fails, which are not run.
     pub defects: &'static [&'static [Defect]],
 }
 
 impl Known {
-    /// Returns an open backend as the subject of checks, without what the driver offers and does wrong.
+    /// Returns an open backend as the subject of checks, without features that the driver offers but gets
+    /// wrong.
     pub fn subject<'a>(&self, backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Subject<'a> {
         let defects = self.defects.iter().copied().flatten();
         defects.fold(
@@ -53,10 +55,10 @@ impl Known {
     }
 }
 
-/// Returns the known faults of the adapter of this name.
+/// Returns what is known about the adapter with this name.
 ///
 /// # Panics
-/// When nothing is.
+/// If nothing is known.
 pub fn known(name: &str) -> Known {
     let found = KNOWN.iter().find(|known| known.name == name);
     *found.unwrap_or_else(|| panic!("{name} is not described"))
@@ -76,7 +78,7 @@ const fn driver(
     }
 }
 
-/// The software drivers that the backends' tests run all checks on.
+/// The software drivers on which the backends' tests run all checks.
 pub const KNOWN: &[Known] = &[
     driver("vulkan:lavapipe", Api::Vulkan, VULKAN, &[LAVAPIPE_WRONG]),
     driver("gl:llvmpipe", Api::OpenGl, GL, &[]),
@@ -130,13 +132,13 @@ const VULKAN: Lacks = Lacks {
     ..NOTHING
 };
 
-/// No blit of OpenGL says which sample it takes, and WebGPU resolves neither depth nor stencil.
+/// OpenGL does not specify which sample a blit takes, and WebGPU resolves neither depth nor stencil.
 const RESOLVES: &str = "depth-resolve-average depth-resolve-max depth-resolve-min \
     depth-stencil-resolve independent-resolve independent-resolve-none stencil-resolve-max \
     stencil-resolve-min";
 
-/// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
-/// tells 24 bits for certain.
+/// The core profile of llvmpipe and zink. No OpenGL driver stores blue first. No fetch returns 24 bits with
+/// certainty.
 const GL: Lacks = Lacks {
     features: &[
         "depth-bounds inherited-queries mirrored-viewport upper-left-domain",
@@ -187,7 +189,7 @@ const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-cov
     mixed-provoking-vertices polygon-mode-line precise-occlusion queries-over-passes rasterizer-discard reversed-depth-range \
     sample-coverage scissor-outside separate-stencil-masks stencil-export tessellation triangle-fans \
     upper-left-domain";
-/// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
+/// The samples' codes of two formats cannot be read with certainty; WebGPU does not resolve integers.
 const WGPU_VULKAN: Lacks = Lacks {
     features: &[WGPU_FEATURES, RESOLVES],
     formats: &["b5g6r5unorm bgr5a1unorm bgra4unorm"],
@@ -195,7 +197,7 @@ const WGPU_VULKAN: Lacks = Lacks {
     samples: &["rgba8snorm rgba8uint depth16unorm"],
     ..NOTHING
 };
-/// A browser has what WebGPU has. Over SwiftShader no second source is offered.
+/// A browser has the features of WebGPU. Over SwiftShader it offers no second source.
 const BROWSER: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
@@ -207,7 +209,7 @@ const BROWSER: Lacks = Lacks {
     samples: &["rgba8snorm rgba8uint rgba32float depth16unorm"],
     ..WGPU_VULKAN
 };
-/// Compatibility mode has no views of other formats, by which samples of sRGB are read.
+/// Compatibility mode has no views in other formats, which are needed to read samples of sRGB.
 const COMPATIBILITY: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
@@ -229,8 +231,8 @@ const FIREFOX: Lacks = Lacks {
     blending: &["rgba32float"],
     ..BROWSER
 };
-/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It has no views of other
-/// formats, and all depths are read by a shader.
+/// wgpu 30 over OpenGL requires extensions that core contexts do not need. It has no views in other
+/// formats, and reads all depths with a shader.
 const WGPU_GL: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
@@ -261,14 +263,14 @@ const LAVAPIPE_WRONG: &[Defect] = &[
 const ZINK_WRONG: &[Defect] = &[
     ("passes::masked_clears_keep_the_rest", "stencil that a masked clear sets to 0 instead of its value"),
 ];
-/// Softpipe's defects through OpenGL and OpenGL ES.
+/// Softpipe's defects in OpenGL and OpenGL ES.
 const SOFTPIPE_DEFECTS: &[&[Defect]] = &[SOFTPIPE_WRONG, SOFTPIPE_CLAMPS, SOFTPIPE_CLEARS];
 #[rustfmt::skip]
-/// Checks that softpipe fails through OpenGL and OpenGL ES.
+/// Checks that softpipe fails in OpenGL and OpenGL ES.
 pub const SOFTPIPE_CLEARS: &[Defect] = &[
     ("passes::clears_know_their_target", "a clear of integers that is lost to the clear of a rectangle after it"),
 ];
-/// Checks that softpipe fails through every API.
+/// Checks that softpipe fails in every API.
 #[rustfmt::skip]
 pub const SOFTPIPE_WRONG: &[Defect] = &[
     ("depth::a_slope_bias_counts_the_slope", "a bias that is not the slope times its factor"),
@@ -278,26 +280,27 @@ pub const SOFTPIPE_WRONG: &[Defect] = &[
     ("counters::forced_tests_come_before_the_shader", EARLY),
 ];
 const EARLY: &str = "fragments that are rejected before a shader that counts";
-/// Those that it fails under clip control.
+/// Checks that it fails with clip control.
 const SOFTPIPE_CLAMPS: &[Defect] = &[
     ("depth::depths_outside_are_clamped", CLAMP),
     ("depth::depths_are_clamped_to_a_reversed_range", CLAMP),
 ];
 /// Near = translate - scale in `sp_quad_depth_test.c`.
-const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on would have";
+const CLAMP: &str = "depths are clamped to the range that clip depths from -1 to 1 would have";
 
-/// wgpu's OpenGL never enables the restart of primitives.
+/// wgpu's OpenGL never enables primitive restart.
 #[rustfmt::skip]
 const WGPU_GL_WRONG: &[Defect] = &[
     ("raster::strips_begin_again", "strips that are joined"),
     ("fetch::short_strips_begin_again", "strips that are joined"),
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
-    // It offers them also where the driver has one, and makes no texture of which a shader could read them.
+    // It offers four samples even if the driver supports only one, and creates no texture from which a
+    // shader could read them.
     (FOUR_SAMPLES, "textures of four samples that stay empty"),
     (SAMPLE_MASKS, "gl_SampleMask and gl_SampleMaskIn as one integer, which does not compile"),
 ];
-/// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
-/// several targets with GL_INVALID_OPERATION.
+/// wgpu's OpenGL does not reset the factors of a draw with two sources, and Mesa then rejects later draws
+/// to several targets with GL_INVALID_OPERATION.
 #[rustfmt::skip]
 const FACTORS: &[Defect] = &[
     ("targets::later_draws_have_one_source", "factors of a second source that outlive their draw"),
@@ -305,7 +308,7 @@ const FACTORS: &[Defect] = &[
 #[rustfmt::skip]
 const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
     (COUNTING_SHADERS, "storage buffers that wgpu does not translate to GLSL 330"),
-    // Without glTexStorage it sets no GL_TEXTURE_MAX_LEVEL, and a texture of two levels is no complete one.
+    // Without glTexStorage it does not set GL_TEXTURE_MAX_LEVEL, so a texture of two levels is incomplete.
     (MIP_LEVELS, "framebuffers of a mip level that are incomplete with OpenGL 3.3"),
     ("integers::integers_are_drawn_through_the_write_mask", "a clear that is lost to the pass's draws"),
     ("targets::the_second_source_is_a_factor", SECOND),
@@ -315,8 +318,7 @@ const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
     ("counters::any_samples_of_several_passes_are_told", TIMESTAMP),
     ("counters::a_query_counts_what_it_encloses", TIMESTAMP),
 ];
-/// Mesa's `softpipe_end_query` takes one from the number of active queries, also for a timestamp,
-/// which never began: the occlusion queries between the first two timestamps of a context count
-/// nothing.
+/// Mesa's `softpipe_end_query` decrements the number of active queries even for a timestamp, which never
+/// began. The occlusion queries between the first two timestamps of a context therefore count nothing.
 const TIMESTAMP: &str = "occlusion queries that stay 0 after a context's first timestamp";
 const SECOND: &str = "a second source that comes as the first";

@@ -1,7 +1,7 @@
-//! The capabilities that a driver lacks, by their very names, and the limits that are left.
+//! The capabilities that a driver lacks, by name, and the limits that remain.
 //!
-//! Drivers are described by what they lack, so that a capability which is new to the suite is
-//! expected of all of them.
+//! Drivers are described by what they lack, so that a capability that is new to the suite is expected of
+//! all of them.
 
 use etalon_frame::{
     Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
@@ -14,20 +14,20 @@ pub type Names = &'static [&'static str];
 /// The capabilities that a driver lacks.
 #[derive(Clone, Copy, Debug)]
 pub struct Lacks {
-    /// Features.
+    /// Features that it lacks.
     pub features: Names,
-    /// Formats of which there are no textures.
+    /// Formats without textures.
     pub formats: Names,
-    /// Formats that are only fetched from.
+    /// Formats that can only be fetched from.
     pub drawing: Names,
-    /// Formats of colour that are drawn to and not blended into.
+    /// Colour formats that can be drawn to but not blended into.
     pub blending: Names,
-    /// Formats that are drawn to, but not with four samples.
+    /// Formats that can be drawn to, but not with four samples.
     pub samples: Names,
 }
 
 impl Lacks {
-    /// The limits of a driver that lacks exactly these.
+    /// Returns the limits of a driver that lacks exactly these.
     pub fn limits(&self, api: Api) -> Limits {
         let formats = TextureFormat::ALL.iter().copied();
         let formats = formats.filter(|f| !names(self.formats, f.name()));
@@ -66,10 +66,10 @@ impl Lacks {
         }
     }
 
-    /// Holds that limits deny all of these and nothing else.
+    /// Asserts that limits deny all these capabilities and no others.
     ///
     /// # Panics
-    /// When they do not.
+    /// If they do not.
     pub fn check(&self, limits: &Limits) {
         let expected = self.limits(limits.api);
         let only = |by: &Limits, not_by: &Limits| -> Vec<String> {
@@ -84,12 +84,12 @@ impl Lacks {
     }
 }
 
-/// True if the names hold this one.
+/// Returns true if the lists have this name.
 fn names(names: Names, name: &str) -> bool {
     names.iter().any(|list| list.split(' ').any(|n| n == name))
 }
 
-/// All that a driver may lack.
+/// Returns everything that a driver can lack.
 fn requirements() -> Vec<Requirement> {
     let features = Feature::ALL.iter().copied().map(Requirement::Feature);
     let mut all: Vec<_> = features.collect();

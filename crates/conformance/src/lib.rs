@@ -1,12 +1,12 @@
 //! The suite of checks that every backend passes on every driver.
 //!
-//! Each check is written once, over [`etalon_backend::Backend`]: scenes whose outcome no rounding
-//! touches, and the codes that must come back. A backend's tests describe the drivers that they
-//! need as [`Driver`]s and name them in [`driver_tests!`], which makes a test of every check on
-//! every driver. What software drivers lack is known by name: a check that is skipped for anything
-//! else fails, and each check draws on one of them at least.
+//! Each check is written once, against [`etalon_backend::Backend`]: scenes whose result does not depend on
+//! rounding, and the codes that must come back. A backend's tests describe the drivers that they need as
+//! [`Driver`]s and list them in [`driver_tests!`], which generates a test of every check on every driver.
+//! The features that software drivers lack are listed by name: a check that is skipped for anything else
+//! fails, and each check draws on at least one of the drivers.
 //!
-//! This is a development dependency of the backends, so that only their tests see cases.
+//! The backends use this only as a development dependency, so that only their tests see cases.
 #![expect(clippy::unwrap_used, reason = "a check fails by panicking")]
 
 mod checks;

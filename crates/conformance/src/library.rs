@@ -1,4 +1,4 @@
-//! The built-in cases, drawn the whole way but not judged.
+//! Drawing the built-in cases without judging them.
 
 use crate::subject::{Subject, check_shape};
 use etalon_backend::BackendError;
@@ -9,14 +9,15 @@ use std::env;
 /// The part of the built-in cases that a test draws.
 #[derive(Clone, Copy, Debug)]
 pub enum Share {
-    /// So many cases of each file, spread over its axes.
+    /// This many cases of each file, spread over its axes.
     Sample(usize),
     /// Every case.
     All,
 }
 
 impl Share {
-    /// So many cases of each file; every case where the variable `ETALON_TESTS` is `all`.
+    /// Returns a sample of this many cases of each file, or every case if the variable `ETALON_TESTS` is
+    /// `all`.
     pub fn sample(per_file: usize) -> Self {
         if env::var_os("ETALON_TESTS").is_some_and(|v| v == "all") {
             Self::All
@@ -26,23 +27,23 @@ impl Share {
     }
 }
 
-/// After draws with two sources wgpu's OpenGL leaves their factors behind, and Mesa drops later
-/// draws to several targets.
+/// wgpu's OpenGL does not reset the factors of draws with two sources, and Mesa then drops later draws to
+/// several targets.
 const TWO_SOURCES: Requirement = Requirement::Feature(Feature::DualSourceBlending);
 
-/// Draws a share of the built-in cases, and says how large it was. Nothing may fail but what the
-/// limits deny, and validation must be silent.
+/// Draws a share of the built-in cases, and prints its size. Only cases that the limits deny may fail, and
+/// validation must report nothing.
 ///
 /// # Panics
-/// When something fails, or when nothing was drawn.
+/// If anything fails, or if nothing was drawn.
 pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
     draw_area(subject, "", profile, share);
 }
 
-/// Draws a share of the built-in cases whose files' names begin so, as [`draw_library`] does.
+/// Draws a share of the built-in cases whose files' names begin with `area`, as [`draw_library`] does.
 ///
 /// # Panics
-/// When something fails, or when nothing was drawn.
+/// If anything fails, or if nothing was drawn.
 pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Share) {
     let library = Library::built_in().unwrap();
     let (mut denied, mut all) = (0, 0);
@@ -75,7 +76,7 @@ pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Sha
             p.submit()?;
             p.read_back()
         });
-        // A device may have a path, and a format not.
+        // A device can support a path, but not with every format.
         if let Err(BackendError::NotSupported(Requirement::Path(_))) = frame {
             denied += 1;
             continue;

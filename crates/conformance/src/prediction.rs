@@ -1,8 +1,8 @@
-//! The checks that will draw on a driver, told from what it lacks.
+//! Predicts which checks draw on a driver, from the features that it lacks.
 //!
-//! Tests of different drivers lie in different binaries, and none of them sees the others' results.
-//! The prediction needs no driver, so one test holds that each check draws on one of them at least;
-//! each run then holds that the prediction came true.
+//! Tests of different drivers are in different binaries, so none of them sees the others' results. The
+//! prediction needs no driver, so a single test asserts that each check draws on at least one driver. Each
+//! run then asserts that the prediction was right.
 
 use crate::checks::Check;
 use crate::known::Known;
@@ -12,19 +12,18 @@ use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// The result of a check that draws nothing.
+/// The predicted result of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Prediction {
-    /// It draws.
+    /// It draws a scene.
     Draws,
-    /// It has nothing to draw on any driver.
+    /// It draws nothing on any driver.
     OnlyLooks,
     /// It is skipped.
     Skips,
 }
 
-/// The result of a check on a driver that lacks this and nothing else; none if nothing is known of the
-/// driver.
+/// Returns the predicted result of a check on a driver; `None` if its missing features are not known.
 pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
     let backend = Undrawn {
         info: AdapterInfo {
@@ -49,7 +48,7 @@ pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
     })
 }
 
-/// A backend that unwinds where another would draw.
+/// A backend that panics instead of drawing.
 struct Undrawn {
     info: AdapterInfo,
     limits: Limits,
@@ -80,7 +79,7 @@ mod tests {
     use crate::checks::CHECKS;
     use crate::known::{KNOWN, WHOLE, known};
 
-    /// The drivers that each crate's tests run the suite on.
+    /// The drivers on which each crate's tests run the suite.
     const TESTED: [(&str, &str); 4] = [
         ("vulkan", include_str!("../../vulkan/tests/driver/main.rs")),
         ("gl", include_str!("../../gl/tests/drivers/main.rs")),
@@ -91,7 +90,7 @@ mod tests {
         ),
     ];
 
-    /// Checks that draw on none of the drivers, each with its reason.
+    /// Checks that draw on no driver, each with its reason.
     const NOT_DRAWN_ANYWHERE: &[(&str, &str)] = &[(
         "passes::depths_are_averaged",
         "of the drivers only lavapipe offers averages of depth, and takes the first sample",

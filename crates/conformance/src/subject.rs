@@ -1,4 +1,4 @@
-//! One open backend under test: draws scenes and keeps account of those that its limits deny.
+//! An open backend under test: draws scenes, and records the scenes that its limits deny.
 
 use crate::scenes::scene;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
@@ -9,33 +9,33 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// A scene that was not drawn, with the requirement that the limits deny.
+/// The error for a scene that the limits deny, with the requirement.
 #[derive(Clone, Copy, Debug)]
 pub struct Missing(pub Requirement);
 
 /// The result of a check that did not fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CheckResult {
-    /// Everything was drawn but the scenes that need one of these.
+    /// Everything was drawn except scenes that need one of these.
     Passed(BTreeSet<Requirement>),
-    /// Nothing was drawn, since all scenes need one of these.
+    /// Nothing was drawn, because every scene needs one of these.
     Skipped(BTreeSet<Requirement>),
 }
 
-/// A backend with what its checks have drawn.
+/// A backend, with a record of what its checks have drawn.
 pub struct Subject<'a> {
     /// The backend.
     pub backend: &'a dyn Backend,
     /// Parts of messages that are not the backend's fault.
     pub tolerated: &'a [&'a str],
-    /// The backend's limits without what is known to be wrong.
+    /// The backend's limits, without features that are known to be wrong.
     limits: Limits,
     drawn: Cell<bool>,
     missing: RefCell<BTreeSet<Requirement>>,
 }
 
 impl<'a> Subject<'a> {
-    /// A backend of which nothing has been drawn.
+    /// Creates a subject that has drawn nothing yet.
     pub fn new(backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Self {
         Self {
             backend,
@@ -46,7 +46,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Leaves out scenes with four samples, which the driver offers and does wrong.
+    /// Leaves out scenes with four samples, which the driver offers but gets wrong.
     #[must_use]
     pub fn without_four_samples(mut self) -> Self {
         for support in self.limits.formats.values_mut() {
@@ -56,36 +56,36 @@ impl<'a> Subject<'a> {
         self
     }
 
-    /// Leaves out scenes with a feature that the driver offers and does wrong.
+    /// Leaves out scenes with a feature that the driver offers but gets wrong.
     #[must_use]
     pub fn without_feature(mut self, feature: Feature) -> Self {
         self.limits.features.remove(&feature);
         self
     }
 
-    /// Leaves out scenes with a path that the driver offers and does wrong.
+    /// Leaves out scenes with a path that the driver offers but gets wrong.
     #[must_use]
     pub fn without_path(mut self, path: PathValue) -> Self {
         self.limits.paths.remove(&path);
         self
     }
 
-    /// The backend's limits, as far as scenes may use them.
+    /// Returns the backend's limits that scenes may use.
     pub fn limits(&self) -> &Limits {
         &self.limits
     }
 
-    /// The backend's adapter.
+    /// Returns the backend's adapter.
     pub fn adapter(&self) -> &AdapterInfo {
         self.backend.adapter()
     }
 
-    /// True if the limits offer the feature.
+    /// Returns true if the limits offer the feature.
     pub fn offers(&self, feature: Feature) -> bool {
         self.limits().features.contains(&feature)
     }
 
-    /// The outcome of everything that was drawn since the last call.
+    /// Returns the result of everything that was drawn since the last call.
     pub(crate) fn outcome(&self) -> CheckResult {
         let missing = self.missing.take();
         if self.drawn.take() || missing.is_empty() {
@@ -95,7 +95,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Holds that the limits let the scene through; else it must be refused for the same reason.
+    /// Checks that the limits allow the scene. If the backend's own limits deny it, asserts that the
+    /// backend refuses it for the same reason.
     pub(crate) fn offered(&self, scene: &Scene) -> Result<(), Missing> {
         let Some(requirement) = self.limits().missing(&scene.requirements()) else {
             return Ok(());
@@ -109,7 +110,7 @@ impl<'a> Subject<'a> {
         Err(Missing(requirement))
     }
 
-    /// Prepares a scene that the limits let through.
+    /// Prepares a scene that the limits allow.
     pub(crate) fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, Missing> {
         self.offered(scene)?;
         let prepared = self.backend.prepare(scene);
@@ -117,7 +118,8 @@ impl<'a> Subject<'a> {
         Ok(prepared.unwrap_or_else(|e| panic!("the scene is not prepared: {e}")))
     }
 
-    /// Draws a scene twice, holds both frames to be whole and equal, and validation to be silent.
+    /// Draws a scene twice, and asserts that both frames are complete and equal, and that validation
+    /// reports nothing.
     pub(crate) fn draw(&self, scene: &Scene) -> Result<Frame, Missing> {
         let mut prepared = self.prepare(scene)?;
         let mut draw = || {
@@ -136,12 +138,12 @@ impl<'a> Subject<'a> {
         Ok(first)
     }
 
-    /// Draws a scene of JSON as [`Self::draw`] does.
+    /// Draws a scene given as JSON, as [`Self::draw`] does.
     pub(crate) fn show(&self, body: Value) -> Result<Frame, Missing> {
         self.draw(&scene(body))
     }
 
-    /// Holds that validation and debug output said nothing that the backend answers for.
+    /// Asserts that validation and debug output reported nothing except tolerated messages.
     #[track_caller]
     pub fn check_silence(&self, after: &str) {
         let mut messages = self.backend.messages();
@@ -150,7 +152,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Holds that each image is the one asked for, and whole.
+/// Asserts that each image is the requested one, and complete.
 #[track_caller]
 pub(crate) fn check_shape(scene: &Scene, frame: &Frame) {
     let due: Vec<_> = scene

@@ -1,7 +1,7 @@
-//! Blessing: expectations are made to agree with a run.
+//! Blessing: changing the expectations so that they agree with a run.
 //!
-//! New ones are of the grade [`Grade::Unread`]: a run can say what happened, and only people can say which clause it
-//! breaks.
+//! New expectations have the grade [`Grade::Unread`]: a run shows what happened, but only people can say
+//! which clause it breaks.
 
 use crate::condition::Condition;
 use crate::symptom::Symptom;
@@ -14,24 +14,24 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The expectations after a run was blessed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blessing {
-    /// All entries of a list, the new ones at the end.
+    /// All entries of a list, with the new ones at the end.
     pub entries: Vec<Entry>,
-    /// The new ones as findings, each with a name for its file: driver, case file and verdict.
+    /// The new entries as findings, each with a name for its file: driver, case file and verdict.
     pub findings: Vec<(String, Finding)>,
     /// The number of new entries.
     pub added: usize,
-    /// Expectations that were removed: all cases that they name were drawn, and all are better.
+    /// Expectations that were removed, because all cases that they name were drawn and are better.
     pub removed: Vec<Known>,
-    /// Expectations of which some cases are better: to be narrowed by hand.
+    /// Expectations for which only some cases are better; they must be narrowed by hand.
     pub to_narrow: Vec<Known>,
-    /// Records that no expectation excuses: selftests that do not fail.
+    /// The number of records that blessing cannot excuse: selftests that do not fail.
     pub unblessed: u64,
 }
 
-/// Returns expectations with an entry for every unexpected verdict of a run, case by case, and without the entries of cases
-/// that are better. `ids` are all existing cases, of which the run may have drawn a part; `all_adapters`
-/// is true if it used every adapter found. The reason of a new entry says that it is not explained yet:
-/// explanations are for people to write.
+/// Adds an entry for every unexpected verdict of a run, case by case, and removes the entries whose cases
+/// are all better. `ids` are all existing cases, although the run may have drawn only some. `all_adapters`
+/// is true if the run used every adapter found. The reason of a new entry says that it is not explained
+/// yet: people must write the explanation.
 pub fn bless(
     expectations: &Expectations,
     run: &Run,
@@ -58,7 +58,7 @@ pub fn bless(
         if !record.unexpected() {
             continue;
         }
-        // It is expected as soon as its round trip is.
+        // If its round trip is recorded, the case is expected as soon as the round trip is.
         let follows = record.blocked_by.iter().any(|id| {
             let mut records = run.records.iter();
             records.any(|r| r.adapter == record.adapter && r.case == *id)
@@ -80,7 +80,7 @@ pub fn bless(
         }
     };
     for (number, known) in expectations.all().iter().enumerate() {
-        // What is flaky passes now and then, and what is skipped was not drawn.
+        // A flaky case passes sometimes, and a skipped case was not drawn.
         let tried = !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
         if !tried || better[number] == 0 {
             keep(known);
@@ -135,9 +135,10 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
     }
 }
 
-/// New entries as findings: one per driver, kind of violation and case file. Globs name the cases where a condition on
-/// axes tells them from all others that were drawn; else each is named. Adapters share one where they show it in the
-/// same cases, so that none is excused that was not seen.
+/// Groups new entries into findings: one per driver, kind of violation and case file. The cases are named
+/// by globs if a condition on axes separates them from all other drawn cases, and one by one otherwise.
+/// Adapters share a finding if they fail in the same cases, so that a finding excuses nothing that was not
+/// seen.
 fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Finding)> {
     let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
     for symptom in new {
@@ -169,7 +170,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         let drawn =
             on_adapter.filter(|r| !matches!(r.verdict, Verdict::NotSupported | Verdict::Skipped));
         let drawn: Vec<&str> = drawn.map(|r| r.case.as_str()).collect();
-        // One case says nothing about its axes.
+        // A single case says nothing about its axes.
         let globs = (failing.len() > 1)
             .then(|| Condition::of(&failing, &drawn).globs(file, &failing))
             .flatten();
@@ -218,7 +219,8 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
     found
 }
 
-/// A text in lower case, with a `-` for every run of characters that are no letter or digit.
+/// Converts a text to lower case, with a `-` for each run of characters that are neither letters nor
+/// digits.
 fn slug(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric());
     let words: Vec<String> = words
@@ -342,7 +344,7 @@ mod tests {
             found.look_up(adapter_of(&seen), "a/x=*", Verdict::Fail),
             Expectation::Agrees(_)
         ));
-        // Blessed once, there is nothing more to bless.
+        // After blessing, there is nothing left to bless.
         let again = run(&[("a/x=*", Verdict::Fail), ("a/z", Verdict::Flaky)], &after);
         assert_eq!(bless(&after, &again, &[], true, "d").added, 0);
     }
@@ -358,7 +360,7 @@ mod tests {
         let blessing = bless(&none, &seen, &[], true, "d");
         let cases: Vec<&str> = blessing.entries.iter().map(|e| e.case.as_str()).collect();
         assert_eq!(cases, ["a/trip"]);
-        // Without it in the run, the case has to speak for itself.
+        // If the round trip is not in the run, the case gets its own entry.
         seen.records.remove(0);
         let blessing = bless(&none, &seen, &[], true, "d");
         assert_eq!(blessing.entries[0].verdict, Verdict::Blocked);

@@ -1,31 +1,31 @@
-//! The shortest condition on axes that tells the failing cases of a file from the others that were drawn.
+//! The shortest condition on axes that separates the failing cases of a file from the other drawn cases.
 
 use etalon_record::compile_glob;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The most globs that a condition is written as.
+/// The most globs with which a condition is written.
 const GLOBS: usize = 12;
 
-/// A condition on axes: for each axis that counts, the values in question.
+/// A condition on axes: the values of each axis that matters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// Axes in alphabetical order, each with its values; none where every drawn case failed.
+    /// The axes in alphabetical order, each with its values; empty if every drawn case failed.
     pub axes: Vec<(String, Vec<String>)>,
-    /// Failing cases.
+    /// The number of failing cases.
     pub failing: usize,
-    /// Drawn cases that meet the condition, the failing ones among them.
+    /// The number of drawn cases that meet the condition, including the failing ones.
     pub matching: usize,
 }
 
 impl Condition {
-    /// Returns the condition for some failing cases of one case file, out of those that were drawn.
+    /// Finds the condition for some failing cases of one case file, given the drawn cases.
     pub fn of(failing: &[&str], drawn: &[&str]) -> Self {
         let bad: BTreeSet<&str> = failing.iter().copied().collect();
         let drawn: Vec<(bool, BTreeMap<&str, &str>)> = drawn
             .iter()
             .map(|id| (bad.contains(id), axes(id)))
             .collect();
-        // The values of each axis among failing cases, and among all.
+        // The values of each axis in the failing cases, and in all cases.
         let mut values: BTreeMap<&str, [BTreeSet<&str>; 2]> = BTreeMap::new();
         for (fails, axes) in &drawn {
             for (axis, value) in axes {
@@ -50,7 +50,7 @@ impl Condition {
             drawn.iter().filter(|(_, axes)| meets(chosen, axes)).count()
         };
         let matching = count(&chosen);
-        // The axes that tell least go first: those with most values.
+        // Drops the least informative axes first, which have the most values.
         let mut order: Vec<&str> = chosen.iter().map(|(axis, _)| *axis).collect();
         order.sort_by_key(|axis| {
             std::cmp::Reverse(
@@ -81,7 +81,7 @@ impl Condition {
         }
     }
 
-    /// True if every drawn case that meets the condition fails.
+    /// Returns true if every drawn case that meets the condition fails.
     pub fn is_exact(&self) -> bool {
         self.failing == self.matching
     }
@@ -106,8 +106,8 @@ impl Condition {
         format!("{which} of {axes}: {failing} of {matching}, none else")
     }
 
-    /// Returns globs that name the failing cases of a file and no other drawn case, each of them at least one; `None`
-    /// if it takes too many.
+    /// Returns globs that name the failing cases of a file and no other drawn case, each at least one;
+    /// `None` if too many would be needed.
     pub fn globs(&self, file: &str, failing: &[&str]) -> Option<Vec<String>> {
         if !self.is_exact() {
             return None;
@@ -121,7 +121,8 @@ impl Condition {
                 .iter()
                 .map(|value| format!("{}={}", globset::escape(axis), globset::escape(value)));
             let parts: Vec<String> = parts.collect();
-            // An axis stands behind others or behind none, and is a whole part of the id.
+            // An axis can come directly after the prefix or after other axes, and is always a whole part of
+            // the id.
             globs = globs
                 .iter()
                 .flat_map(|glob| {
@@ -149,7 +150,7 @@ impl Condition {
     }
 }
 
-/// True if a glob, in which `*` also stands for `/`, names an id.
+/// Returns true if a glob, in which `*` also matches `/`, matches an id.
 fn names(glob: &str, id: &str) -> bool {
     compile_glob(glob).is_ok_and(|glob| glob.is_match(id))
 }

@@ -1,8 +1,10 @@
-//! Failing scenes in groups: those of one group leave the same states and the same violation when they are reduced.
+//! Groups of failing scenes. The scenes of a group have the same states and the same violation after
+//! reduction.
 //!
-//! A reduction takes hundreds of drawings, and a driver's commonest bug is in every tenth scene. So a scene that
-//! has all states of a group and its violation is counted there, unless the number of its scenes is a power of
-//! four: those are reduced, and show what hides behind.
+//! A reduction takes hundreds of drawings, and a driver's commonest bug is in every tenth scene. A scene
+//! that has all states of a group and its violation is therefore only counted in that group, unless the
+//! group's number of scenes is a power of four: such scenes are reduced, and show whether another bug hides
+//! in the group.
 
 use crate::matching::Match;
 use crate::signature::Signature;
@@ -11,22 +13,22 @@ use crate::traits::{Traits, Violation};
 use etalon_record::Verdict;
 use serde_json::Value;
 
-/// The traits that tell a group from others.
+/// The traits that identify a group.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     way: Violation,
     /// The reason why the scene was not reduced.
     unreduced: Option<Unreduced>,
-    /// The states that are left; `None` if the scene was not reduced.
+    /// The states after reduction; `None` if the scene was not reduced.
     states: Option<Signature>,
 }
 
-/// A reason why a scene was not reduced.
+/// Why a scene was not reduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unreduced {
-    /// The command was stopped before.
+    /// The command was stopped earlier.
     Stopped,
-    /// It does not fail by itself.
+    /// The scene does not fail alone.
     Unsteady,
 }
 
@@ -51,31 +53,32 @@ impl Key {
     }
 }
 
-/// One way to fail, with what its first scene left.
+/// One way to fail, with the reduced form of its first scene.
 pub struct Group<S> {
     /// Its first scene, reduced.
     pub scene: S,
     /// The number of scenes.
     pub count: u64,
-    /// The number of those that were reduced to it.
+    /// The number of scenes that were reduced to it.
     pub reduced: u64,
     /// The verdict.
     pub verdict: Verdict,
-    /// The symptom of what is left.
+    /// The symptom of the reduced scene.
     pub symptom: Symptom,
-    /// The traits of what is left.
+    /// The traits of the reduced scene.
     pub traits: Traits,
-    /// True if it fails by itself, in a new process; before that was tried, if its reduction was one.
+    /// True if the scene fails alone, in a new process. Until that was tried, true if it was reduced.
     pub steady: bool,
-    /// The finding that explains it, or that it is like.
+    /// The finding that explains the group, or resembles it.
     pub known: Option<Match>,
     key: Key,
-    /// The states that other scenes of the group have too: a reduction replaces formats of depth and stencil.
+    /// The states that other scenes of the group must have, without depth and stencil formats: a reduction
+    /// replaces these.
     common: Option<Signature>,
 }
 
 impl<S> Group<S> {
-    /// Returns the group of a first scene, of which this document is left.
+    /// Creates a group from its first scene, given its reduced document.
     pub fn new(scene: S, document: &Value, symptom: Symptom, key: Key) -> Self {
         Self {
             scene,
@@ -91,7 +94,7 @@ impl<S> Group<S> {
         }
     }
 
-    /// The violation in words, and why the scene was not reduced.
+    /// Returns the violation in words, and why the scene was not reduced.
     pub fn way(&self) -> String {
         let Key { way, unreduced, .. } = &self.key;
         match unreduced {
@@ -101,13 +104,13 @@ impl<S> Group<S> {
         }
     }
 
-    /// True if all that is left of its first scene belongs to the failure: nearly everything is left of a scene that was
-    /// not reduced.
+    /// Returns true if all states of its first scene belong to the failure. A scene that was not reduced
+    /// still has nearly all its states.
     pub fn can_be_compared(&self) -> bool {
         self.key.states.is_some() || !self.verdict.is_violation()
     }
 
-    /// True if a finding explains it.
+    /// Returns true if a finding explains it.
     pub fn is_explained(&self) -> bool {
         self.known.as_ref().is_some_and(Match::is_exact)
     }
@@ -130,7 +133,7 @@ impl<S> Groups<S> {
         self.all.len()
     }
 
-    /// True if there are none.
+    /// Returns true if there is no group.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -140,11 +143,12 @@ impl<S> Groups<S> {
         self.all.iter_mut()
     }
 
-    /// Counts a scene in a group by its states. Returns the group's number; `None` if it is to be reduced first; that of a
-    /// search that is being stopped never is.
+    /// Counts a scene in a group by its states, and returns the group's number. Returns `None` if the scene
+    /// must be reduced first: if no group has its states or, unless the search is being stopped, if its
+    /// group's count becomes a power of four.
     pub fn count(&mut self, document: &Value, symptom: &Symptom, stopped: bool) -> Option<usize> {
         let states = Signature::of(document);
-        // Each reduction of a scene that ends its worker costs processes: its states are not asked for.
+        // Each reduction of a scene that ends its worker costs processes, so the states are not compared.
         let ends = !symptom.verdict.is_violation();
         let number = self.all.iter().position(|group| {
             let left = group.common.as_ref().filter(|_| group.steady);
@@ -159,7 +163,8 @@ impl<S> Groups<S> {
         counted.then_some(number)
     }
 
-    /// Counts a scene that was looked at in the group of its key. Returns the group's number; `None` if there is none.
+    /// Counts a reduced scene in the group of its key, and returns the group's number; `None` if no group
+    /// has this key.
     pub fn count_reduced(&mut self, key: &Key) -> Option<usize> {
         let number = self.all.iter().position(|g| g.key == *key)?;
         let group = &mut self.all[number];

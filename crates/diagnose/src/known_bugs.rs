@@ -1,9 +1,10 @@
-//! Failures that are known: those that a finding explains.
+//! Known bugs: matching failures with the findings that explain them.
 //!
-//! A finding names cases, and a search ends with reduced scenes. To compare them, cases of the findings about the adapter
-//! are drawn on it and reduced in the same way. So a match is seen and not guessed: it names a case which leaves the same
-//! states and the same violation on this very driver, and a finding whose bug is gone matches nothing. Only cases from
-//! which a scene could come are drawn, and a few of each finding for likeness; each is reduced once.
+//! A finding names cases, and a search ends with reduced scenes. To compare them, cases of the adapter's
+//! findings are drawn on it and reduced in the same way. A match is therefore observed, not guessed: it
+//! names a case that is reduced to the same states and the same violation on this driver, and a finding
+//! whose bug is gone matches nothing. Only cases from which a scene could derive are drawn, and a few of
+//! each finding for their likeness; each is reduced once.
 
 use crate::matching::{Beyond, Match};
 use crate::signature::Signature;
@@ -15,22 +16,22 @@ use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The cases that are tried for one failure, and of each finding.
+/// The number of cases that are tried for one failure, and how many of each finding.
 const TRIED: usize = 12;
 const TRIED_OF_EACH: usize = 3;
-/// The cases of each finding that stand for it where a failure has more than a case shows.
+/// The number of cases that represent each finding, for failures that have more states than a single case.
 const STANDING: usize = 3;
 
-/// The driver that failed: draws cases of findings and reduces what fails.
+/// The driver that failed. It draws cases of findings, and reduces failures.
 pub trait Driver {
     /// A case that findings can name.
     type Named;
     /// A case that was drawn.
     type Case;
-    /// The reason why the driver cannot be used any more.
+    /// The reason why the driver can no longer be used.
     type Error;
 
-    /// True if the search is being stopped.
+    /// Returns true if the search must stop.
     fn is_stopped(&self) -> bool;
 
     /// Returns the document of a case; `None` if it cannot be written as one.
@@ -39,24 +40,24 @@ pub trait Driver {
     /// Draws a document. Returns `None` if the driver cannot draw it, or if it is too large to be reduced.
     ///
     /// # Errors
-    /// When the driver cannot be started again.
+    /// If the driver cannot be started again.
     fn draw(&mut self, document: &Value) -> Result<Option<(Self::Case, Record)>, Self::Error>;
 
-    /// Reduces a case that failed with this record. Returns what is left, with its symptom and traits.
+    /// Reduces a case that failed with this record. Returns the reduced case, with its symptom and traits.
     ///
     /// # Errors
-    /// When the driver cannot be started again.
+    /// If the driver cannot be started again.
     fn reduce(
         &mut self,
         case: Self::Case,
         record: Record,
     ) -> Result<(Self::Case, Symptom, Traits), Self::Error>;
 
-    /// True if a case fails with a symptom in a new process.
+    /// Returns true if a case fails with a symptom in a new process.
     fn is_steady(&self, case: &Self::Case, symptom: &Symptom) -> bool;
 }
 
-/// A case that findings about the adapter name.
+/// A case that the adapter's findings name.
 struct Named<N> {
     case: N,
     id: String,
@@ -66,17 +67,18 @@ struct Named<N> {
     words: Signature,
 }
 
-/// The attachments of a case that are looked at: one bug shows in one of them, another in others.
+/// The attachments of a case that are compared: a bug can show in only one of them, and another bug in
+/// others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
-    /// All.
+    /// All attachments.
     All,
     Color,
     DepthStencil,
 }
 
 impl Part {
-    /// The part in which a failure with these traits shows.
+    /// Returns the part in which a failure with these traits shows.
     fn of(traits: &Traits) -> Self {
         match traits.aspect() {
             Some(Aspect::Color) => Self::Color,
@@ -85,7 +87,7 @@ impl Part {
         }
     }
 
-    /// Returns the document of which only this part is read back; `None` if there is none of it.
+    /// Returns the document with only this part read back; `None` if it has no such part.
     fn of_document(self, mut document: Value) -> Option<Value> {
         if self == Self::All {
             return Some(document);
@@ -107,10 +109,10 @@ impl Part {
     }
 }
 
-/// A case that was drawn, and what is left of it.
+/// A case that was drawn, and its reduction.
 struct Tried<C> {
     seen: Option<Seen<C>>,
-    /// What is left; `None` inside where it does not fail as a finding says.
+    /// The reduced case; the inner `None` if the case does not fail as a finding says.
     reduced: Option<Option<Reduced<C>>>,
 }
 
@@ -126,7 +128,7 @@ struct Reduced<C> {
     case: C,
     symptom: Symptom,
     traits: Traits,
-    /// True if it fails in a new process; `None` until that was tried.
+    /// Whether it fails in a new process; `None` until that was tried.
     steady: Option<bool>,
 }
 
@@ -135,13 +137,13 @@ pub struct KnownBugs<D: Driver> {
     expectations: Expectations,
     named: Vec<Named<D::Named>>,
     tried: BTreeMap<(usize, Part), Tried<D::Case>>,
-    /// The numbers of cases that stand for findings.
+    /// The numbers of the cases that represent findings.
     standing: Vec<usize>,
     driver: D,
 }
 
 impl<D: Driver> KnownBugs<D> {
-    /// Returns the bugs that expectations about an adapter name, with those of the cases, by their ids, that show them.
+    /// Creates the known bugs from the expectations about an adapter, with the cases that show them, by id.
     pub fn new(
         expectations: &Expectations,
         adapter: &AdapterRecord,
@@ -178,11 +180,11 @@ impl<D: Driver> KnownBugs<D> {
         }
     }
 
-    /// Returns the finding that explains a failure, or the one that it is like most; `None` if none is, or if the
-    /// search is being stopped.
+    /// Returns the finding that explains a failure, or the most similar one; `None` if no finding is
+    /// similar, or if the search must stop.
     ///
     /// # Errors
-    /// When the driver cannot be started again.
+    /// If the driver cannot be started again.
     pub fn matching(
         &mut self,
         verdict: Verdict,
@@ -201,7 +203,7 @@ impl<D: Driver> KnownBugs<D> {
                 }
             }
         }
-        // The bug may show elsewhere too.
+        // The bug can also show in other parts.
         let parts: &[Part] = match part {
             Part::All => &[Part::All],
             _ => &[Part::Color, Part::DepthStencil],
@@ -218,16 +220,16 @@ impl<D: Driver> KnownBugs<D> {
         let alike =
             places.filter_map(|place| Some((place, self.likeness(place, verdict, traits)?)));
         let mut alike: Vec<((usize, Part), Likeness)> = alike.collect();
-        // The one that says most of the failure.
+        // Prefers the case that shares the most with the failure.
         alike.sort_by_key(|(place, likeness)| {
             let known = self.left(*place).map(|r| &r.traits);
             let way = known.is_none_or(|k| k.way != traits.way);
             let shared = known.map_or(0, |k| k.words.shared(&traits.words));
             (*likeness, way, Reverse(shared))
         });
-        // Of a failure behind others, all that its scene had is left.
+        // A failure that needs other scenes first was not reduced, so it has all states of its scene.
         alike.retain(|(_, likeness)| steady || *likeness != Likeness::Elsewhere);
-        // Some drivers leave behind what a failure is made of.
+        // Some failures depend on state that earlier draws left in the driver.
         let mut alike = alike.into_iter();
         let best = alike.find(|(place, _)| !steady || self.is_steady(*place));
         Ok(best.map(|(place, likeness)| {
@@ -243,7 +245,7 @@ impl<D: Driver> KnownBugs<D> {
         }))
     }
 
-    /// Returns what was left of a case.
+    /// Returns the reduced case.
     fn left(&self, place: (usize, Part)) -> Option<&Reduced<D::Case>> {
         self.tried.get(&place)?.reduced.as_ref()?.as_ref()
     }
@@ -285,7 +287,8 @@ impl<D: Driver> KnownBugs<D> {
         }
     }
 
-    /// Returns the cases from which a failure may be left, the likeliest first: those that have all its states.
+    /// Returns the cases from which a failure could have been reduced, the likeliest first: cases with all
+    /// its states.
     fn may_leave(&self, traits: &Traits) -> Vec<usize> {
         // A reduction replaces formats and meshes by simpler ones.
         let wanted = traits.states.without_formats().without_vertices();
@@ -305,7 +308,8 @@ impl<D: Driver> KnownBugs<D> {
         likely
     }
 
-    /// Draws a case and reduces it, if it fails by the finding and is of use for a failure with these traits.
+    /// Draws a case, and reduces it if it fails as the finding says and is useful for a failure with these
+    /// traits.
     fn reduced(&mut self, place: (usize, Part), traits: &Traits) -> Result<(), D::Error> {
         if self.driver.is_stopped() {
             return Ok(());
@@ -315,7 +319,7 @@ impl<D: Driver> KnownBugs<D> {
             let reduced = seen.is_none().then_some(None);
             self.tried.insert(place, Tried { seen, reduced });
         }
-        // What is left may be like a failure that has more, or in another violation.
+        // The reduced case can resemble a failure that has more states, or another violation.
         let of_use = |seen: &mut Seen<D::Case>| {
             traits.may_be_left_of(&seen.traits)
                 || seen.traits.may_be_left_of(traits)
@@ -358,7 +362,8 @@ impl<D: Driver> KnownBugs<D> {
         }))
     }
 
-    /// Reduces a case. One that ends its worker stays as it is: each step would cost a process.
+    /// Reduces a case. A case that ends its worker is kept as it is, because each step would cost a
+    /// process.
     fn reduce(&mut self, seen: Seen<D::Case>) -> Result<Reduced<D::Case>, D::Error> {
         let (case, symptom, traits) = if seen.record.verdict.is_violation() {
             self.driver.reduce(seen.case, seen.record)?
@@ -373,7 +378,7 @@ impl<D: Driver> KnownBugs<D> {
         })
     }
 
-    /// True if what is left of a case fails in a new process.
+    /// Returns true if the reduced case fails in a new process.
     fn is_steady(&mut self, place: (usize, Part)) -> bool {
         let tried = self.tried.get_mut(&place);
         let reduced = tried.and_then(|t| t.reduced.as_mut()?.as_mut());
@@ -390,7 +395,7 @@ impl<D: Driver> KnownBugs<D> {
     }
 }
 
-/// Returns the cases that stand for each finding: some of its cases, evenly spaced.
+/// Returns the cases that represent each finding: some of its cases, evenly spaced.
 fn standing<N>(named: &[Named<N>]) -> Vec<usize> {
     let mut of_each: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, case) in named.iter().enumerate() {

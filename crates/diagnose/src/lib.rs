@@ -1,9 +1,10 @@
 //! What failures have in common.
 //!
-//! A [`Symptom`] is the way in which a record failed, a [`Signature`] what of a scene tells one failure from another,
-//! [`Traits`] are both, and say how much a failure is like one that is known. A [`Condition`] on axes tells the failing
-//! cases of a file from the others. [`Groups`] holds failing scenes by what is left of them, [`KnownBugs`] finds the finding
-//! that explains a group, or that it is like. [`bless()`] makes expectations and findings of a run's failures.
+//! A [`Symptom`] is the way in which a record failed. A [`Signature`] contains the parts of a scene that
+//! distinguish failures. [`Traits`] combine both, and measure how similar a failure is to a known one. A
+//! [`Condition`] on axes separates the failing cases of a file from the others. [`Groups`] collects failing
+//! scenes by their reduced form, and [`KnownBugs`] finds the finding that explains or resembles a group.
+//! [`bless()`] turns a run's failures into expectations and findings.
 
 #![cfg_attr(
     test,

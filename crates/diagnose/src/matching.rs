@@ -11,23 +11,23 @@ pub struct Match {
     pub title: String,
     /// The case of the finding.
     pub case: String,
-    /// The states that are left of the case.
+    /// The states of the reduced case.
     pub states: Signature,
     /// The difference; `None` if the failure is the same.
     pub beyond: Option<Beyond>,
 }
 
-/// The difference between two failures that are alike.
+/// The difference between two similar failures.
 #[derive(Clone, Debug)]
 pub struct Beyond {
-    /// The states that are not left of the case.
+    /// The states of the failure that the reduced case lacks.
     pub states: Signature,
-    /// The violation of the case, where it is another one.
+    /// The violation of the case, if it differs.
     pub violation: Option<String>,
 }
 
 impl Match {
-    /// True if case and failure leave the same states, words and violation.
+    /// Returns true if the reduced case and failure have the same states, words and violation.
     pub fn is_exact(&self) -> bool {
         self.beyond.is_none()
     }

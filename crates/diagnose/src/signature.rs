@@ -1,15 +1,15 @@
-//! Signatures: what of a scene tells one failure from another.
+//! Signatures: the parts of a scene that distinguish failures.
 //!
-//! Values are left out, since the same bug leaves other numbers and words in every scene: a driver that has one
-//! logic operation wrong mostly has all of them wrong. Only words that choose other code altogether stay, such as
-//! those of formats and shaders. [`Signature::exact`] keeps more, for the question whether two failures are the same
-//! beyond what groups of failures ask for.
+//! Values are left out, because the same bug shows with different numbers and words in every scene: a
+//! driver that gets one logic operation wrong usually gets all of them wrong. Only words that select
+//! entirely different code are kept, such as those of formats and shaders. [`Signature::exact`] keeps more,
+//! to decide whether two failures are the same beyond what groups of failures need.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// The keys of which the words stay.
+/// The keys whose words are kept.
 const KEPT: [&str; 9] = [
     "counter",
     "early_tests",
@@ -22,19 +22,20 @@ const KEPT: [&str; 9] = [
     "depth_stencil_resolve",
 ];
 
-/// The keys whose numbers are values of colors and depths: most code is right from 0 to 1, and some of it beyond.
+/// The keys whose numbers are values of colours and depths: most code is right from 0 to 1, and less of it
+/// outside.
 const VALUES: [&str; 5] = ["blend_constant", "clear", "clears", "operations", "params"];
 
 /// The keys of a scene that are not at their default, some with their words.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Signature(BTreeSet<String>);
 
-/// The part of a scene that becomes a signature.
+/// How much of a scene becomes the signature.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Detail {
-    /// Keys, and the words of some.
+    /// Keys, and the words of some keys.
     Keys,
-    /// Keys, all words, and whether colors and depths lie below 0 or above 1.
+    /// Keys, all words, and whether colours and depths are below 0 or above 1.
     Words,
 }
 
@@ -44,8 +45,8 @@ impl Signature {
         Self::with(document, Detail::Keys)
     }
 
-    /// Returns the signature with everything but numbers: all words and truth values, numbers of samples, and
-    /// whether values of colors and depths lie below 0 or above 1.
+    /// Returns the signature with everything except numbers: all words and booleans, sample counts, and
+    /// whether values of colours and depths are below 0 or above 1.
     pub fn exact(document: &Value) -> Self {
         Self::with(document, Detail::Words)
     }
@@ -92,7 +93,7 @@ impl Signature {
                         add_sides(&mut states, key, value);
                     }
                     "params" | "textures" | "counters" => {}
-                    // Nearly everything is drawn with these.
+                    // Nearly every scene uses one of these.
                     "shader" if value == "uniform_color" || value == "flat_color" => {}
                     "mesh" if value["kind"] != "vertices" => {}
                     key => add(&mut states, key, value),
@@ -113,14 +114,14 @@ impl Signature {
         Self(states)
     }
 
-    /// True if another signature has all keys of this one, so that its scene may show the same. A signature without keys
-    /// is in none: everything would show it.
+    /// Returns true if another signature has all keys of this one, so that its scene can show the same
+    /// failure. A signature without keys is within none, because otherwise it would be within all.
     pub fn is_within(&self, other: &Self) -> bool {
         !self.0.is_empty() && self.0.is_subset(&other.0)
     }
 
-    /// Returns the signature with the groups of keys in place of keys: `stencil` for all of its keys. Words stay, but
-    /// for formats of depth and stencil, of which a bug mostly needs none in particular.
+    /// Returns the signature with groups of keys in place of keys: `stencil` for all of its keys. Words are
+    /// kept, except depth and stencil formats, since most bugs do not depend on a particular one.
     #[must_use]
     pub fn coarse(&self) -> Self {
         let group = |key: &String| match (key.contains('='), key.split_once('.')) {
@@ -140,14 +141,14 @@ impl Signature {
         Self(self.0.iter().filter(other).cloned().collect())
     }
 
-    /// Returns the signature without what attachments are made of and hold.
+    /// Returns the signature without the formats and texels of attachments.
     #[must_use]
     pub fn without_formats(&self) -> Self {
         let kept = |key: &&String| !key.starts_with("format=") && *key != "texels";
         Self(self.0.iter().filter(kept).cloned().collect())
     }
 
-    /// Returns the signature without vertices, as if a mesh had them that is like others.
+    /// Returns the signature without vertices, as if the mesh were an ordinary one.
     #[must_use]
     pub fn without_vertices(&self) -> Self {
         let kept = |key: &&String| !key.starts_with("mesh.") && *key != "mesh";
@@ -159,7 +160,7 @@ impl Signature {
         self.0.len()
     }
 
-    /// True if it has no keys.
+    /// Returns true if it has no keys.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -183,7 +184,7 @@ impl fmt::Display for Signature {
     }
 }
 
-/// Returns the items of a list; none where there is no list.
+/// Returns the items of a list; empty if there is no list.
 fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], |l| l)
 }
@@ -223,10 +224,10 @@ fn add(states: &mut BTreeSet<String>, path: &str, value: &Value, detail: Detail)
     }
 }
 
-/// Adds whether numbers below a value lie below 0 or above 1.
+/// Adds whether any numbers below a value are below 0 or above 1.
 fn add_sides(states: &mut BTreeSet<String>, path: &str, value: &Value) {
     match value {
-        // Rectangles are no values.
+        // Rectangles are not values.
         Value::Object(map) => map
             .iter()
             .filter(|(key, _)| *key != "rect")

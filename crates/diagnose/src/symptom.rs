@@ -1,11 +1,12 @@
-//! Symptoms: the way in which a case failed, and what records of one bug have in common before anybody knows the bug.
+//! Symptoms: how a case failed, and what records of one bug have in common before the bug is known.
 //!
-//! A symptom is made from the record alone and names no texel and no value. A picture's names the attachment and the
-//! aspect of the first wrong sample, and the operations that decide what the sample must hold: the last one that
-//! stores there or clears, and those that keep later draws away; where the driver left what was there before, it is
-//! the store, whatever it had to compute. A smaller case has fewer draws, so that its operations are some of the larger
-//! one's; one that is new is another symptom. [`Symptom::broad`] leaves out what differs among the cases of one
-//! bug: the runner rechecks so many records of each, reports group by it.
+//! A symptom is derived from the record alone, and names no texel and no value. For a picture, it names the
+//! attachment and aspect of the first wrong sample, and the operations that decide the sample's value: the
+//! last operation that stores or clears, and operations that reject later draws. If the driver kept the
+//! earlier contents, the store decides, whatever was computed for it. A smaller case has fewer draws, so
+//! its operations are a subset of the larger case's; a new operation is another symptom. [`Symptom::broad`]
+//! leaves out what differs among the cases of one bug: the runner rechecks a limited number of records with
+//! the same broad symptom, and reports group by it.
 
 use etalon_frame::{
     Aspect, Band, ChannelMismatch, CounterKind, Effect, ErrorKind, Event, Operation, Rejection,
@@ -14,7 +15,7 @@ use etalon_frame::{
 use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
 
-/// Operations that every sample passes, which distinguish no failure.
+/// Operations that every sample goes through, which therefore distinguish no failure.
 const COMMON: [Operation; 7] = [
     Operation::ReadBack,
     Operation::Coverage,
@@ -25,45 +26,45 @@ const COMMON: [Operation; 7] = [
     Operation::StoreStencil,
 ];
 
-/// Operations that compute what is stored.
+/// Operations that compute the stored value.
 const COMPUTED: [Operation; 3] = [
     Operation::LogicOperation,
     Operation::AdvancedBlend,
     Operation::Blend,
 ];
 
-/// Operations that give an attachment its contents before all draws, or without one.
+/// Operations that give an attachment its contents before the first draw or between draws.
 const INITIAL: [Operation; 3] = [Operation::Clear, Operation::Upload, Operation::Resolve];
 
-/// The way in which a case failed.
+/// How a case failed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Symptom {
     /// The verdict.
     pub verdict: Verdict,
-    /// The part of the outcome that is wrong.
+    /// The part of the result that is wrong.
     pub subject: Subject,
-    /// Of a picture, the name of the attachment.
+    /// For a picture, the name of the attachment.
     pub attachment: Option<String>,
-    /// Of a picture, the operations that decide what the first wrong sample must hold, in their order.
+    /// For a picture, the operations that decide the first wrong sample's value, in their order.
     pub operations: Vec<Operation>,
-    /// The last operation of the story that not every sample passes.
+    /// The last operation of the story that not every sample goes through.
     pub last: Option<Operation>,
-    /// Of a value, the side on which it lies.
+    /// For a value, whether it is too high or too low.
     pub direction: Option<Direction>,
 }
 
-/// The part of an outcome that is wrong.
+/// The part of a result that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Subject {
     /// A picture.
     Picture(Aspect),
     /// A counter.
     Counter(CounterKind),
-    /// Pictures that must be the same are not: the name of the invariance.
+    /// Pictures that must be equal differ; the name of the invariance.
     Relation(String),
-    /// The process that drew was lost.
+    /// The process that drew the case was lost.
     Process {
-        /// The way in which it was lost.
+        /// How it was lost.
         kind: LossKind,
         /// The signal that ended it.
         signal: Option<i32>,
@@ -72,11 +73,11 @@ pub enum Subject {
     },
     /// The backend failed.
     Error(ErrorKind),
-    /// Nothing but the verdict is known.
+    /// Only the verdict is known.
     Unknown,
 }
 
-/// The side of what is allowed on which a value lies.
+/// Whether a value is above or below the legal values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// All wrong values are too high.
@@ -140,12 +141,12 @@ impl Symptom {
         Self { subject, ..bare }
     }
 
-    /// True if a smaller case that fails like `other` fails like this one.
+    /// Returns true if a smaller case that fails like `other` also fails like this one.
     pub fn covers(&self, other: &Self) -> bool {
         self.attachment == other.attachment && self.covers_elsewhere(other)
     }
 
-    /// The same, whatever the attachments are called.
+    /// Like [`Symptom::covers`], whatever the attachments are called.
     pub fn covers_elsewhere(&self, other: &Self) -> bool {
         let same = self.verdict == other.verdict && self.subject == other.subject;
         let counter = matches!(self.subject, Subject::Counter(_));
@@ -154,8 +155,8 @@ impl Symptom {
             && other.operations.is_empty() == self.operations.is_empty()
     }
 
-    /// Returns the symptom that all cases of one bug have, in most of its cases: that of a picture in any attachment,
-    /// of any error with this verdict.
+    /// Returns the symptom that most cases of one bug share: without the attachment of a picture, and
+    /// without the kind of an error.
     pub fn broad(self) -> Self {
         let subject = match self.subject {
             Subject::Error(_) => Subject::Unknown,
@@ -169,8 +170,8 @@ impl Symptom {
         }
     }
 
-    /// Returns the operations that decide, without those that give an attachment what it holds before all draws,
-    /// unless there are no others.
+    /// Returns the deciding operations, without operations that set an attachment's contents before the
+    /// draws, unless there are no others.
     pub fn of_draws(&self) -> Vec<Operation> {
         let mut drawn = self.operations.clone();
         drawn.retain(|operation| !INITIAL.contains(operation));
@@ -181,7 +182,8 @@ impl Symptom {
         }
     }
 
-    /// Returns the symptom in a few words: `color too high after blend`; nothing where only the verdict is known.
+    /// Returns the symptom in a few words: `color too high after blend`; empty if only the verdict is
+    /// known.
     pub fn text(&self) -> String {
         let mut words = match &self.subject {
             Subject::Picture(aspect) => vec![aspect.name().to_owned()],
@@ -196,7 +198,7 @@ impl Symptom {
     }
 }
 
-/// The subject and what decides: `color of target (blend, store color)`.
+/// Displays the subject and the deciding operations: `color of target (blend, store color)`.
 impl fmt::Display for Symptom {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.subject, self.direction) {
@@ -242,7 +244,7 @@ impl fmt::Display for Subject {
 }
 
 impl Direction {
-    /// Returns the amount that a counter counts too much.
+    /// Returns the word for how much too many a counter counts.
     pub(crate) fn amount(self) -> &'static str {
         match self {
             Self::Low => "little",
@@ -259,15 +261,15 @@ impl Direction {
     }
 }
 
-/// Returns names of operations: `blend, store color`.
+/// Returns the names of operations: `blend, store color`.
 pub(crate) fn names(operations: &[Operation]) -> String {
     let names: Vec<&str> = operations.iter().map(|o| o.name()).collect();
     names.join(", ")
 }
 
-/// Returns the clause that the driver violates: that of the last operation that cites one. Coverage cites one for
-/// primitives that lie elsewhere, and so is the last to be named. `None` if pictures must be the same, which no single
-/// operation decides.
+/// Returns the clause that the driver violates: that of the last operation that cites one. Coverage cites
+/// one for primitives elsewhere too, so it is used only if no other operation cites one. `None` if pictures
+/// must be equal, because no single operation decides that.
 pub fn violated_clause(story: &Story) -> Option<&str> {
     if invariance(&story.events).is_some() {
         return None;
@@ -282,7 +284,7 @@ pub fn violated_clause(story: &Story) -> Option<&str> {
     cited(false).or_else(|| cited(true))
 }
 
-/// Returns the name of the invariance of a story about two pictures that must be the same.
+/// Returns the name of the invariance, if a story is about two pictures that must be equal.
 fn invariance(events: &[Event]) -> Option<String> {
     events.iter().find_map(|event| match &event.step {
         Step::Relation(name) => Some(name.clone()),
@@ -290,7 +292,7 @@ fn invariance(events: &[Event]) -> Option<String> {
     })
 }
 
-/// Returns the side on which the wrong values of an aspect lie.
+/// Returns whether the wrong values of an aspect are too high or too low.
 fn direction(record: &Record, aspect: Aspect) -> Direction {
     let channels = record.wrong.iter().flat_map(|texel| &texel.channels);
     let of_aspect = || channels.clone().filter(|m| m.aspect == aspect);
@@ -304,7 +306,7 @@ fn direction(record: &Record, aspect: Aspect) -> Direction {
     }
 }
 
-/// Returns the operations that decide what an aspect of an attachment holds at the sample of a story.
+/// Returns the operations that decide the value of an aspect of an attachment at the sample of a story.
 fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
     let mut deciding: Vec<Operation> = Vec::new();
     let add = |deciding: &mut Vec<Operation>, operation: Operation| {
@@ -325,7 +327,7 @@ fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
             }
             continue;
         }
-        // Several attachments are stored one after the other, each after the operations that compute it.
+        // Several attachments are stored one after another, each after the operations that compute it.
         let concerns = |target: &Target| {
             target.aspect == aspect && (aspect != Aspect::Color || target.attachment == attachment)
         };
@@ -352,18 +354,18 @@ fn deciding(story: &Story, attachment: &str, aspect: Aspect) -> Vec<Operation> {
             add(&mut deciding, event.operation());
         }
     }
-    // If the driver left earlier contents, no computation could be wrong.
+    // If the driver kept earlier contents, no computation could be wrong.
     if story.keeps_earlier_contents() {
         deciding.retain(|o| !COMPUTED.contains(o));
     }
-    // Every draw has primitives elsewhere: coverage decides if nothing else does.
+    // Every draw has primitives elsewhere, so coverage decides only if nothing else does.
     if drawn && deciding.iter().all(|o| INITIAL.contains(o)) {
         add(&mut deciding, Operation::Coverage);
     }
     deciding
 }
 
-/// True if an operation between draws gives an attachment its contents.
+/// Returns true if an operation between draws sets an attachment's contents.
 fn gives(event: &Event, attachment: &str) -> bool {
     match &event.step {
         Step::Upload(contents) | Step::Clear(contents) => {
@@ -374,8 +376,8 @@ fn gives(event: &Event, attachment: &str) -> bool {
     }
 }
 
-/// Returns the last operation of a group that ends the draw at the sample. Coverage stands apart: every draw has
-/// primitives elsewhere.
+/// Returns the last operation of a group that rejects the draw at the sample, except coverage: every draw
+/// has primitives elsewhere.
 fn rejection(group: &[Event]) -> Option<&Event> {
     group
         .iter()
@@ -405,7 +407,7 @@ mod tests {
         }
     }
 
-    /// An event of the only primitive of a draw.
+    /// Returns an event of the only primitive of a draw.
     fn drawn(draw: usize, step: Step, effect: Effect) -> Event {
         let origin = Origin::Fragment {
             pass: 0,
@@ -592,7 +594,7 @@ mod tests {
         assert_eq!(Symptom::of(&old), free.broad());
     }
 
-    /// The names of the operations that decide a colour of the attachment `c`.
+    /// Returns the names of the operations that decide a colour of the attachment `c`.
     fn found(events: &[&Event]) -> String {
         let events = events.iter().map(|event| (*event).clone()).collect();
         names(&deciding(&story(events), "c", Aspect::Color))

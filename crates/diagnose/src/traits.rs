@@ -1,8 +1,8 @@
-//! Traits: what tells one failing scene from another, and how two of them are compared.
+//! Traits: what distinguishes failing scenes, and how two of them are compared.
 //!
-//! Scenes with the same states and the same violation are one group of a search. Those states leave out words, since a
-//! bug shows in many; to say that a failure is one that is known asks for more: the same words, and values on the same
-//! side of 0 and 1.
+//! Scenes with the same states and the same violation form one group of a search. States leave out words,
+//! since a bug shows with many of them. A failure matches a known one only if more agrees: the same words,
+//! and values on the same side of 0 and 1.
 
 use crate::signature::Signature;
 use crate::symptom::{Direction, Subject, Symptom, names};
@@ -22,13 +22,13 @@ pub struct Traits {
     pub words: Signature,
 }
 
-/// The wrong part of an outcome, without names of attachments and without earlier contents.
+/// The wrong part of a result, without names of attachments and earlier contents.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Violation {
     subject: Subject,
-    /// Of a picture, the operations of draws that decide, in the order of their names.
+    /// For a picture, the deciding operations of draws, sorted by name.
     operations: Vec<Operation>,
-    /// Of a counter, the side on which it lies.
+    /// For a counter, whether it is too high or too low.
     direction: Option<Direction>,
     /// The verdict, if nothing else is known.
     verdict: Option<Verdict>,
@@ -57,7 +57,7 @@ impl Violation {
     }
 }
 
-/// The subject and what decides: `color (blend, store color)`.
+/// Displays the subject and the deciding operations: `color (blend, store color)`.
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.subject, self.direction, self.verdict) {
@@ -73,14 +73,14 @@ impl fmt::Display for Violation {
     }
 }
 
-/// The likeness of a failure to one that is known.
+/// How similar a failure is to a known one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Likeness {
     /// The same violation, states and words.
     Same,
-    /// All groups of states that the known one has, and its violation, possibly with more.
+    /// All groups of states of the known failure, and its violation, possibly with more states.
     Alike,
-    /// The same in another violation: of the groups of states there are several.
+    /// The same with another violation; the failures share several groups of states.
     Elsewhere,
 }
 
@@ -94,9 +94,9 @@ impl Traits {
         }
     }
 
-    /// Returns how much this failure is like a known one; `None` if it lacks something of it.
+    /// Returns how similar this failure is to a known one; `None` if it lacks a part of it.
     pub fn likeness(&self, known: &Self) -> Option<Likeness> {
-        // A failure that needs no vertices of its own is not about those of the known one.
+        // If this failure does not depend on its vertices, those of the known failure are ignored.
         let own_vertices = self.words != self.words.without_vertices();
         let as_here = |signature: &Signature| {
             if own_vertices {
@@ -110,7 +110,8 @@ impl Traits {
         }
         let mut states = as_here(&known.states).coarse();
         let several = states.without_formats().without_vertices().len() > 1;
-        // Of one state a bug may have the format that it was seen in; several tell enough.
+        // A bug with a single state can depend on the format that it was seen in; several states are
+        // specific enough.
         if several {
             states = states.without_formats();
         }
@@ -130,7 +131,7 @@ impl Traits {
         }
     }
 
-    /// The aspect of a picture that is wrong.
+    /// Returns the aspect of a picture that is wrong.
     pub fn aspect(&self) -> Option<Aspect> {
         match self.way.subject {
             Subject::Picture(aspect) => Some(aspect),
@@ -138,7 +139,7 @@ impl Traits {
         }
     }
 
-    /// True if a failure with these traits may be what is left of one with others when it is reduced.
+    /// Returns true if reducing the larger failure could give one with these traits.
     pub fn may_be_left_of(&self, larger: &Self) -> bool {
         self.way.may_be_left_of(&larger.way)
     }
@@ -221,7 +222,7 @@ mod tests {
         assert_eq!(more.likeness(&known), Some(Likeness::Alike));
         assert_eq!(known.likeness(&more), None);
         assert!(known.may_be_left_of(&more) && !more.may_be_left_of(&known));
-        // Everything would be like a failure without states.
+        // Otherwise everything would resemble a failure without states.
         let bare = json!({ "mesh": { "kind": "full" }, "shader": "uniform_color" });
         let bare = traits(Aspect::Color, &["store color"], bare);
         assert_eq!(more.likeness(&bare), None);

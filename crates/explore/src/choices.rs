@@ -1,25 +1,25 @@
-//! Choices: the whole numbers that a scene is made from, and the states that follow from them.
+//! Choices: the integers from which a scene is made, and the states that follow from them.
 //!
-//! A generator asks for numbers below a bound and makes a scene of every answer. No library draws the numbers: the same
-//! seed must give the same scenes in every release of one. Smaller scenes come from edits of the document and not
-//! from fewer choices, since a document is what is kept.
+//! A generator asks for numbers below a bound and makes a scene from any answers. No external library draws
+//! the numbers, because the same seed must give the same scenes in every release. Smaller scenes come from
+//! edits of the document, not from fewer choices, since only the document is kept.
 
 use etalon_frame::SplitMix64;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// A state and its value, as a number that tells it from others.
+/// A hash that identifies a state and its value.
 pub(crate) type State = u64;
 
-/// Answers by chance.
+/// A source of random answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices {
     random: SplitMix64,
-    /// The states that were chosen: those of the whole scene, then those of each draw.
+    /// The chosen states: those of the whole scene, then those of each draw.
     scopes: Vec<Vec<State>>,
 }
 
 impl Choices {
-    /// The choices of a seed.
+    /// Creates the choices of a seed.
     pub(crate) fn by_seed(seed: u64) -> Self {
         Self {
             random: SplitMix64(seed),
@@ -27,41 +27,41 @@ impl Choices {
         }
     }
 
-    /// Returns a number below `bound`; the answer 0 even where there is no choice.
+    /// Returns a number below `bound`; draws a number even if 0 is the only answer.
     pub(crate) fn below(&mut self, bound: u32) -> u32 {
         (self.random.roll() % u64::from(bound.max(1))) as u32
     }
 
-    /// Returns a number from `low` to `high`, both included; `low` is the simplest.
+    /// Returns a number from `low` to `high`, inclusive; `low` is the simplest.
     pub(crate) fn range(&mut self, low: u32, high: u32) -> u32 {
         low + self.below(high.saturating_sub(low) + 1)
     }
 
-    /// True once in `n` times; false is simpler.
+    /// Returns true once in `n` times; false is simpler.
     pub(crate) fn once_in(&mut self, n: u32) -> bool {
         self.below(n) + 1 == n
     }
 
-    /// Returns one of a list, of which the first is the simplest.
+    /// Returns an item of a list, which must begin with the simplest.
     pub(crate) fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len() as u32) as usize]
     }
 
-    /// Returns one of the values of a state, and notes it.
+    /// Returns one of the values of a state, and records it.
     pub(crate) fn word(&mut self, state: &'static str, words: &[&'static str]) -> &'static str {
         let word = self.of(words);
         self.note(state, word);
         word
     }
 
-    /// True once in `n` times, as a state that is noted.
+    /// Returns true once in `n` times, and records the answer as a state.
     pub(crate) fn flag(&mut self, state: &'static str, n: u32) -> bool {
         let flag = self.once_in(n);
         self.note(state, flag);
         flag
     }
 
-    /// Notes the value of a state.
+    /// Records the value of a state.
     pub(crate) fn note(&mut self, state: &'static str, value: impl Hash) {
         let mut hasher = DefaultHasher::new();
         state.hash(&mut hasher);
@@ -71,12 +71,12 @@ impl Choices {
         }
     }
 
-    /// Begins the states of another draw.
+    /// Begins the states of the next draw.
     pub(crate) fn begin_draw(&mut self) {
         self.scopes.push(Vec::new());
     }
 
-    /// Returns the states, those of the scene first.
+    /// Returns the states, with those of the scene first.
     pub(crate) fn finish(self) -> Vec<Vec<State>> {
         self.scopes
     }

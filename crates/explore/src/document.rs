@@ -1,10 +1,10 @@
-//! What a document holds, counted and listed.
+//! Counting and listing the parts of a document.
 
 use crate::edit::{Place, place};
 use serde_json::Value;
 use std::ops::Range;
 
-/// Returns the number of keys in a value: the members of all its objects.
+/// Returns the number of keys in a value, over all its objects.
 pub fn keys(value: &Value) -> usize {
     match value {
         Value::Object(map) => map.len() + map.values().map(keys).sum::<usize>(),
@@ -13,7 +13,7 @@ pub fn keys(value: &Value) -> usize {
     }
 }
 
-/// Returns the number of words and numbers in a value.
+/// Returns the number of scalars in a value.
 pub fn leaves(value: &Value) -> usize {
     match value {
         Value::Object(map) => map.values().map(leaves).sum(),
@@ -25,7 +25,7 @@ pub fn leaves(value: &Value) -> usize {
 /// Returns the states of a scene that are not the default, each once and in order of passes and draws:
 /// `logic "xor"`, `depth {"compare":"less","write":true}`.
 pub fn states(scene: &Value) -> Vec<String> {
-    /// The keys of a draw that say what is drawn.
+    /// The keys of a draw that state what is drawn.
     const DRAWN: [&str; 4] = ["mesh", "params", "shader", "textures"];
     /// The keys of a pass that name its parts.
     const PARTS: [&str; 5] = ["clears", "color", "depth_stencil", "draws", "read"];
@@ -53,13 +53,13 @@ pub fn states(scene: &Value) -> Vec<String> {
     states
 }
 
-/// Returns the items of a list; none where there is no list.
+/// Returns the items of a list; empty if there is no such list.
 pub(crate) fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], |l| l)
 }
 
-/// Returns the parts of a list of so many items that are taken away together: all, both halves, quarters, down
-/// to one.
+/// Returns the parts of a list with `length` items that are removed together: the whole list, both halves,
+/// quarters, down to single items.
 pub(crate) fn parts(length: usize) -> Vec<Range<usize>> {
     let mut ranges = Vec::new();
     let mut size = length;
@@ -71,7 +71,7 @@ pub(crate) fn parts(length: usize) -> Vec<Range<usize>> {
     ranges
 }
 
-/// Returns the number of a scene's passes.
+/// Returns the number of passes of a scene.
 pub(crate) fn passes_of(document: &Value) -> usize {
     list(&document["scene"], "passes").len()
 }

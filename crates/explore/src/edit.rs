@@ -1,6 +1,6 @@
 //! Edits of a document: values that are replaced, and keys or items that are removed.
 //!
-//! An edit is data, so that thousands of them cost nothing until one is tried.
+//! An edit is data, so that thousands of them cost nothing until they are tried.
 
 use serde_json::Value;
 
@@ -17,9 +17,10 @@ pub(crate) type Place = Vec<Step>;
 /// Several changes that are made together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Edit {
-    /// Values that stand at places instead. The last step may be a new key.
+    /// New values, by place. The last step may be a new key.
     pub(crate) replace: Vec<(Place, Value)>,
-    /// Keys and items that are removed, after all replacements. Places are those before the edit.
+    /// Keys and items that are removed, after all replacements. Places refer to the document before the
+    /// edit.
     pub(crate) remove: Vec<Place>,
 }
 
@@ -43,7 +44,7 @@ impl From<usize> for Step {
     }
 }
 
-/// Returns a place with a further step.
+/// Returns a place extended by a step.
 pub(crate) fn below(place: &[Step], step: impl Into<Step>) -> Place {
     let mut below = place.to_vec();
     below.push(step.into());
@@ -66,7 +67,7 @@ fn at_mut<'v>(value: &'v mut Value, place: &[Step]) -> Option<&'v mut Value> {
 }
 
 impl Edit {
-    /// An edit that removes one place.
+    /// Returns an edit that removes one place.
     pub(crate) fn removal(place: Place) -> Self {
         Self {
             replace: Vec::new(),
@@ -74,7 +75,7 @@ impl Edit {
         }
     }
 
-    /// An edit that replaces one value.
+    /// Returns an edit that replaces one value.
     pub(crate) fn replacement(place: Place, value: impl Into<Value>) -> Self {
         Self {
             replace: vec![(place, value.into())],
@@ -82,7 +83,7 @@ impl Edit {
         }
     }
 
-    /// Returns the document with the edit; `None` if a place is not there or nothing changes.
+    /// Returns the edited document; `None` if a place does not exist or nothing changes.
     pub(crate) fn apply(&self, document: &Value) -> Option<Value> {
         let mut edited = document.clone();
         for (place, value) in &self.replace {
@@ -98,7 +99,7 @@ impl Edit {
                 _ => return None,
             }
         }
-        // The last items of a list first, so that the places of the others stay.
+        // Later items of a list are removed first, so that the places of the others stay valid.
         let mut remove = self.remove.clone();
         remove.sort_unstable();
         remove.dedup();

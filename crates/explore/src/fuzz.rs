@@ -1,8 +1,8 @@
-//! The scenes of a seed, one after the other.
+//! The sequence of scenes of a seed.
 //!
-//! Of a few scenes that chance makes, the one is drawn that has the most pairs of states which no scene before
-//! it had. So the scenes depend on the seed, on their number and on what the adapters have, and on nothing that
-//! a driver does.
+//! Several random scenes are made, and the one with the most new pairs of states is drawn. The scenes
+//! therefore depend on the seed, their number and what the adapters support, but never on what a driver
+//! does.
 
 use crate::choices::Choices;
 use crate::pairs::Pairs;
@@ -14,17 +14,17 @@ use etalon_frame::mix;
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 
-/// The scenes of which one is drawn.
+/// The number of scenes that are made per drawn scene.
 const MADE: usize = 3;
-/// The most scenes that are made for one that can be drawn.
+/// The most scenes that are made before giving up.
 const MOST_MADE: u64 = 24;
 
 /// One random scene.
 #[derive(Clone, Debug)]
 pub struct RandomScene {
-    /// Its number, from 0 on.
+    /// Its index, from 0.
     pub index: u64,
-    /// Its case and the document.
+    /// The case and its document.
     pub candidate: Candidate,
 }
 
@@ -35,12 +35,12 @@ pub struct Fuzzer {
     next: u64,
     space: Space,
     pairs: Pairs,
-    /// The scenes of which one is drawn.
+    /// The number of scenes from which the best one is taken.
     made: usize,
 }
 
 impl Fuzzer {
-    /// The scenes of a seed in a space.
+    /// Creates the sequence of scenes of a seed in a space.
     pub fn new(seed: u64, space: Space) -> Self {
         Self {
             seed,
@@ -51,7 +51,7 @@ impl Fuzzer {
         }
     }
 
-    /// Returns the next scene that can be drawn; `None` if none of many can.
+    /// Returns the next scene that can be drawn; `None` if no attempt gave one.
     pub fn scene(&mut self, can_draw: &dyn Fn(&Case) -> bool) -> Option<RandomScene> {
         let index = self.next;
         self.next += 1;
@@ -68,7 +68,7 @@ impl Fuzzer {
             if some.is_empty() {
                 return None;
             }
-            // Checks take longer than what they check: the best is checked first.
+            // Checking a scene takes longer than making it, so the best scene is checked first.
             some.sort_by_key(|(pairs, _)| Reverse(*pairs));
             for (_, made) in some {
                 let candidate = self.candidate(index, &made);
@@ -80,12 +80,12 @@ impl Fuzzer {
         }
     }
 
-    /// Returns the number of pairs of states that the scenes have met.
+    /// Returns the number of pairs of states that the scenes have covered.
     pub fn pairs(&self) -> usize {
         self.pairs.met()
     }
 
-    /// Returns the number of states that the scenes have met.
+    /// Returns the number of states that the scenes have covered.
     pub fn states(&self) -> usize {
         self.pairs.states()
     }
@@ -94,7 +94,7 @@ impl Fuzzer {
         let mut document = document(self.seed, index, made);
         let id = format!("found/seed-{}.{index}", self.seed);
         let mut case = build(&id, &document);
-        // A path that nothing in the scene can take.
+        // The path may be one that nothing in the scene can take.
         let scene = document["scene"].as_object_mut();
         if case.is_err() && scene.is_some_and(|scene| scene.remove("path").is_some()) {
             case = build(&id, &document);
@@ -116,7 +116,7 @@ fn document(seed: u64, index: u64, made: &Made) -> Value {
     document
 }
 
-/// Returns a number from several, of which neighbouring ones share nothing.
+/// Mixes several numbers into one, so that neighbours give unrelated results.
 fn mixed(parts: [u64; 3]) -> u64 {
     parts.into_iter().fold(0, |seed, part| {
         mix(seed ^ part.wrapping_add(0x9e37_79b9_7f4a_7c15))
@@ -132,7 +132,7 @@ mod tests {
     };
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// The limits of an adapter that has everything.
+    /// Returns the limits of an adapter that supports everything.
     fn everything() -> Limits {
         let support = |format: &TextureFormat| FormatSupport {
             samples: vec![1, 2, 4, 8],

@@ -1,9 +1,10 @@
-//! Exploration: random scenes, and from a case that fails to the smallest one that fails in the same way.
+//! Exploration: random scenes, and the reduction of a failing case to the smallest one that fails in the
+//! same way.
 //!
-//! [`Fuzzer`] makes scenes over the whole model from choices, and weighs them by what was not tried yet.
-//! [`reduce()`] works on a case's document, the JSON of a case file, because that is what comes out of it: what
-//! a key is, and what is left without it, is then said once, where case files are read. Whether a smaller
-//! case still fails is for an [`Oracle`] to say; this crate draws and judges nothing.
+//! [`Fuzzer`] makes scenes over the whole model from choices, and prefers states that were not tried yet.
+//! [`reduce()`] works on a case's document, the JSON of a case file, because its result is such a document.
+//! The meaning of keys and their defaults is therefore defined only once, where case files are read. An
+//! [`Oracle`] decides whether a smaller case still fails; this crate neither draws nor judges.
 
 #![cfg_attr(
     test,

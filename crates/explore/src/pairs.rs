@@ -1,17 +1,17 @@
-//! The pairs of states that scenes have met.
+//! The pairs of states that scenes have covered.
 //!
-//! Most bugs need two states to meet, and chance meets common pairs a hundred times before a rare one. So of
-//! several scenes the one with most pairs that are new is drawn. States are told apart by hashes: their names
-//! and values stand in the generator alone.
+//! Most bugs need two states to meet, and chance repeats common pairs a hundred times before a rare one
+//! occurs. Of several scenes, the one with the most new pairs is therefore drawn. States are identified by
+//! hashes: only the generator knows their names and values.
 
 use crate::choices::State;
 use std::collections::HashMap;
 
-/// Pairs of states, within a draw or of a draw and its scene.
+/// Pairs of states, within a draw or between a draw and its scene.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     numbers: HashMap<State, usize>,
-    /// A row of bits for each state, of the states with lower numbers.
+    /// One row of bits per state, for the states with lower numbers.
     rows: Vec<Vec<u64>>,
     met: usize,
 }
@@ -46,12 +46,12 @@ impl Pairs {
         });
     }
 
-    /// Returns the number of pairs that were met.
+    /// Returns the number of pairs covered.
     pub(crate) fn met(&self) -> usize {
         self.met
     }
 
-    /// Returns the number of states that were met.
+    /// Returns the number of states covered.
     pub(crate) fn states(&self) -> usize {
         self.rows.len()
     }
@@ -72,7 +72,7 @@ impl Pairs {
     }
 }
 
-/// Calls a function with each pair of states of a draw, those of its scene among them.
+/// Calls a function with each pair of states of a draw, including those of its scene.
 fn each_pair(scopes: &[Vec<State>], mut pair: impl FnMut(State, State)) {
     let Some((scene, draws)) = scopes.split_first() else {
         return;
@@ -99,7 +99,7 @@ mod tests {
     fn pairs_are_counted_once_and_not_across_draws() {
         let mut pairs = Pairs::default();
         let scene = vec![vec![1, 2], vec![3, 4], vec![5]];
-        // 1-2, 3-4, and each state of a draw with both of the scene.
+        // The pairs 1-2 and 3-4, and each state of a draw with both states of the scene.
         assert_eq!(pairs.new_in(&scene), 8);
         pairs.add(&scene);
         assert_eq!((pairs.met(), pairs.states()), (8, 5));

@@ -1,8 +1,8 @@
-//! The passes of a reduction, in order: what takes most away comes first.
+//! The passes of a reduction, in order: passes that remove the most come first.
 //!
-//! A pass is a function from a document to edits, each of which makes it smaller or simpler by an order of its
-//! own. No pass puts back what another takes away, or reductions would not end. Edits need not give valid
-//! cases: case files are checked elsewhere.
+//! A pass is a function from a document to edits. Each edit makes the document smaller or simpler by the
+//! pass's own order. No pass restores what another one removes, because reductions would not end otherwise.
+//! Edits need not give valid cases: case files are checked elsewhere.
 
 mod attachments;
 mod lists;
@@ -16,7 +16,7 @@ mod words;
 use crate::edit::Edit;
 use serde_json::Value;
 
-/// Returns the edits of a document, of which a texel is wrong, the boldest first.
+/// Returns the edits of a document, given a wrong texel, the largest edits first.
 pub(crate) type Pass = fn(&Value, Option<[u32; 2]>) -> Vec<Edit>;
 
 /// All passes.

@@ -1,10 +1,10 @@
-//! The reduction: passes over a document, each a list of edits, until none of them is left that keeps the
+//! The reduction: applies passes to a document, each a list of edits, until no edit is left that keeps the
 //! failure.
 //!
-//! Every edit takes something away or puts something simpler in its place, so the passes end; their order is
-//! fixed, so the same oracle gives the same result. Before a candidate is drawn it must be a case, by the
-//! checks of case files, and one that differs from all that were drawn. A candidate of which drivers and judge
-//! would see the same scenes is taken without being drawn.
+//! Every edit removes something or replaces it by something simpler, so the passes end. Their order is
+//! fixed, so the same oracle gives the same result. Before a candidate is drawn, it must be a valid case,
+//! by the checks of case files, and differ from all candidates drawn so far. A candidate whose scenes are
+//! equal for drivers and judge is accepted without being drawn.
 
 use crate::passes::PASSES;
 use etalon_case::{Case, build};
@@ -15,23 +15,23 @@ use std::time::{Duration, Instant};
 
 /// The most candidates that a reduction draws.
 pub const MOST_DRAWS: usize = 1000;
-/// If each candidate can cost a process: the most candidates, and the time for all of them.
+/// The most candidates, and the time for all of them, if each candidate can cost a process.
 const MOST_LOST: usize = 200;
 const LOST_TIME: Duration = Duration::from_secs(60);
 
-/// The most that a reduction can cost.
+/// The limits of a reduction.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget<'a> {
     /// The most candidates that are drawn.
     pub draws: usize,
-    /// The time from which on no candidate is tried.
+    /// The time after which no candidate is tried.
     pub until: Option<Instant>,
-    /// Set when the search is being stopped.
+    /// Set when the search must stop.
     pub stop: Option<&'a AtomicBool>,
 }
 
 impl<'a> Budget<'a> {
-    /// So many drawings, whatever time they take.
+    /// Limits the number of drawings, but not the time.
     pub fn draws(draws: usize) -> Self {
         Self {
             draws,
@@ -40,7 +40,7 @@ impl<'a> Budget<'a> {
         }
     }
 
-    /// The budget of a case that ends its process.
+    /// Returns the budget for a case that ends its process.
     pub fn of_processes() -> Self {
         Self {
             until: Some(Instant::now() + LOST_TIME),
@@ -48,7 +48,7 @@ impl<'a> Budget<'a> {
         }
     }
 
-    /// The same, until the search is being stopped.
+    /// Sets the flag that stops the search.
     #[must_use]
     pub fn with_stop(self, stop: Option<&'a AtomicBool>) -> Self {
         Self { stop, ..self }
@@ -65,33 +65,33 @@ impl<'a> Budget<'a> {
 pub struct Candidate {
     /// The document.
     pub document: Value,
-    /// The case that it holds; its id is the path of a case file.
+    /// The case in the document; its id is the path of a case file.
     pub case: Case,
 }
 
-/// Something that tells whether a case still fails in the same way.
+/// Decides whether a case still fails in the same way.
 pub trait Oracle {
-    /// Returns the first of the candidates that fails in the same way; `None` if none does. A candidate that
-    /// was taken from the iterator counts as drawn.
+    /// Returns the first candidate that fails in the same way; `None` if none does. A candidate that was
+    /// taken from the iterator counts as drawn.
     fn first(&mut self, candidates: &mut dyn Iterator<Item = Candidate>) -> Option<Candidate>;
 
-    /// Returns column and row of a wrong texel of the candidate that was last returned, or of the case before
-    /// all of them.
+    /// Returns column and row of a wrong texel of the last returned candidate, or of the original case
+    /// before the first.
     fn texel(&self) -> Option<[u32; 2]>;
 }
 
-/// The outcome of a reduction.
+/// The result of a reduction.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     /// The smallest document, and its case.
     pub smallest: Candidate,
     /// The number of candidates that were drawn.
     pub draws: usize,
-    /// True if nothing smaller was left to try; false if the budget ended it.
+    /// True if no smaller candidate was left to try; false if the budget ended the reduction.
     pub finished: bool,
 }
 
-/// Reduces a case that fails by the oracle. Cases that cannot be drawn are not asked about.
+/// Reduces a case that fails by the oracle. Cases that cannot be drawn are not passed to the oracle.
 pub fn reduce(
     failing: Candidate,
     budget: Budget<'_>,
@@ -128,7 +128,7 @@ struct State<'a> {
     can_draw: &'a dyn Fn(&Case) -> bool,
     id: String,
     current: Candidate,
-    /// The documents that were tried.
+    /// The documents that were already tried.
     seen: HashSet<String>,
     draws: usize,
     budget: Budget<'a>,
@@ -137,13 +137,13 @@ struct State<'a> {
 }
 
 impl State<'_> {
-    /// Tries all edits of a pass. After one that is kept, it goes on at the same place of the list of the new
-    /// document: what stood before was tried.
+    /// Tries all edits of a pass. After an edit is kept, continues at the same index in the list of the new
+    /// document, since the edits before that index were tried.
     fn exhaust(&mut self, pass: crate::passes::Pass, oracle: &mut dyn Oracle) {
         let mut start = 0;
         loop {
             let edits = pass(&self.current.document, oracle.texel());
-            // Of each candidate, the edit that made it.
+            // The edit that made each candidate.
             let mut drawn: Vec<usize> = Vec::new();
             let mut same = None;
             let Self {
@@ -206,7 +206,7 @@ impl State<'_> {
     }
 }
 
-/// True if drivers and judge see the same.
+/// Returns true if drivers and judge see the same case.
 fn is_same(a: &Case, b: &Case) -> bool {
     a.scene == b.scene
         && a.judged_as == b.judged_as
@@ -220,7 +220,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// An oracle that is a condition on the document, and notes every candidate.
+    /// An oracle that tests a condition on the document, and records every candidate.
     struct Condition<F> {
         holds: F,
         asked: Vec<Value>,
@@ -242,7 +242,7 @@ mod tests {
         }
     }
 
-    /// The random scene of a seed.
+    /// Returns the random scene of a seed.
     fn random(flavor: &str, seed: u64) -> Candidate {
         let library = etalon_case::Library::built_in().unwrap();
         let id = format!("combined/{flavor}/seed={seed}");

@@ -1,7 +1,7 @@
-//! The space of scenes: what the adapters that are to draw them have.
+//! The space of scenes: the features of the adapters that will draw them.
 //!
-//! Scenes that no adapter draws find nothing, so what all lack is not chosen in the first place. What an
-//! adapter lacks in combination only, such as a format with samples, is left to the check of each scene.
+//! Scenes that no adapter draws find nothing, so what all adapters lack is never chosen. What an adapter
+//! lacks only in combination, such as a format with samples, is left to the check of each scene.
 
 use etalon_frame::{Feature, Limits, PathValue, TextureFormat};
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Space {
     pub(crate) color: Vec<TextureFormat>,
     pub(crate) depth_stencil: Vec<TextureFormat>,
-    /// The counts of samples above 1 of each format.
+    /// The sample counts above 1 of each format.
     pub(crate) samples: BTreeMap<TextureFormat, BTreeSet<u32>>,
     pub(crate) blendable: BTreeSet<TextureFormat>,
     pub(crate) features: BTreeSet<Feature>,
@@ -20,7 +20,7 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space of adapters: all that any of them has.
+    /// Returns the space of adapters: everything that any of them supports.
     pub fn of<'l>(limits: impl IntoIterator<Item = &'l Limits>) -> Self {
         let mut space = Self::default();
         let mut drawn = BTreeSet::new();
@@ -48,7 +48,7 @@ impl Space {
         space
     }
 
-    /// True if an adapter has a feature.
+    /// Returns true if any adapter has a feature.
     pub(crate) fn has(&self, feature: Feature) -> bool {
         self.features.contains(&feature)
     }

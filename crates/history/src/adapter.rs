@@ -9,15 +9,15 @@ pub struct Adapter {
     pub name: String,
     /// The backend: `cpu`, `vulkan`, `gl`, `wgpu`.
     pub backend: String,
-    /// The device as the driver names it; empty where it is not known.
+    /// The device as the driver names it; empty if unknown.
     pub device: String,
     /// The driver as it names itself.
     pub driver: String,
-    /// The driver's version, as far as the driver reports it.
+    /// The driver's version as the driver reports it; empty if it reports none.
     pub driver_version: String,
     /// The driver's identifier for programs, or empty.
     pub driver_id: String,
-    /// The API's version; empty where it is not known.
+    /// The API's version; empty if unknown.
     pub api_version: String,
     /// True if the device is known to be the processor.
     pub software: bool,
@@ -28,7 +28,8 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    /// The version that tells one driver from the next: that within the line, else the one that the driver reports.
+    /// Returns the version that distinguishes releases of the driver: the version within the line, or the
+    /// one that the driver reports.
     pub fn shown_version(&self) -> &str {
         match self.version.as_str() {
             "" => &self.driver_version,

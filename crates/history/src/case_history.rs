@@ -1,4 +1,4 @@
-//! One case over all runs.
+//! One case across all runs.
 
 use crate::error::HistoryError;
 use crate::history::History;
@@ -7,12 +7,13 @@ use crate::runs::AdapterRun;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// One case on one adapter over the runs that drew it.
+/// One case on one adapter across the runs that drew it.
 #[derive(Clone, Debug)]
 pub struct CaseHistory {
     /// The timeline of the adapter.
     pub timeline: Rc<str>,
-    /// Its records by the times of their runs; at least one. Runs that have no record of the case have no point.
+    /// Its points by the times of their runs; at least one. Runs without a record of the case have no
+    /// point.
     pub points: Vec<Point>,
 }
 
@@ -21,24 +22,25 @@ pub struct CaseHistory {
 pub struct Point {
     /// The run.
     pub run: RunId,
-    /// The outcome, which [`History::outcome`] gives.
+    /// The outcome; see [`History::outcome`].
     pub outcome: OutcomeId,
-    /// The place of the adapter among [`History::adapter_runs`]: its driver, version and machine.
+    /// The index of the adapter in [`History::adapter_runs`], which has its driver, version and machine.
     pub place: usize,
 }
 
 impl Point {
-    /// The adapter as the run found it.
+    /// Returns the adapter as the run found it.
     pub fn adapter<'a>(&self, history: &'a History) -> &'a AdapterRun {
         &history.adapter_runs()[self.place]
     }
 }
 
 impl History {
-    /// One case on all adapters, or on one, by timeline; empty where the history does not know the case.
+    /// Returns one case on all adapters, or on those of one timeline; empty if the history has no such
+    /// case.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn case_history(
         &self,
         case: &str,
@@ -48,7 +50,7 @@ impl History {
             return Ok(Vec::new());
         };
         let wrong = HistoryError::database(self.path());
-        // Changes by chain, in the order of adding.
+        // Changes by chain, in the order in which they were added.
         let mut changes: HashMap<u32, Vec<(RunId, OutcomeId)>> = HashMap::new();
         let mut statement = self
             .connection()

@@ -1,14 +1,14 @@
-//! Sets of cases: a bit for each case, by its number.
+//! Sets of cases, with one bit per case number.
 
 /// A set of cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct CaseSet {
-    /// Bit `n` of all bytes is case `n + 1`. There is no zero byte at the end.
+    /// Bit `n`, counted over all bytes, is case `n + 1`. The last byte is not zero.
     bits: Vec<u8>,
 }
 
 impl CaseSet {
-    /// The set of these numbers, which are above zero.
+    /// Returns the set of these numbers, which must be above zero.
     pub(crate) fn new(cases: impl IntoIterator<Item = u32>) -> Self {
         let mut bits = Vec::new();
         for case in cases {
@@ -21,7 +21,7 @@ impl CaseSet {
         Self { bits }
     }
 
-    /// The set of stored bytes.
+    /// Returns the set that the stored bytes describe.
     pub(crate) fn from_bytes(bits: Vec<u8>) -> Self {
         Self { bits }
     }
@@ -30,14 +30,14 @@ impl CaseSet {
         &self.bits
     }
 
-    /// True if the case is in the set.
+    /// Returns true if the case is in the set.
     pub(crate) fn contains(&self, case: u32) -> bool {
         let bit = case.wrapping_sub(1) as usize;
         let byte = self.bits.get(bit / 8);
         byte.is_some_and(|byte| byte >> (bit % 8) & 1 == 1)
     }
 
-    /// The numbers, ascending.
+    /// Returns the numbers, ascending.
     pub(crate) fn iter(&self) -> impl Iterator<Item = u32> + '_ {
         let bytes = self.bits.iter().zip(0u32..);
         bytes.flat_map(|(byte, index)| {

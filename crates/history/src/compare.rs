@@ -1,4 +1,4 @@
-//! Two runs compared.
+//! Comparing two runs.
 
 use crate::error::HistoryError;
 use crate::history::History;
@@ -16,7 +16,7 @@ pub struct Comparison {
     pub before: RunId,
     /// The second run.
     pub after: RunId,
-    /// The adapters that both have, by timeline.
+    /// The adapters that both runs have, by timeline.
     pub adapters: Vec<AdapterComparison>,
     /// Timelines that only the first run has.
     pub gone: Vec<Rc<str>>,
@@ -33,9 +33,9 @@ pub struct AdapterComparison {
     pub before: AdapterRun,
     /// The adapter in the second run.
     pub after: AdapterRun,
-    /// Cases that both have a record of.
+    /// The number of cases that both runs have a record of.
     pub common: u32,
-    /// The cases of both whose outcomes differ, by number.
+    /// The common cases whose outcomes differ, by number.
     pub changes: Vec<Change>,
     /// Cases that only the first run has.
     pub gone: Vec<CaseId>,
@@ -44,7 +44,7 @@ pub struct AdapterComparison {
 }
 
 impl AdapterComparison {
-    /// The changes of one kind.
+    /// Returns the changes of one kind.
     pub fn of(&self, kind: ChangeKind) -> impl Iterator<Item = &Change> {
         self.changes.iter().filter(move |c| c.kind == kind)
     }
@@ -66,13 +66,13 @@ pub struct Change {
 /// The kind of a change, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChangeKind {
-    /// A case that was right is wrong, or comes out differently from time to time.
+    /// A case that was right is wrong, or gives different results from time to time.
     Broken,
     /// A case that was wrong is right.
     Fixed,
-    /// The verdict is another one, without being broken or fixed.
+    /// The verdict differs, but the case was neither broken nor fixed.
     Verdict,
-    /// The same verdict is expected and was not, or the other way round, or for another reason.
+    /// The verdict is the same, but whether or why it is expected differs.
     Expectation,
     /// Only numbers differ.
     Measures,
@@ -88,7 +88,7 @@ impl ChangeKind {
         Self::Measures,
     ];
 
-    /// The kind of a change from one outcome to another; `None` where they are equal.
+    /// Returns the kind of a change from one outcome to another; `None` if they are equal.
     pub fn between(before: &Outcome, after: &Outcome) -> Option<Self> {
         use Standing::{Bad, Flaky, Good};
         match (before.standing(), after.standing()) {
@@ -103,12 +103,12 @@ impl ChangeKind {
         if expectation(before) != expectation(after) {
             return Some(Self::Expectation);
         }
-        // What is inferred has no numbers.
+        // Inferred outcomes have no numbers.
         let numbers = before.measures != after.measures && before.inferred == after.inferred;
         numbers.then_some(Self::Measures)
     }
 
-    /// The name in exports.
+    /// Returns the name in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Broken => "broken",
@@ -130,7 +130,7 @@ impl History {
     /// Compares two runs adapter by adapter, over the cases that both have.
     ///
     /// # Errors
-    /// When there is no such run, or the file cannot be read or is damaged.
+    /// If there is no such run, or if the file cannot be read or is damaged.
     pub fn compare(&self, before: RunId, after: RunId) -> Result<Comparison, HistoryError> {
         for id in [before, after] {
             self.run(id).ok_or_else(|| HistoryError::NoSuchRun {
@@ -162,7 +162,7 @@ impl History {
     /// Compares the records of an adapter in one run with those of an adapter in another.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn compare_adapters(
         &self,
         before: &AdapterRun,

@@ -1,9 +1,9 @@
-//! Connections to the file.
+//! Connections to the database file.
 //!
-//! The journal is SQLite's rollback journal and not its write-ahead log. With it, a history is one file whenever nobody
-//! writes, so it can be copied, cached between jobs and read from a folder that cannot be written to. The log would let
-//! readers and a writer work at once, but a writer is done in seconds, and readers hold no lock between two questions:
-//! rows are never changed, so what a reader found when it began stays true.
+//! The file uses SQLite's rollback journal, not its write-ahead log. A history is then a single file
+//! whenever no process writes, so it can be copied, cached between jobs and read from a read-only folder.
+//! The log would let readers and a writer work at once. But a writer is done in seconds, and readers hold
+//! no lock between queries: rows are never changed, so what a reader found at first stays true.
 
 use crate::error::HistoryError;
 use crate::schema::{self, Found, MIGRATIONS, SCHEMA};
@@ -15,10 +15,10 @@ use std::time::Duration;
 /// The longest time that a process waits for others.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 
-/// KiB of pages that are held in memory.
+/// The size of the page cache in KiB.
 const CACHE_KIB: i64 = 256 << 10;
 
-/// Opens a file for writing, which is made when it does not exist.
+/// Opens a file for writing, and creates it if it does not exist.
 pub(crate) fn for_writing(path: &Path, patience: Duration) -> Result<Connection, HistoryError> {
     if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
         fs::create_dir_all(folder).map_err(HistoryError::io("create", folder))?;
@@ -31,24 +31,24 @@ pub(crate) fn for_writing(path: &Path, patience: Duration) -> Result<Connection,
             .pragma_update(None, name, value)
             .map_err(HistoryError::database(path))
     };
-    // A transaction that spills its pages early would keep readers out until its end.
+    // A transaction that spills its pages early would keep readers out until it ends.
     set("cache_size", -CACHE_KIB)?;
     set("cache_spill", 0)?;
     Ok(connection)
 }
 
-/// Opens a file for reading. An older schema is brought up to date, which needs permission to write.
+/// Opens a file for reading. An older schema is migrated first, which needs permission to write.
 pub(crate) fn for_reading(path: &Path, patience: Duration) -> Result<Connection, HistoryError> {
     if !path.try_exists().unwrap_or(true) {
         return Err(HistoryError::None {
             path: path.to_owned(),
         });
     }
-    // What a killed writer left half done is undone by the next process, which must be able to write for that. SQLite
-    // reads a file without that permission all the same.
+    // If a killed writer left a transaction half done, the next process rolls it back, and needs permission
+    // to write for that. Without that permission, SQLite still opens the file for reading.
     let mut connection = open(path, OpenFlags::SQLITE_OPEN_READ_WRITE, patience)?;
     match schema::look(path, &connection)? {
-        // As a file is that another process is making.
+        // Another process may be creating the file.
         Found::Empty => {
             return Err(HistoryError::None {
                 path: path.to_owned(),

@@ -6,7 +6,7 @@ use etalon_frame::{shortened, without_mark};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The release dates of lines: line, version, date.
+/// Release dates: line, version, date.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReleaseDates(BTreeMap<String, BTreeMap<String, i64>>);
 
@@ -15,7 +15,7 @@ impl ReleaseDates {
     /// `{"swiftshader": {"118.0.0": "2023-10-10"}}`. Errors name `path`.
     ///
     /// # Errors
-    /// When it is anything else, or a date is none.
+    /// If the text is anything else, or a date is invalid.
     pub fn parse(path: &Path, text: &str) -> Result<Self, HistoryError> {
         let wrong = |message: String| HistoryError::Dates {
             path: path.to_owned(),
@@ -40,7 +40,7 @@ impl ReleaseDates {
         Ok(Self(dates))
     }
 
-    /// The date of a version, in seconds since 1970.
+    /// Returns the date of a version, in seconds since 1970.
     pub fn of(&self, line: &str, version: &str) -> Option<i64> {
         self.0.get(line)?.get(version).copied()
     }

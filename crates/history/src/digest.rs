@@ -3,11 +3,11 @@
 use sha2::{Digest, Sha256};
 use std::io::{self, Read};
 
-/// A reader that digests what passes through it.
+/// A reader that digests the bytes that it reads.
 pub(crate) struct Digesting<R> {
     inner: R,
     all: Sha256,
-    /// Of the first line alone.
+    /// The digest of the first line alone.
     first: Sha256,
     in_first: bool,
 }
@@ -22,7 +22,7 @@ impl<R> Digesting<R> {
         }
     }
 
-    /// The digests of all that was read, and of its first line.
+    /// Returns the digest of everything that was read, and the digest of its first line.
     pub(crate) fn digests(self) -> ([u8; 32], [u8; 32]) {
         (self.all.finalize().into(), self.first.finalize().into())
     }
@@ -42,7 +42,7 @@ impl<R: Read> Read for Digesting<R> {
     }
 }
 
-/// A digest of several parts, which cannot run into each other.
+/// Returns a digest of several parts. Parts that are split differently have different digests.
 pub(crate) fn of_parts(parts: &[&[u8]]) -> [u8; 32] {
     let mut whole = Sha256::new();
     for part in parts {
@@ -52,7 +52,7 @@ pub(crate) fn of_parts(parts: &[&[u8]]) -> [u8; 32] {
     whole.finalize().into()
 }
 
-/// The first half of a digest, by which equal contents are found.
+/// Returns the first half of a digest, which identifies equal contents.
 pub(crate) fn short(digest: [u8; 32]) -> [u8; 16] {
     let mut half = [0; 16];
     half.copy_from_slice(&digest[..16]);
@@ -68,7 +68,7 @@ mod tests {
         let digests = |text: &str| {
             let mut reader = Digesting::new(text.as_bytes());
             let mut bytes = Vec::new();
-            // Small pieces, so that lines end inside and at their ends.
+            // Reads in small pieces, so that lines end inside pieces and at their ends.
             while (&mut reader).take(3).read_to_end(&mut bytes).unwrap() > 0 {}
             assert_eq!(bytes, text.as_bytes());
             reader.digests()

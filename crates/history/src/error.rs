@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a history could not be read or written, or a run not be added.
+/// An error of reading or writing a history, or of adding a run.
 #[derive(Debug, Error)]
 pub enum HistoryError {
     /// There is no such file, or it is empty.
@@ -16,7 +16,7 @@ pub enum HistoryError {
         /// The file.
         path: PathBuf,
     },
-    /// The file is something else.
+    /// The file is not a history.
     #[error("{} is no history of etalon; name another file with --db", path.display())]
     Other {
         /// The file.
@@ -24,7 +24,7 @@ pub enum HistoryError {
     },
     /// A newer version of the suite wrote the file.
     #[error(
-        "{} has schema {found}, and this etalon knows schemas up to {known}: use the etalon that wrote it, or name \
+        "{} has schema {found}, but this etalon reads schemas up to {known}: use the etalon that wrote it, or name \
          another file with --db",
         path.display()
     )]
@@ -33,10 +33,10 @@ pub enum HistoryError {
         path: PathBuf,
         /// Its schema.
         found: u32,
-        /// The newest schema that is known.
+        /// The newest schema that this version reads.
         known: u32,
     },
-    /// Another process holds the file for too long.
+    /// Another process locked the file for too long.
     #[error("{} is in use by another process; try again when that has ended", path.display())]
     Busy {
         /// The file.
@@ -44,7 +44,7 @@ pub enum HistoryError {
     },
     /// The disk is full.
     #[error(
-        "no space is left for {}; free some and do it again: what was added before is kept",
+        "no space is left for {}; free some and try again; runs that were added earlier are kept",
         path.display()
     )]
     Full {
@@ -70,7 +70,7 @@ pub enum HistoryError {
     Database {
         /// The file.
         path: PathBuf,
-        /// Its error.
+        /// The database's error.
         source: rusqlite::Error,
     },
     /// The system refused to read or write.
@@ -95,7 +95,7 @@ pub enum HistoryError {
     /// A run, bench or list of versions is damaged.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// A value of a header cannot be.
+    /// A value of a header is invalid.
     #[error("{}:1: {message}; record it again", path.display())]
     Header {
         /// The file.
@@ -111,11 +111,11 @@ pub enum HistoryError {
         /// The reason.
         message: String,
     },
-    /// A label cannot be.
+    /// A label is invalid.
     #[error(transparent)]
     Label(#[from] LabelError),
-    /// A run holds one adapter twice.
-    #[error("the run holds the adapter {adapter:?} twice")]
+    /// A run has two adapters of the same timeline.
+    #[error("the run has the adapter {adapter:?} twice")]
     Twice {
         /// The adapter's name.
         adapter: String,
@@ -131,7 +131,7 @@ pub enum HistoryError {
 }
 
 impl HistoryError {
-    /// The error for what the database says of the file.
+    /// Returns a function that converts an error of the database.
     pub(crate) fn database(path: &Path) -> impl Fn(rusqlite::Error) -> Self + '_ {
         move |source| {
             let path = path.to_owned();

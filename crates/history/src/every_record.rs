@@ -6,11 +6,11 @@ use crate::ids::{CaseId, OutcomeId};
 use crate::runs::{AdapterRun, RunInfo};
 
 impl History {
-    /// Calls `each` with every record: by the times of runs, then by timeline, then by the numbers of cases. Runs that
-    /// were resumed later are left out. It ends with the first error.
+    /// Calls `each` with every record, sorted by the times of runs, then by timeline, then by the numbers
+    /// of cases. Skips runs that were resumed later. Stops at the first error.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged, or what `each` returns.
+    /// If the file cannot be read or is damaged, or the error that `each` returns.
     pub fn each_record<E: From<HistoryError>>(
         &self,
         mut each: impl FnMut(&RunInfo, &AdapterRun, CaseId, OutcomeId) -> Result<(), E>,

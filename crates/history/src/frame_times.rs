@@ -1,42 +1,43 @@
 //! Frame times of one case on one adapter in one run.
 //!
-//! The round is the unit of what is said of times, so its median is kept and its frames are not. Times are 32-bit
-//! floats: seven digits are more than any clock has.
+//! Statistics treat a round as one sample, so the median of each round is kept and its frames are not.
+//! Times are 32-bit floats: their seven digits are more precise than any clock.
 
 use etalon_record::{BenchRecord, Time, Times};
 use etalon_stats::{Point, median_interval, quantile};
 
-/// Frame times of one case on one adapter in one run, in seconds. Of a bench, each list has the median of each round;
-/// of a method case in a run, one median. A list is empty where that time was not measured in every round.
+/// Frame times of one case on one adapter in one run, in seconds. For a bench, each list has the median of
+/// each round; for a method case in a run, a single median. A list is empty if that time was not measured
+/// in every round.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameTimes {
-    /// Timed frames in all rounds.
+    /// The number of timed frames in all rounds.
     pub frames: u32,
-    /// A frame until the device was done.
+    /// The time of a frame, until the device was done.
     pub wall: Vec<f32>,
-    /// A frame until the last call that submits work returned.
+    /// The time of a frame, until the last call that submits work returned.
     pub cpu: Vec<f32>,
-    /// A frame between GPU timestamps.
+    /// The time of a frame, between GPU timestamps.
     pub gpu: Vec<f32>,
-    /// Reading a frame back.
+    /// The time of reading a frame back.
     pub read_back: Vec<f32>,
-    /// The ruler's time for each round: fixed work on the processor. Empty in runs.
+    /// The ruler's time for each round: fixed work on the processor. Empty for runs.
     pub ruler: Vec<f32>,
-    /// Two times between which the median wall time of a method case lies.
+    /// The confidence interval of a method case's median wall time.
     pub interval: Option<[f32; 2]>,
 }
 
 impl FrameTimes {
-    /// The areas of which times are kept.
+    /// The areas whose times are kept.
     pub const AREAS: [&'static str; 2] = ["methods", "perf"];
 
-    /// True if times of this case are kept.
+    /// Returns true if times of this case are kept.
     pub fn are_kept(case: &str) -> bool {
         case.split_once('/')
             .is_some_and(|(area, _)| Self::AREAS.contains(&area))
     }
 
-    /// The rounds' medians of one time; empty where it is not kept or was not measured.
+    /// Returns the rounds' medians of one time; empty if it is not kept or was not measured.
     pub fn of(&self, time: Time) -> &[f32] {
         match time {
             Time::Wall => &self.wall,
@@ -47,17 +48,18 @@ impl FrameTimes {
         }
     }
 
-    /// The median over rounds of one time.
+    /// Returns the median over rounds of one time.
     pub fn median(&self, time: Time) -> Option<f64> {
         median(self.of(time).iter().copied().map(f64::from))
     }
 
-    /// The median over rounds of the ruler's time.
+    /// Returns the median over rounds of the ruler's time.
     pub fn ruler_median(&self) -> Option<f64> {
         median(self.ruler.iter().copied().map(f64::from))
     }
 
-    /// Returns what a run says of a series of one time; `None` where the time was not measured, or is none.
+    /// Returns the point of this run in a series of one time; `None` if the time was not measured or is
+    /// invalid.
     pub fn point(&self, time: Time) -> Option<Point> {
         let is_time = |t: &f64| t.is_finite() && *t > 0.0;
         let mut rounds: Vec<f64> = self.of(time).iter().map(|t| f64::from(*t)).collect();
@@ -77,7 +79,7 @@ impl FrameTimes {
         })
     }
 
-    /// The times of a bench; `None` without a round.
+    /// Returns the times of a bench; `None` if it has no round.
     pub fn of_bench(record: &BenchRecord) -> Option<Self> {
         let rounds = record.rounds.len();
         let medians = |time: Time| -> Vec<f32> {
@@ -86,7 +88,7 @@ impl FrameTimes {
                 .filter_map(|samples| median(samples.iter().copied()))
                 .map(|t| t as f32)
                 .collect();
-            // Values must stand beside the ruler of their own round.
+            // Each value must have the ruler's time of its own round.
             if medians.len() == rounds {
                 medians
             } else {

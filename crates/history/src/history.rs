@@ -1,7 +1,8 @@
-//! A history as it is read.
+//! Reading a history.
 //!
-//! The runs and their adapters are read when the file is opened, and everything else when it is asked for. Since rows are
-//! never changed, answers agree with each other while others add runs: those are not seen.
+//! The runs and their adapters are read when the file is opened, and everything else when it is needed.
+//! Since rows are never changed, answers stay consistent while other processes add runs, which this history
+//! does not see.
 
 use crate::adapter::Adapter;
 use crate::case_set::CaseSet;
@@ -20,18 +21,18 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// A history as it is read.
+/// An open history.
 #[derive(Debug)]
 pub struct History {
     path: PathBuf,
     connection: Connection,
-    /// By time, and in the order of adding where times are equal.
+    /// Sorted by time; runs of equal time are in the order in which they were added.
     runs: Vec<RunInfo>,
-    /// Places in `runs`.
+    /// Indices into `runs`.
     places: HashMap<RunId, usize>,
     /// In the order of `runs`, then by timeline.
     adapter_runs: Vec<AdapterRun>,
-    /// Begin and end in `adapter_runs`, by place in `runs`.
+    /// First index and end in `adapter_runs`, by index in `runs`.
     spans: Vec<[usize; 2]>,
     machines: Machines,
     cases: OnceCell<Cases>,
@@ -47,10 +48,10 @@ struct Cases {
 }
 
 impl History {
-    /// Opens a history. An older schema is brought up to date first.
+    /// Opens a history. An older schema is migrated first.
     ///
     /// # Errors
-    /// When there is none, the file is something else or of a newer schema, or cannot be read.
+    /// If the file does not exist, is not a history, has a newer schema, or cannot be read.
     pub fn open_read(path: &Path) -> Result<Self, HistoryError> {
         let connection = for_reading(path, PATIENCE)?;
         let mut history = Self {
@@ -71,7 +72,7 @@ impl History {
 
     fn load(&mut self) -> Result<(), HistoryError> {
         let wrong = HistoryError::database(&self.path);
-        // One transaction, so that no run is seen without its adapters.
+        // Reads everything in one transaction, so that no run lacks its adapters.
         let reading = self.connection.unchecked_transaction().map_err(&wrong)?;
         let machines = machines(&reading).map_err(&wrong)?;
         let runs = runs(&reading, &self.path)?;
@@ -98,49 +99,49 @@ impl History {
         Ok(())
     }
 
-    /// The file.
+    /// Returns the path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// All runs by their times, those of equal time in the order in which they were added.
+    /// Returns all runs by time; runs of equal time are in the order in which they were added.
     pub fn runs(&self) -> &[RunInfo] {
         &self.runs
     }
 
-    /// The run of this number.
+    /// Returns the run with this number.
     pub fn run(&self, id: RunId) -> Option<&RunInfo> {
         self.runs.get(*self.places.get(&id)?)
     }
 
-    /// The place of a run among [`History::runs`].
+    /// Returns the index of a run in [`History::runs`].
     pub fn place(&self, id: RunId) -> Option<usize> {
         self.places.get(&id).copied()
     }
 
-    /// The machine of this number.
+    /// Returns the machine with this number.
     pub fn machine(&self, id: MachineId) -> Option<&Machine> {
         self.machines.get(&id.0)
     }
 
-    /// The adapters of a run, by timeline; none where there is no such run.
+    /// Returns the adapters of a run, by timeline; empty if there is no such run.
     pub fn adapters(&self, run: RunId) -> &[AdapterRun] {
         let span = self.place(run).and_then(|index| self.spans.get(index));
         span.map_or(&[], |[from, to]| &self.adapter_runs[*from..*to])
     }
 
-    /// The adapter of a timeline in a run.
+    /// Returns the adapter of a timeline in a run.
     pub fn adapter(&self, run: RunId, timeline: &str) -> Option<&AdapterRun> {
         let mut adapters = self.adapters(run).iter();
         adapters.find(|part| *part.timeline == *timeline)
     }
 
-    /// The adapters of all runs, in the order of [`History::runs`].
+    /// Returns the adapters of all runs, in the order of [`History::runs`].
     pub fn adapter_runs(&self) -> &[AdapterRun] {
         &self.adapter_runs
     }
 
-    /// The names of all timelines, sorted.
+    /// Returns the names of all timelines, sorted.
     pub fn timelines(&self) -> Vec<Rc<str>> {
         let mut timelines: Vec<Rc<str>> = self
             .adapter_runs
@@ -152,18 +153,18 @@ impl History {
         timelines
     }
 
-    /// The ids of all cases, in the order of their numbers, which begin at 1.
+    /// Returns the ids of all cases, in the order of their numbers, which begin at 1.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     pub fn cases(&self) -> Result<&[Rc<str>], HistoryError> {
         Ok(&self.all_cases()?.names)
     }
 
-    /// The number of a case; `None` where the history has none of this id.
+    /// Returns the number of a case; `None` if the history has no case with this id.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     pub fn case_id(&self, case: &str) -> Result<Option<CaseId>, HistoryError> {
         if let Some(cases) = self.cases.get() {
             return Ok(cases.ids.get(case).copied());
@@ -175,10 +176,10 @@ impl History {
             .map_err(HistoryError::database(&self.path))
     }
 
-    /// The id of a case of this history.
+    /// Returns the id of a case of this history.
     ///
     /// # Errors
-    /// When the file cannot be read, or has no such case.
+    /// If the file cannot be read, or has no such case.
     pub fn case_name(&self, case: CaseId) -> Result<Rc<str>, HistoryError> {
         let index = (case.0 as usize).wrapping_sub(1);
         let name = self.all_cases()?.names.get(index).cloned();
@@ -216,10 +217,10 @@ impl History {
         Ok(self.cases.get_or_init(|| cases))
     }
 
-    /// An outcome of this history.
+    /// Returns an outcome of this history.
     ///
     /// # Errors
-    /// When the file cannot be read, or has no such outcome.
+    /// If the file cannot be read, or has no such outcome.
     pub fn outcome(&self, outcome: OutcomeId) -> Result<Rc<Outcome>, HistoryError> {
         if let Some(known) = self.outcomes.borrow().get(&outcome.0) {
             return Ok(Rc::clone(known));
@@ -240,10 +241,10 @@ impl History {
         Ok(found)
     }
 
-    /// All records of an adapter in a run, by the numbers of their cases.
+    /// Returns all records of an adapter in a run, by the numbers of their cases.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn records(&self, adapter: &AdapterRun) -> Result<Vec<(CaseId, OutcomeId)>, HistoryError> {
         let packed: Vec<u8> = self
             .connection
@@ -267,10 +268,10 @@ impl History {
         }
     }
 
-    /// True if an adapter has a record of this case in a run.
+    /// Returns true if an adapter has a record of this case in a run.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     pub fn has_record(&self, adapter: &AdapterRun, case: CaseId) -> Result<bool, HistoryError> {
         Ok(self.drawn(adapter.drawn)?.contains(case.0))
     }

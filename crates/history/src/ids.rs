@@ -1,4 +1,4 @@
-//! Numbers by which rows are named within one database. They mean nothing in another one.
+//! Row numbers of one database. They are meaningless in any other.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ macro_rules! id {
         pub struct $name(pub(crate) u32);
 
         impl $name {
-            /// The number.
+            /// Returns the number.
             pub fn number(self) -> u32 {
                 self.0
             }
@@ -38,7 +38,7 @@ id! {
     CaseId
 }
 id! {
-    /// An outcome. Two records with the same one are equal in all that the history keeps.
+    /// An outcome. Two records with the same outcome are equal in everything that the history keeps.
     OutcomeId
 }
 id! {

@@ -1,4 +1,4 @@
-//! Reading what is added: the folders and files that `etalon run`, `bench` and `bisect` wrote.
+//! Reading what can be added: the folders and files that `etalon run`, `bench` and `bisect` wrote.
 
 mod bench;
 mod run;
@@ -16,16 +16,17 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-/// The most bytes of a header that are looked at to tell what a file is.
+/// The most bytes of a header that are read to find out what a file is.
 const MAX_HEADER: u64 = 16 << 20;
 /// The first bytes of gzip files.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Reads what is to be added: a folder with `run.jsonl`, `bench.jsonl` or `versions.jsonl`, each of them also with
-/// `.gz` behind it, or such a file of any name. A list of versions gives one run for each release.
+/// Reads the runs to add from a folder with `run.jsonl`, `bench.jsonl` or `versions.jsonl`, or from such a
+/// file under any name; each file can be compressed with gzip, as `run.jsonl.gz`. A list of versions gives
+/// one run per release.
 ///
 /// # Errors
-/// When there is no such file, or it is damaged.
+/// If there is no such file, or if it is damaged.
 pub fn read_runs(path: &Path, dates: &ReleaseDates) -> Result<Vec<NewRun>, HistoryError> {
     let file = if path.is_dir() {
         in_folder(path)?
@@ -58,11 +59,11 @@ enum What {
     Versions,
 }
 
-/// The byte order mark that some editors begin a text with.
+/// The byte order mark with which some editors begin a text.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl What {
-    /// Tells by the header, since files are renamed.
+    /// Determines the kind by the header, since files can be renamed.
     fn of(path: &Path) -> Result<Self, HistoryError> {
         let none = || HistoryError::NoRun {
             path: path.to_owned(),
@@ -81,13 +82,13 @@ impl What {
         } else if has(&["ruler"]) {
             Ok(Self::Bench)
         } else {
-            // A newer format may have other keys; the reader of runs names it.
+            // A newer format can have other keys. The reader of runs reports its number.
             Ok(Self::Run)
         }
     }
 }
 
-/// Opens a file, packed or not, and digests what is unpacked.
+/// Opens a file, compressed or not, and digests its decompressed bytes.
 fn open(path: &Path) -> Result<Digesting<Box<dyn Read>>, HistoryError> {
     let opened = || File::open(path).map_err(HistoryError::io("read", path));
     let mut begin = Vec::new();

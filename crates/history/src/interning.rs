@@ -1,4 +1,4 @@
-//! Finding a row by its content, or making it.
+//! Finding a row by its content, or inserting it.
 
 use crate::adapter::Adapter;
 use crate::digest::{of_parts, short};
@@ -72,7 +72,7 @@ pub(crate) fn drawn(connection: &Connection, cases: &[u8]) -> rusqlite::Result<u
     }
 }
 
-/// Returns the number of a state, and whether it is new.
+/// Returns the number of a state, and whether it was inserted.
 pub(crate) fn state(
     connection: &Connection,
     drawn: u32,
@@ -113,7 +113,7 @@ fn find_or_insert(
     }
 }
 
-/// The numbers of cases and outcomes that one transaction has met.
+/// The numbers of cases and outcomes that one transaction has used.
 #[derive(Default)]
 pub(crate) struct Interning {
     cases: HashMap<String, u32>,
@@ -143,7 +143,7 @@ impl Interning {
         connection: &Connection,
         outcome: &Outcome,
     ) -> rusqlite::Result<u32> {
-        // The text that is stored is the key, so that a later version's further numbers do not change it.
+        // The stored text is the key, so that numbers added by a later version do not change it.
         self.measures.clear();
         serde_json::to_writer(&mut self.measures, &outcome.measures)
             .map_err(|e| rusqlite::Error::ToSqlConversionFailure(Box::new(e)))?;

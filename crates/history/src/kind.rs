@@ -9,7 +9,7 @@ pub enum Kind {
     Run,
     /// `etalon bench`.
     Bench,
-    /// One release of a line that `etalon bisect` went through.
+    /// One release of the line that `etalon bisect` searched.
     Release,
 }
 
@@ -17,7 +17,7 @@ impl Kind {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Run, Self::Bench, Self::Release];
 
-    /// The name in the database and in exports.
+    /// Returns the name in the database and in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
@@ -26,7 +26,7 @@ impl Kind {
         }
     }
 
-    /// The kind of this name.
+    /// Returns the kind with this name.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }

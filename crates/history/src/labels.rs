@@ -1,4 +1,4 @@
-//! Labels: what people or jobs say of a run, such as its branch.
+//! Labels: what people or jobs say about a run, such as its branch.
 
 use std::collections::BTreeMap;
 use thiserror::Error;
@@ -11,7 +11,7 @@ const MAX_VALUE: usize = 4096;
 /// The labels of a run: keys with their values.
 pub type Labels = BTreeMap<String, String>;
 
-/// Why a text is no label.
+/// Why a text is not a label.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LabelError {
     /// There is no `=`.
@@ -22,7 +22,7 @@ pub enum LabelError {
     NoKey(String),
     /// The key or the value is too long.
     #[error(
-        "the label {key:?} is too long: a key may have {MAX_KEY} bytes and a value {MAX_VALUE}"
+        "the label {key:?} is too long: a key can have {MAX_KEY} bytes and a value {MAX_VALUE}"
     )]
     TooLong {
         /// The beginning of the key.
@@ -33,11 +33,11 @@ pub enum LabelError {
     Twice(String),
 }
 
-/// Reads labels that are written `key=value`. The first `=` ends the key; a value may hold anything and may be
-/// empty.
+/// Parses labels that are written `key=value`. The first `=` ends the key; a value can contain anything and
+/// can be empty.
 ///
 /// # Errors
-/// When one has no key or no `=`, is too long, or contradicts another.
+/// If a label has no key or no `=`, is too long, or contradicts another one.
 pub fn parse_labels<S: AsRef<str>>(texts: &[S]) -> Result<Labels, LabelError> {
     let mut labels = Labels::new();
     for text in texts {

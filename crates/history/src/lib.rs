@@ -1,13 +1,14 @@
-//! Runs over time, in one SQLite file: what was added, and how cases and frame times went since.
+//! A history of runs in one SQLite file: the runs that were added, and how cases and frame times changed.
 //!
-//! [`read_runs`] reads what `etalon run`, `bench` and `bisect` wrote, and a [`Writer`] adds it. Nothing is ever changed or
-//! removed; the same run twice adds nothing. A [`History`] reads: its [runs](History::runs) with their
-//! [adapters](History::adapters), [one case](History::case_history) over all runs, [two runs](History::compare)
-//! compared, [counts](History::tallies) by area and verdict, [series](History::series) of frame times with the ruler,
-//! and [every record](History::each_record). What people say of changes is a [log](TriageEntry) in the same file.
+//! [`read_runs`] reads what `etalon run`, `bench` and `bisect` wrote, and a [`Writer`] adds it. Nothing is
+//! ever changed or removed, and adding the same run twice has no effect. A [`History`] reads: its
+//! [runs](History::runs) with their [adapters](History::adapters), [one case](History::case_history) across
+//! all runs, a [comparison](History::compare) of two runs, [counts](History::tallies) by area and verdict,
+//! [series](History::series) of frame times with the ruler, and [every record](History::each_record). The
+//! same file has a [log](TriageEntry) of what people say about changes.
 //!
-//! A **timeline** is an adapter over its runs. It has the adapter's name, but for the releases that `etalon bisect` went
-//! through, which are all in the timeline of the name before the `@`.
+//! A **timeline** is one adapter across runs. It has the adapter's name, except that all releases that
+//! `etalon bisect` drew are in the timeline of the name before the `@`.
 
 #![cfg_attr(
     test,

@@ -1,4 +1,4 @@
-//! A run as it is added.
+//! A run to add.
 
 use crate::adapter::Adapter;
 use crate::frame_times::FrameTimes;
@@ -8,28 +8,29 @@ use crate::outcome::Outcome;
 use etalon_record::Machine;
 use std::collections::BTreeMap;
 
-/// A run as it is added: all that the history keeps of it.
+/// A run to add, with everything that the history keeps of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewRun {
-    /// A digest of its content. A run whose digest the history has is not added again.
+    /// A digest of its content. A run is not added if the history already has its digest.
     pub digest: [u8; 32],
-    /// A digest of its header. Of runs with the same one, the last added stands for all: it is the same run, resumed.
+    /// A digest of its header. Runs with the same header are one run that was resumed, and the last one
+    /// added counts.
     pub header: [u8; 32],
     /// Its kind.
     pub kind: Kind,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     pub commit: Option<String>,
     /// The machine.
     pub machine: Machine,
     /// When it began, in seconds since 1970.
     pub started: i64,
-    /// When the driver was released, in seconds since 1970, where the run is of one release.
+    /// When the driver was released, in seconds since 1970, if the run is of one release.
     pub released: Option<i64>,
-    /// The profile, where it is known.
+    /// The profile, if known.
     pub profile: Option<String>,
-    /// The description of the ruler, in a bench.
+    /// The description of the ruler, if this is a bench.
     pub ruler: Option<String>,
     /// Records or rounds that it lacks.
     pub missing: u64,
@@ -39,10 +40,11 @@ pub struct NewRun {
     pub adapters: Vec<NewAdapter>,
 }
 
-/// One adapter of a run as it is added.
+/// One adapter of a run to add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewAdapter {
-    /// The name under which its runs follow each other. Unlike [`Adapter::name`], releases of one line have the same.
+    /// The name that connects its runs. Unlike [`Adapter::name`], it is the same for all releases of one
+    /// line.
     pub timeline: String,
     /// The adapter as the run found it.
     pub adapter: Adapter,
@@ -53,7 +55,7 @@ pub struct NewAdapter {
 }
 
 impl NewAdapter {
-    /// An adapter without records, whose timeline has its name.
+    /// Returns an adapter without records, whose timeline has the adapter's name.
     pub fn new(adapter: Adapter) -> Self {
         Self {
             timeline: adapter.name.clone(),
@@ -63,7 +65,7 @@ impl NewAdapter {
         }
     }
 
-    /// Takes the outcome of a case. A run has one record per case and adapter; should it have two, the worse one counts.
+    /// Adds the outcome of a case. If the case already has an outcome, the worse of the two is kept.
     pub fn take(&mut self, case: String, outcome: Outcome) {
         let rank = |o: &Outcome| (o.unexpected(), o.verdict.severity());
         match self.outcomes.get_mut(&case) {

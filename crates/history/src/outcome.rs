@@ -1,7 +1,8 @@
 //! The outcome of a case on an adapter: what the history keeps of a record.
 //!
-//! Left out is what differs from run to run without a meaning, such as times of drawing and process ids in messages,
-//! and what is large. A run that draws everything as the one before it therefore adds no outcome.
+//! Values that change from run to run without meaning, such as drawing times and process ids in messages,
+//! are left out, and so are large values. A run with the same results as an earlier one therefore adds no
+//! outcome.
 
 use etalon_frame::{Aspect, Distance, TexelCounts};
 use etalon_record::{Measured, Record, Standing, Verdict};
@@ -12,14 +13,14 @@ use serde::{Deserialize, Serialize};
 pub struct Outcome {
     /// The raw verdict.
     pub verdict: Verdict,
-    /// The reason why the verdict is expected; `None` where it is not.
+    /// The reason why the verdict is expected; `None` if it is not.
     pub expected: Option<String>,
-    /// The bad verdict that was expected where the raw one is better.
+    /// The bad verdict that was expected, if the raw one is better.
     pub improves: Option<Verdict>,
     /// True if the case is a selftest that must fail.
     pub due_fail: bool,
-    /// True if the case was not drawn: it lies between two releases of one standing, and has the verdict of the one
-    /// before.
+    /// True if the case was not drawn: the releases before and after have the same standing, and it has the
+    /// verdict of the earlier one.
     pub inferred: bool,
     /// The numbers.
     pub measures: Measures,
@@ -32,7 +33,7 @@ pub struct Measures {
     /// The assertions, per aspect.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub asserted: Vec<Asserted>,
-    /// Samples by result; all zero when no frame came back.
+    /// Samples by result; all zero if no frame came back.
     #[serde(default, skip_serializing_if = "is_none")]
     pub texels: TexelCounts,
     /// Accuracy and work of a method case.
@@ -44,15 +45,15 @@ fn is_none(counts: &TexelCounts) -> bool {
     *counts == TexelCounts::default()
 }
 
-/// The assertions of legal sets about one aspect. A channel is one of one sample.
+/// How much the legal sets assert about one aspect. A channel is one channel of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asserted {
     /// The aspect.
     pub aspect: Aspect,
-    /// Channels in all samples.
+    /// The number of channels in all samples.
     pub channels: u64,
-    /// Channels of which something was asserted.
+    /// The number of channels about which something was asserted.
     pub asserted: u64,
     /// Legal codes, summed over the asserted channels.
     pub codes: u64,
@@ -62,27 +63,27 @@ pub struct Asserted {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MethodMeasures {
-    /// Root of the mean squared difference from the truth.
+    /// The root mean square difference from the truth.
     pub rmse: f32,
     /// The largest difference of any channel.
     pub max: f32,
-    /// Mean of the FLIP difference.
+    /// The mean FLIP difference.
     pub flip: f32,
-    /// Share of texels that differ visibly, 0 to 1.
+    /// The share of texels that differ visibly, 0 to 1.
     pub wrong: f32,
-    /// Render passes.
+    /// The number of render passes.
     pub passes: u32,
-    /// Draw calls.
+    /// The number of draw calls.
     pub draws: u32,
-    /// Fragment shader invocations, if the adapter has statistics.
+    /// The number of fragment shader invocations, if the adapter has statistics.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fragments: Option<u64>,
-    /// Bytes of all attachments.
+    /// The number of bytes of all attachments.
     pub bytes: u64,
 }
 
 impl Outcome {
-    /// An outcome of a verdict and nothing else.
+    /// Returns an outcome with a verdict and nothing else.
     pub fn new(verdict: Verdict) -> Self {
         Self {
             verdict,
@@ -94,19 +95,20 @@ impl Outcome {
         }
     }
 
-    /// True if the record counts against its run, as [`Record::unexpected`] says.
+    /// Returns true if the record counts against its run, as in [`Record::unexpected`].
     pub fn unexpected(&self) -> bool {
         let mut record = Record::new("", "", self.verdict);
         record.due_fail = self.due_fail;
         self.expected.is_none() && record.unexpected()
     }
 
-    /// True if the verdict is better than expected.
+    /// Returns true if the verdict is better than expected.
     pub fn improvement(&self) -> bool {
         self.improves.is_some() && !self.unexpected()
     }
 
-    /// Returns the standing of the driver. A selftest that fails as it must is good, and one that does not is bad.
+    /// Returns the standing of the driver. A selftest that fails as it must is good, and one that does not
+    /// fail is bad.
     pub fn standing(&self) -> Standing {
         match self.verdict {
             violation if self.due_fail && violation.is_violation() => Standing::Good,
@@ -117,7 +119,7 @@ impl Outcome {
         }
     }
 
-    /// The asserted share of all channels of all aspects, 0 to 1; `None` where there are no channels.
+    /// Returns the asserted share of the channels of all aspects, 0 to 1; `None` without channels.
     pub fn asserted_share(&self) -> Option<f64> {
         let sum = |field: fn(&Asserted) -> u64| -> f64 {
             self.measures.asserted.iter().map(|a| field(a) as f64).sum()

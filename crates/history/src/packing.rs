@@ -5,14 +5,14 @@ use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 use std::io::{self, Read, Write};
 
-/// Packs numbers: differences to the number before, as variable-length integers, deflated.
+/// Packs numbers: the differences from one to the next, as variable-length integers, deflated.
 pub(crate) fn pack(numbers: &[u32]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(numbers.len() * 2);
     let mut before = 0;
     for number in numbers {
         let difference = i64::from(*number) - before;
         before = i64::from(*number);
-        // Small numbers of either sign become small ones without.
+        // Zigzag encoding: numbers of small magnitude become small unsigned ones.
         let mut left = ((difference << 1) ^ (difference >> 63)) as u64;
         while left >= 0x80 {
             bytes.push(left as u8 | 0x80);
@@ -25,9 +25,9 @@ pub(crate) fn pack(numbers: &[u32]) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-/// Unpacks as many numbers as were packed; `None` if there are others.
+/// Unpacks `count` numbers; `None` if the bytes do not hold exactly this many.
 pub(crate) fn unpack(packed: &[u8], count: usize) -> Option<Vec<u32>> {
-    // A number takes five bytes at most.
+    // A number takes at most five bytes.
     let most = (count as u64).saturating_mul(5);
     let mut bytes = Vec::with_capacity(count * 2);
     DeflateDecoder::new(packed)
@@ -60,7 +60,7 @@ pub(crate) fn pack_times(times: &[f32]) -> Vec<u8> {
     times.iter().flat_map(|t| t.to_le_bytes()).collect()
 }
 
-/// Unpacks times; `None` if the bytes are not whole ones.
+/// Unpacks times; `None` if the number of bytes is not a multiple of four.
 pub(crate) fn unpack_times(bytes: &[u8]) -> Option<Vec<f32>> {
     let (times, behind) = bytes.as_chunks::<4>();
     let times = times.iter().map(|t| f32::from_le_bytes(*t)).collect();

@@ -1,4 +1,4 @@
-//! Rows of the database as values, with an error for what cannot be one.
+//! Rows of the database as values, with an error for invalid rows.
 
 use crate::adapter::Adapter;
 use crate::error::HistoryError;
@@ -7,7 +7,7 @@ use etalon_record::Verdict;
 use rusqlite::Row;
 use std::path::Path;
 
-/// The verdict of this name.
+/// Returns the verdict with this name.
 pub(crate) fn verdict(path: &Path, name: &str) -> Result<Verdict, HistoryError> {
     Verdict::ALL
         .into_iter()
@@ -15,8 +15,8 @@ pub(crate) fn verdict(path: &Path, name: &str) -> Result<Verdict, HistoryError> 
         .ok_or_else(|| HistoryError::damaged(path, format!("no verdict {name:?}")))
 }
 
-/// The adapter of `name, backend, device, driver, driver_version, driver_id, api_version, software, line, version`, from
-/// this column on.
+/// Returns the adapter in the columns `name, backend, device, driver, driver_version, driver_id,
+/// api_version, software, line, version`, starting at column `from`.
 pub(crate) fn adapter(row: &Row<'_>, from: usize) -> rusqlite::Result<Adapter> {
     Ok(Adapter {
         name: row.get(from)?,

@@ -1,22 +1,22 @@
-//! The schema of the file, and how older ones become it.
+//! The schema of the file, and the migration of older schemas.
 //!
-//! Each migration leads from one schema to the next, in a transaction of its own. A migration that was released does
-//! not change any more.
+//! Each migration leads from one schema to the next, in its own transaction. A released migration never
+//! changes.
 
 use crate::error::HistoryError;
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 use std::path::Path;
 
-/// The number that tells the file from other databases: "etln".
+/// The number that distinguishes the file from other databases: "etln".
 const APPLICATION: i32 = 0x6574_6c6e;
 
-/// The migrations; the first makes schema 1 of nothing.
+/// The migrations; the first one creates schema 1 in an empty file.
 pub(crate) const MIGRATIONS: [&str; 1] = [include_str!("migrations/1.sql")];
 
-/// The schema that is written.
+/// The schema that this version writes.
 pub const SCHEMA: u32 = MIGRATIONS.len() as u32;
 
-/// The state in which a file was found.
+/// The state of a file that was opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Found {
     /// It has no table.
@@ -25,9 +25,10 @@ pub(crate) enum Found {
     Schema(u32),
 }
 
-/// Tells what a file is.
+/// Determines the state of a file.
 pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, HistoryError> {
-    // One statement, so that all three are of one state: another process may make the tables between two.
+    // A single statement reads one state of all three values: another process can create the tables between
+    // two statements.
     let (application, schema, tables): (i32, i32, i64) = connection
         .query_row(
             "SELECT application_id, user_version, (SELECT count(*) FROM sqlite_schema) \
@@ -47,7 +48,7 @@ pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, Histor
     })
 }
 
-/// Brings a file to the last of these migrations' schemas.
+/// Migrates a file to the schema of the last of these migrations.
 pub(crate) fn migrate(
     path: &Path,
     connection: &mut Connection,
@@ -56,7 +57,7 @@ pub(crate) fn migrate(
     let wrong = HistoryError::database(path);
     let known = migrations.len() as u32;
     loop {
-        // Another process may migrate at the same time, so what was found counts only inside of the transaction.
+        // Another process may migrate at the same time, so only what is read inside the transaction counts.
         let schema = match look(path, connection)? {
             Found::Empty => 0,
             Found::Schema(schema) => schema,
@@ -108,7 +109,7 @@ mod tests {
             migrate(path, &mut connection, &MIGRATIONS).unwrap();
             let found = look(path, &connection).unwrap();
             assert_eq!(found, Found::Schema(SCHEMA));
-            // Once more does nothing.
+            // Migrating again does nothing.
             migrate(path, &mut connection, &MIGRATIONS).unwrap();
         }
     }

@@ -1,4 +1,4 @@
-//! Series of frame times: one case on one adapter and one machine over its runs.
+//! Series of frame times: one case on one adapter and one machine across runs.
 
 use crate::error::HistoryError;
 use crate::frame_times::FrameTimes;
@@ -9,7 +9,7 @@ use rusqlite::Row;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-/// The subject of a series. Machines differ in speed, so each has its own.
+/// The subject of a series. Machines differ in speed, so each one has its own series.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SeriesKey {
     /// The case.
@@ -20,10 +20,10 @@ pub struct SeriesKey {
     pub machine: MachineId,
 }
 
-/// The frame times of a series in one run, the ruler's beside them.
+/// The frame times of a series in one run, with the ruler's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimePoint {
-    /// The run: its driver and commit are there, and the description of its ruler.
+    /// The run, which has the driver, the commit and the description of the ruler.
     pub run: RunId,
     /// The times.
     pub times: FrameTimes,
@@ -33,7 +33,7 @@ impl History {
     /// Returns the subjects of all series, sorted.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     pub fn series_keys(&self) -> Result<Vec<SeriesKey>, HistoryError> {
         let wrong = HistoryError::database(self.path());
         let chains: HashMap<u32, (Rc<str>, MachineId)> = self
@@ -51,7 +51,7 @@ impl History {
         let mut keys = Vec::new();
         for row in rows {
             let (case, chain): (CaseId, u32) = row.map_err(&wrong)?;
-            // A chain that is not known began after this history was opened.
+            // An unknown chain was added after this history was opened.
             keys.extend(chains.get(&chain).map(|(timeline, machine)| SeriesKey {
                 case,
                 timeline: Rc::clone(timeline),
@@ -62,11 +62,11 @@ impl History {
         Ok(keys)
     }
 
-    /// The points of a series by the times of their runs; empty where there are none. Runs that were resumed later are
-    /// left out.
+    /// Returns the points of a series by the times of their runs; empty for an unknown series. Skips runs
+    /// that were resumed later.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn series(&self, key: &SeriesKey) -> Result<Vec<TimePoint>, HistoryError> {
         let of_key =
             |a: &&crate::runs::AdapterRun| a.timeline == key.timeline && a.machine == key.machine;
@@ -104,11 +104,11 @@ impl History {
         Ok(points)
     }
 
-    /// The points of a series as [`series`](Self::series) gives them, parted by the description of the ruler: times
-    /// beside different rulers do not compare.
+    /// Returns the points of [`series`](Self::series), split by the description of the ruler, because times
+    /// with different rulers cannot be compared.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn series_by_ruler(
         &self,
         key: &SeriesKey,
@@ -123,7 +123,7 @@ impl History {
     }
 }
 
-/// The times of a row; `None` where they do not unpack.
+/// Returns the times of a row; `None` if they do not unpack.
 fn times(row: &Row<'_>) -> rusqlite::Result<Option<FrameTimes>> {
     let frames = row.get(1)?;
     let list = |column: usize| -> rusqlite::Result<Option<Vec<f32>>> {

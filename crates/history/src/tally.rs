@@ -1,4 +1,4 @@
-//! The records of a run, counted.
+//! Counts of a run's records.
 
 use crate::error::HistoryError;
 use crate::history::History;
@@ -6,7 +6,7 @@ use crate::rows::verdict;
 use crate::runs::AdapterRun;
 use etalon_record::Verdict;
 
-/// The number of records of an adapter in a run that are of one area and have one verdict.
+/// The number of records of an adapter in a run that share an area and a verdict.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Tally {
     /// The area: the first part of the cases' ids.
@@ -20,10 +20,11 @@ pub struct Tally {
 }
 
 impl History {
-    /// The records of an adapter in a run by area and verdict. They were counted when the run was added.
+    /// Returns the number of records of an adapter in a run, by area and verdict. They were counted when
+    /// the run was added.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn tallies(&self, adapter: &AdapterRun) -> Result<Vec<Tally>, HistoryError> {
         let wrong = HistoryError::database(self.path());
         let mut statement = self

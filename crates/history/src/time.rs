@@ -2,7 +2,8 @@
 
 use std::time::{Duration, UNIX_EPOCH};
 
-/// Reads an RFC 3339 time or a date, in UTC, as seconds since 1970; `None` if it is neither, or before 1970.
+/// Parses an RFC 3339 time or a date in UTC as seconds since 1970; `None` if it is neither, or is before
+/// 1970.
 pub fn parse_time(text: &str) -> Option<i64> {
     let number = |text: &str| {
         let time = humantime::parse_rfc3339(text).ok()?;
@@ -15,9 +16,9 @@ pub fn parse_time(text: &str) -> Option<i64> {
     }
 }
 
-/// Writes seconds since 1970 as an RFC 3339 time in UTC.
+/// Formats seconds since 1970 as an RFC 3339 time in UTC.
 pub fn format_time(seconds: i64) -> String {
-    // What the writer writes ends in the year 9999.
+    // The latest time that the formatter supports is the end of the year 9999.
     let since = Duration::from_secs(u64::try_from(seconds).unwrap_or(0).min(253_402_300_799));
     humantime::format_rfc3339_seconds(UNIX_EPOCH + since).to_string()
 }

@@ -1,20 +1,20 @@
-//! Triage: a log to which entries are added, and of which the last one about a subject counts.
+//! Triage: a log of entries. The last entry about a subject counts.
 
 use crate::ids::{MachineId, RunId};
 use etalon_record::Time;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The state that people give a change.
+/// The state that people assign to a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TriageState {
-    /// Nobody has looked yet.
+    /// The change has not been examined.
     New,
-    /// It is a change of the driver.
+    /// The driver changed.
     Real,
-    /// It does not matter, for a reason that the entry gives.
+    /// The change does not matter, for a reason that the entry gives.
     Ignored,
-    /// It has been mended.
+    /// The change has been fixed.
     Fixed,
 }
 
@@ -22,7 +22,7 @@ impl TriageState {
     /// Every state.
     pub const ALL: [Self; 4] = [Self::New, Self::Real, Self::Ignored, Self::Fixed];
 
-    /// The name in commands, in the database and in exports.
+    /// Returns the name in commands, in the database and in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::New => "new",
@@ -32,7 +32,7 @@ impl TriageState {
         }
     }
 
-    /// The state of this name.
+    /// Returns the state with this name.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|state| state.name() == name)
     }
@@ -54,7 +54,7 @@ pub struct Subject {
     pub case: String,
     /// The timeline of the adapter.
     pub timeline: String,
-    /// The step; `None` where the entry speaks of the verdict.
+    /// The step; `None` if the entry is about the verdict.
     pub step: Option<Step>,
 }
 
@@ -63,9 +63,9 @@ pub struct Subject {
 pub struct Step {
     /// The machine of the series.
     pub machine: MachineId,
-    /// The time.
+    /// The kind of time.
     pub time: Time,
-    /// The first run behind the step.
+    /// The first run after the step.
     pub run: RunId,
 }
 

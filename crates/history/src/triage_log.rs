@@ -1,4 +1,4 @@
-//! Reading what people said of changes.
+//! Reading the triage log.
 
 use crate::error::HistoryError;
 use crate::history::History;
@@ -7,10 +7,10 @@ use crate::triage::{Step, Subject, TriageEntry, TriageState, TriageStates};
 use etalon_record::Time;
 
 impl History {
-    /// All entries in the order in which they were made.
+    /// Returns all entries in the order in which they were made.
     ///
     /// # Errors
-    /// When the file cannot be read or is damaged.
+    /// If the file cannot be read or is damaged.
     pub fn triage_log(&self) -> Result<Vec<TriageEntry>, HistoryError> {
         let wrong = HistoryError::database(self.path());
         let mut statement = self
@@ -57,7 +57,7 @@ impl History {
         Ok(entries)
     }
 
-    /// The last entry about each subject.
+    /// Returns the last entry about each subject.
     ///
     /// # Errors
     /// As [`History::triage_log`].

@@ -1,9 +1,9 @@
-//! Adding runs.
+//! Adding runs to a history.
 //!
-//! Of each adapter and run the whole state is kept, once where several runs share it, from which any two runs are
-//! compared. Beside it stands a row for each case whose outcome is not that of the run added before, from which the
-//! history of one case is read. Both follow the order in which runs were added, which only ever grows at its end, and
-//! not the order of their times: an old run that is added late changes no row of others.
+//! For each adapter of a run, the full state is stored, once if several runs share it. Comparisons of two
+//! runs read these states. In addition, each case whose outcome differs from the previously added run has a
+//! row, from which the history of one case is read. Both follow the order in which runs were added, which
+//! only grows at its end, not the order of their times: adding an old run late changes no other rows.
 
 use crate::case_set::CaseSet;
 use crate::connection::{PATIENCE, for_writing};
@@ -32,20 +32,20 @@ pub struct Writer {
 pub enum Added {
     /// It was added.
     New(RunId),
-    /// The history had it already, and is as it was.
+    /// The history already had it, and is unchanged.
     Already(RunId),
 }
 
 impl Writer {
-    /// Opens a history, which is made when it does not exist. An older schema is brought up to date.
+    /// Opens a history, and creates it if it does not exist. An older schema is migrated first.
     ///
     /// # Errors
-    /// When the file is something else or of a newer schema, or cannot be written to.
+    /// If the file is not a history, has a newer schema, or cannot be written to.
     pub fn open(path: &Path) -> Result<Self, HistoryError> {
         Self::open_with(path, PATIENCE)
     }
 
-    /// [`Writer::open`], which waits for other processes for so long and not for a minute.
+    /// Like [`Writer::open`], but waits for other processes for `patience` instead of a minute.
     ///
     /// # Errors
     /// As [`Writer::open`].
@@ -56,11 +56,11 @@ impl Writer {
         })
     }
 
-    /// Adds a run in one transaction, unless the history has it.
+    /// Adds a run in one transaction, unless the history already has it.
     ///
     /// # Errors
-    /// When the file is in use for too long, the disk is full, or the run holds a timeline twice; then the history is as
-    /// it was.
+    /// If the file is in use for too long, if the disk is full, or if the run has a timeline twice; the
+    /// history is then unchanged.
     pub fn add(&mut self, run: &NewRun) -> Result<Added, HistoryError> {
         let mut timelines = HashSet::new();
         if let Some(twice) = run.adapters.iter().find(|a| !timelines.insert(&a.timeline)) {
@@ -87,10 +87,10 @@ impl Writer {
         Ok(Added::New(RunId(id)))
     }
 
-    /// The pages that the file has.
+    /// Returns the number of pages of the file.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     #[doc(hidden)]
     pub fn pages(&self) -> Result<i64, HistoryError> {
         self.connection
@@ -98,10 +98,10 @@ impl Writer {
             .map_err(HistoryError::database(&self.path))
     }
 
-    /// Lets the file grow to so many pages and no further, as a full disk does.
+    /// Limits the file to this number of pages, to simulate a full disk.
     ///
     /// # Errors
-    /// When the file cannot be read.
+    /// If the file cannot be read.
     #[doc(hidden)]
     pub fn limit_pages(&self, pages: i64) -> Result<(), HistoryError> {
         self.connection
@@ -109,10 +109,10 @@ impl Writer {
             .map_err(HistoryError::database(&self.path))
     }
 
-    /// Adds an entry to what people said of changes.
+    /// Adds an entry to the triage log.
     ///
     /// # Errors
-    /// When the file is in use for too long, or the disk is full.
+    /// If the file is in use for too long, or the disk is full.
     pub fn triage(&mut self, entry: &TriageEntry) -> Result<(), HistoryError> {
         let step = entry.subject.step;
         self.connection
@@ -136,7 +136,7 @@ impl Writer {
     }
 }
 
-/// One run on its way into the database.
+/// A run that is being added.
 struct Addition<'a> {
     connection: &'a Connection,
     interning: Interning,
@@ -209,7 +209,7 @@ impl<'a> Addition<'a> {
         Ok(())
     }
 
-    /// Writes a row for each outcome that is not the case's last one in the chain.
+    /// Inserts a row for each outcome that differs from the case's last one in the chain.
     fn changes(&self, run: u32, chain: u32, outcomes: &[(u32, u32)]) -> rusqlite::Result<()> {
         let before = self.last_state(chain)?;
         let mut last = self.connection.prepare_cached(
@@ -232,7 +232,8 @@ impl<'a> Addition<'a> {
         Ok(())
     }
 
-    /// The outcomes of the run that was added to a chain last. They are the last ones of their cases.
+    /// Returns the outcomes of the run that was last added to a chain. They are the last outcomes of their
+    /// cases.
     fn last_state(&self, chain: u32) -> rusqlite::Result<HashMap<u32, u32>> {
         let row = self
             .connection

@@ -1,8 +1,8 @@
 //! Accumulated rounding: the same colour blended over a background again and again.
 //!
-//! After `n` layers of alpha `a` the background counts `(1 - a)^n` and the colour all the rest. What is
-//! stored in between is rounded each time; a difference from the colour that is less than half a code
-//! over `a` stays for good.
+//! After `n` layers of alpha `a`, the background has the weight `(1 - a)^n` and the colour has the rest.
+//! Each intermediate result is rounded when it is stored. A difference from the colour of less than half a
+//! code over `a` therefore never disappears.
 
 mod claims;
 mod lessons;
@@ -23,10 +23,10 @@ use serde::Deserialize;
 /// The most layers.
 const MOST: u32 = 1024;
 
-/// Columns of colours and rows of backgrounds, each 2 texels.
+/// The number of columns of colours and of rows of backgrounds; each is 2 texels wide.
 const CELLS: u32 = 16;
 
-/// Width and height of the picture: each pair of a colour and a background a few times are enough.
+/// Width and height of the picture. A few texels per pair of colour and background are enough.
 const SIZE: [u32; 2] = [2 * CELLS, 2 * CELLS];
 
 /// Layers over a background.
@@ -48,7 +48,7 @@ enum SceneName {
     Columns,
 }
 
-/// In which format layers are blended, in their order.
+/// The format in which layers are blended, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 enum MethodName {
     /// `rgba8unorm`.
@@ -76,13 +76,14 @@ impl MethodName {
     }
 }
 
-/// The background of a row: whole fifteenths, which 8 and 10 bits hold exactly or nearly so.
+/// Returns the background of a row: a multiple of a fifteenth, which 8 and 10 bits store exactly or nearly
+/// so.
 fn background(row: u32) -> [f64; 4] {
     let v = |step: u32| f64::from((row * step + 2) % CELLS) / 15.0;
     [v(1), v(7), v(11), 1.0]
 }
 
-/// The colour of a column.
+/// Returns the colour of a column.
 fn color(column: u32, alpha: f64) -> [f64; 4] {
     let v = |step: u32, start: u32| (f64::from((column * step + start) % CELLS) + 0.3) / 16.0;
     [v(5, 0), v(3, 6), v(13, 11), alpha]
@@ -127,7 +128,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     layered.targets[0].blend = stage::over();
     draws.push(layered);
     stage.pass(&[picture], None, draws);
-    // All layers of a colour are one that lets as much through as all of them.
+    // One layer that lets through as much light as all layers of a colour together.
     let together = 1.0 - (1.0 - alpha).powf(layers.into());
     let seen = columns(together);
     let truth = Truth {

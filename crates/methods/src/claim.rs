@@ -1,9 +1,9 @@
-//! Claims of the literature about methods, as data: what is compared, over which cases, and the condition under
-//! which a claim holds.
+//! Claims of the literature about methods, as data: the quantities that are compared, the cases that are
+//! compared, and the condition under which a claim holds.
 //!
-//! A claim stands beside the methods that it names, and whoever reads records checks it without knowing one of
-//! them. Every comparison but [`Test::Halves`] holds two methods against each other at the same parameters of the
-//! same scene on the same adapter.
+//! Claims are defined in the modules of the methods that they name. Code that checks them needs no
+//! knowledge of the methods. Every comparison except [`Test::Halves`] compares two methods at the same
+//! parameters of the same scene on the same adapter.
 
 /// A claim of a publication.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,16 +14,18 @@ pub struct Claim {
     pub source: &'static str,
     /// The question whose cases decide it.
     pub question: &'static str,
-    /// The families of cases, by the last part of the case file's name; all of the question where there are none.
+    /// The families of cases, by the last part of the case file's name; all families of the question if
+    /// empty.
     pub families: &'static [&'static str],
     /// The values of the parameter that count.
     pub values: Values,
     /// The quantities that are compared.
     pub test: Test,
-    /// Two methods of which the first must run fewer fragment shaders than the second. Adapters where it does not
-    /// count fragments before the depth test, and their counts say nothing about it.
+    /// Two methods; the claim is decided only on adapters on which the first runs fewer fragment shaders
+    /// than the second. Other adapters count fragments before the depth test, so their counts say nothing
+    /// about the claim.
     pub fewer: Option<[&'static str; 2]>,
-    /// What else the measured quantities hold, in a sentence; empty where there is nothing to say.
+    /// A sentence about what else the measured quantities include; empty if there is nothing to add.
     pub note: &'static str,
 }
 
@@ -32,14 +34,14 @@ pub struct Claim {
 pub enum Values {
     /// All of them.
     All,
-    /// Those between two values, both included.
+    /// Values between two bounds, inclusive.
     Between(f64, f64),
 }
 
 /// A comparison and its condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Test {
-    /// The quantity of a method.
+    /// The quantity of one method.
     Value {
         /// The quantity.
         quantity: Quantity,
@@ -48,7 +50,8 @@ pub enum Test {
         /// The condition.
         holds: Condition,
     },
-    /// A sum of one quantity over several methods over another such sum; each term is a method and its sign.
+    /// A sum of one quantity over several methods, divided by another such sum; each term is a method and
+    /// its factor.
     Ratio {
         /// The quantity.
         quantity: Quantity,
@@ -64,7 +67,7 @@ pub enum Test {
         /// The methods.
         methods: [&'static str; 2],
     },
-    /// The quantity at the largest value of the parameter over that at the smallest.
+    /// The quantity at the largest value of the parameter, divided by the quantity at the smallest.
     Trend {
         /// The quantity.
         quantity: Quantity,
@@ -73,39 +76,40 @@ pub enum Test {
         /// The condition.
         holds: Condition,
     },
-    /// A method that is within 1 % RMSE at every value, where another is not at some.
+    /// A method that is within 1 % RMSE at every value, compared with one that exceeds it at some value.
     Unlike {
         /// The method that is right.
         right: &'static str,
         /// The method that is wrong somewhere.
         wrong: &'static str,
     },
-    /// A method that leaves at most one and a half times the error of another in half of its passes and at most two
-    /// more, at half the value of the parameter.
+    /// A method at half the value of the parameter compared with another at the full value: at most one and
+    /// a half times the error, in at most half the passes plus two.
     Halves {
         /// The method with half the value.
         of: &'static str,
-        /// The method that it is held against.
+        /// The method with the full value.
         over: &'static str,
     },
-    /// The smallest value of the parameter from which on a method stays within 1 % RMSE, over that of another.
+    /// The smallest value of the parameter above which a method always stays within 1 % RMSE, divided by
+    /// that of another.
     Narrowest {
         /// The method.
         of: &'static str,
-        /// The method that it is held against.
+        /// The method that it is compared with.
         over: &'static str,
         /// The condition.
         holds: Condition,
     },
-    /// A method that knows one more level of its parameter, from 0 to 1, than it has samples: within 0.5 % RMSE on
-    /// levels, and at least four times as far off halfway between them.
+    /// A method with `samples + 1` levels of its parameter, from 0 to 1: within 0.5 % RMSE on the levels,
+    /// and at least four times as far off halfway between them.
     Levels {
         /// The method.
         of: &'static str,
         /// The number of samples.
         samples: u32,
     },
-    /// The largest error times the parameter, in halves of a code of 8 bits.
+    /// The largest error multiplied by the parameter, in units of half an 8-bit code.
     HalfCodes {
         /// The method.
         of: &'static str,
@@ -131,22 +135,22 @@ pub enum Quantity {
     Time,
 }
 
-/// The condition that a figure meets. A figure with an interval meets it where all of the interval does, and misses
-/// it where none of it does.
+/// The condition that a figure meets. A figure with an interval meets it if the whole interval does, and
+/// fails it if no part of the interval does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
-    /// Less than this, and not as much.
+    /// Less than this.
     Below(f64),
-    /// More than this, and not as much.
+    /// More than this.
     Above(f64),
-    /// This or less.
+    /// At most this.
     AtMost(f64),
-    /// Between these two, both included.
+    /// Between these two, inclusive.
     Between(f64, f64),
 }
 
 impl Condition {
-    /// True if a figure meets it.
+    /// Returns true if a figure meets the condition.
     pub fn met(self, figure: f64) -> bool {
         match self {
             Self::Below(limit) => figure < limit,
@@ -158,7 +162,7 @@ impl Condition {
 }
 
 impl Quantity {
-    /// The name in a sentence.
+    /// Returns the name for use in a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rmse => "RMSE",
@@ -172,7 +176,7 @@ impl Quantity {
 }
 
 impl Claim {
-    /// A claim of a question that all of its families decide, at all values.
+    /// Creates a claim that all families of the question decide, at all values.
     pub(crate) const fn new(
         question: &'static str,
         title: &'static str,
@@ -191,30 +195,30 @@ impl Claim {
         }
     }
 
-    /// The claim, decided by these families alone.
+    /// Restricts the claim to these families.
     pub(crate) const fn of(self, families: &'static [&'static str]) -> Self {
         Self { families, ..self }
     }
 
-    /// The claim, at these values alone.
+    /// Restricts the claim to these values.
     pub(crate) const fn between(self, low: f64, high: f64) -> Self {
         let values = Values::Between(low, high);
         Self { values, ..self }
     }
 
-    /// The claim with a note on what is measured.
+    /// Adds a note about what is measured.
     pub(crate) const fn noting(self, note: &'static str) -> Self {
         Self { note, ..self }
     }
 
-    /// The claim, on adapters whose counts the depth test lowers.
+    /// Restricts the claim to adapters on which a depth test lowers the fragment count.
     pub(crate) const fn where_fewer(self, fewer: [&'static str; 2]) -> Self {
         let fewer = Some(fewer);
         Self { fewer, ..self }
     }
 }
 
-/// The sum of one method alone.
+/// A sum with a single method.
 macro_rules! one {
     ($method:literal) => {
         &[($method, 1.0)]

@@ -1,4 +1,4 @@
-//! Culling: faces by their winding, and whole objects outside of the picture.
+//! Culling: of faces by their winding, and of whole objects outside the picture.
 
 mod claims;
 mod lessons;
@@ -19,10 +19,10 @@ use glam::{DMat4, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Behind everything.
+/// The colour behind everything.
 const BACKGROUND: [f64; 3] = [0.12, 0.14, 0.2];
 
-/// Solids, and what is culled of them.
+/// Solids, and what is culled.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Wire {
@@ -37,31 +37,31 @@ pub enum Wire {
     OpenMesh {
         /// The culling.
         method: MethodName,
-        /// By how many degrees, -90 to 90.
+        /// The tilt in degrees, -90 to 90.
         angle: f64,
     },
     /// A box and its mirror image, which has the other winding.
     Mirrored {
         /// The culling.
         method: MethodName,
-        /// By how many degrees the box is turned, -180 to 180.
+        /// The angle by which the box is turned in degrees, -180 to 180.
         angle: f64,
     },
-    /// A box with see-through faces around another one.
+    /// A box with transparent faces around another box.
     SeeThrough {
         /// The culling.
         method: MethodName,
         /// The faces' alpha, 0 to 1.
         alpha: f64,
     },
-    /// A torus, its triangles from back to front: the order in which depth tests save nothing.
+    /// A torus, with its triangles from back to front, so that depth tests save nothing.
     ClosedMesh {
         /// The culling.
         method: MethodName,
-        /// Around its hole, 4 to 64; half as many around its tube.
+        /// The number of segments around its hole, 4 to 64; its tube has half as many.
         segments: u32,
     },
-    /// Boxes in a grid of which the picture shows a ninth. A draw each.
+    /// A grid of boxes, one draw per box; the picture shows a ninth of the grid.
     Field {
         /// The culling.
         method: MethodName,
@@ -78,13 +78,13 @@ pub enum MethodName {
     None,
     /// Back faces.
     Back,
-    /// Back faces, the front face's winding turned over for mirrored objects.
+    /// Back faces, with the front face's winding reversed for mirrored objects.
     BackFlipped,
     /// Front faces.
     Front,
     /// Front faces in a first pass over the object, back faces in a second.
     FrontThenBack,
-    /// Objects whose bounding sphere lies outside of the picture.
+    /// Objects whose bounding sphere is outside the picture.
     Frustum,
 }
 
@@ -92,7 +92,7 @@ pub enum MethodName {
 struct Shown {
     /// The draws.
     draws: Vec<Draw>,
-    /// All that could be seen.
+    /// All polygons that can be visible.
     polygons: Vec<Polygon>,
 }
 
@@ -140,8 +140,8 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     })
 }
 
-/// The faces that a method culls in its one pass over an object; refuses methods that want more than
-/// that.
+/// Returns the faces that a method culls in its single pass over an object; refuses methods that need more
+/// than one pass.
 fn one_pass(method: MethodName) -> Result<CullMode, ParameterError> {
     match method {
         MethodName::None => Ok(CullMode::None),
@@ -154,7 +154,7 @@ fn one_pass(method: MethodName) -> Result<CullMode, ParameterError> {
     }
 }
 
-/// A draw of opaque triangles.
+/// Returns a draw of opaque triangles.
 fn opaque(polygons: &[Polygon], cull: CullMode) -> Draw {
     let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, polygons));
     draw.depth = stage::depth(CompareFunction::Less, true);
@@ -162,7 +162,7 @@ fn opaque(polygons: &[Polygon], cull: CullMode) -> Draw {
     draw
 }
 
-/// Each face of a box in a colour of its own.
+/// Gives each face of a box its own colour.
 fn colored(faces: &mut [Face]) {
     let colors = [
         [0.9, 0.35, 0.3],
@@ -177,7 +177,7 @@ fn colored(faces: &mut [Face]) {
     }
 }
 
-/// A box of colours around the middle, half as long as this in each direction.
+/// Returns a box of coloured faces around the origin, with sides twice as long as `half`.
 fn colored_box(half: f64) -> Vec<Face> {
     let corner = DVec3::splat(half);
     let mut faces = cuboid(-corner, corner, [1.0; 4]);
@@ -200,7 +200,7 @@ fn fly_through(method: MethodName, eye: f64) -> Result<Shown, ParameterError> {
     })
 }
 
-/// An eye in front of the middle, at some distance.
+/// Returns a view from in front of the origin, at a distance.
 fn front_view(distance: f64) -> View {
     let eye = DVec3::new(0.0, 0.0, distance);
     View::perspective(SIZE, [eye, DVec3::ZERO], 40.0, [0.5, 20.0])
@@ -284,7 +284,7 @@ fn closed_mesh(method: MethodName, segments: u32) -> Result<Shown, ParameterErro
     })
 }
 
-/// Triangles around a ring in the plane of x and y, seen from outside.
+/// Returns the triangles of a torus around the z axis, seen from outside.
 fn torus(segments: u32) -> Vec<Face> {
     let [around, across] = [segments, segments / 2];
     let point = |i: u32, j: u32| {
@@ -327,7 +327,7 @@ fn field(method: MethodName, objects: u32) -> Result<Shown, ParameterError> {
         let n = f64::from(object);
         let [column, row] = [n % side, (n / side).floor()];
         let place = [column, row].map(|c| (c + 0.5) / side * 6.0 - 3.0);
-        // The sphere around the box against the sides of the frustum, which is a box itself.
+        // Compares the sphere around the box with the sides of the frustum, which is a box too.
         let radius = half * 3.0_f64.sqrt();
         let turn = DMat4::from_rotation_x(0.5 + n) * DMat4::from_rotation_y(0.8 + 0.6 * n);
         let to = DMat4::from_translation(DVec3::new(place[0], place[1], 0.0));

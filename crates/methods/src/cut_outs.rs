@@ -1,4 +1,4 @@
-//! Cut-outs: holes in a texture, on cards of grass.
+//! Cut-outs: textures with holes, on cards of grass.
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
@@ -29,10 +29,10 @@ pub struct Wire {
     pub(crate) scene: SceneName,
     /// The method.
     pub(crate) method: MethodName,
-    /// The texels beyond the texture's border, up to which the cards reach.
+    /// What the texture shows beyond its border, which the cards reach.
     #[serde(default = "clamp")]
     pub(crate) address: AddressMode,
-    /// Texels of the picture for one of the texture, 0.25 to 4.
+    /// The size of a texture's texel in texels of the picture, 0.25 to 4.
     pub(crate) scale: Option<f64>,
     /// The alpha below which a fragment is discarded, 0.01 to 0.99.
     pub(crate) cutoff: Option<f64>,
@@ -42,7 +42,7 @@ pub struct Wire {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SceneName {
-    /// Pairs of crossed cards in rows, each with the same blades on it.
+    /// Rows of pairs of crossed cards, each with the same texture of blades.
     Grass,
 }
 
@@ -50,11 +50,11 @@ pub(crate) enum SceneName {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MethodName {
-    /// Opaque where the filtered alpha reaches `cutoff`, nothing elsewhere.
+    /// Opaque if the filtered alpha reaches `cutoff`, otherwise discarded.
     Discard,
     /// Blended card by card, farthest first, by the mean depth of the corners.
     BlendSorted,
-    /// Opaque on a share of four samples.
+    /// Opaque on a share of four samples that follows alpha.
     AlphaToCoverage,
 }
 
@@ -94,8 +94,8 @@ const TEXTURE: u32 = 32;
 /// Blades on it.
 const BLADES: u32 = 7;
 
-/// The texture's codes: blades on full roots, transparent at the top. The colour goes on where nothing
-/// is seen, so that a filter finds no other one there.
+/// Returns the texture's codes: blades on a full row of roots, transparent at the top. Transparent texels
+/// have the colour of the blades, so that filtering brings in no other colour.
 fn grass() -> Vec<[u32; 4]> {
     let mut noise = Noise::new(7);
     let side = f64::from(TEXTURE);
@@ -121,7 +121,7 @@ fn grass() -> Vec<[u32; 4]> {
             let inside = (half - (x - middle).abs()).min(below_tip);
             (inside + 0.5).clamp(0.0, 1.0)
         };
-        // The lowest rows are grown over from side to side.
+        // The lowest rows are full from side to side.
         let roots = (1.5 - f64::from(TEXTURE - 1 - row) / 2.0).clamp(0.0, 1.0);
         let alpha = blades.iter().map(blade).fold(roots, f64::max);
         let color = [0.15 + 0.45 * up, 0.4 + 0.5 * up, 0.1, alpha];
@@ -130,7 +130,7 @@ fn grass() -> Vec<[u32; 4]> {
     texels
 }
 
-/// Crossed cards in rows that come nearer downwards.
+/// Returns crossed cards in rows; lower rows are nearer.
 fn cards(scale: f64) -> Vec<Polygon> {
     let side = f64::from(TEXTURE) * scale;
     let count = (f64::from(SIZE[0]) / side).ceil().max(1.0) as u32;
@@ -140,8 +140,8 @@ fn cards(scale: f64) -> Vec<Polygon> {
         let [left, top] = [column, row].map(|v| f64::from(v) * side);
         let depth = 0.9 - 0.8 * (f64::from(row) + noise.next() * 0.5 + 0.25) / f64::from(count);
         let tilt = 0.1 / f64::from(count);
-        // Of two that cross at a right angle, one is seen wider and one narrower, and each of them goes
-        // back to another side. Their borders lie on those of texels.
+        // Of two cards that cross at a right angle, one appears wider than the other, and they lean back in
+        // opposite directions. Their borders are on texel borders.
         let narrow = [left + side * 0.25, top, left + side * 0.75, top + side];
         let wide = [left, top, left + side, top + side];
         cards.push(card(narrow, [depth - tilt, depth + tilt]));
@@ -150,7 +150,7 @@ fn cards(scale: f64) -> Vec<Polygon> {
     cards
 }
 
-/// A card at one depth at its left and another at its right.
+/// Returns a card with one depth at its left edge and another at its right edge.
 fn card(rect: [f64; 4], [left, right]: [f64; 2]) -> Polygon {
     let mut card = Polygon::rect(rect, left, [1.0; 4]);
     for corner in &mut card.corners[2..] {
@@ -160,7 +160,8 @@ fn card(rect: [f64; 4], [left, right]: [f64; 2]) -> Polygon {
     card
 }
 
-/// The cards with their texture held at its border, whatever a sampler does: what was painted.
+/// Returns the cards with their texture clamped at its border, whatever the sampler does, because this is
+/// the texture as painted.
 fn truth(cards: &[Polygon]) -> Truth {
     let texture = Texture {
         size: [TEXTURE; 2],
@@ -190,7 +191,7 @@ fn clear() -> [f64; 4] {
     [r, g, b, 1.0]
 }
 
-/// Adds the texture and gives a draw of cards with it.
+/// Adds the texture, and returns a draw of the cards with it.
 fn textured(stage: &mut Stage, shader: Shader, cards: &[Polygon], address: AddressMode) -> Draw {
     let contents = Contents::Texels(grass().concat());
     let texture = stage.attachment(
@@ -223,7 +224,7 @@ fn discard(cards: &[Polygon], address: AddressMode, cutoff: f64) -> Scene {
     stage.read(&[picture])
 }
 
-/// The cards, farthest first.
+/// Returns the cards, farthest first.
 fn sorted(cards: &[Polygon]) -> Vec<Polygon> {
     let mut sorted = cards.to_vec();
     let depth = |card: &Polygon| card.corners.iter().map(|c| c[2]).sum::<f64>();

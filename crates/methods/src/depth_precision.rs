@@ -1,8 +1,9 @@
 //! Depth precision: pairs of surfaces that nearly touch, at many distances.
 //!
-//! The near and the far surface of a pair take turns in being drawn first, so that a depth buffer that
-//! holds both to be equal goes wrong in half of the texels. Vertices are in clip space, with the distance as w:
-//! its four numbers are rounded to 32 bits, as a vertex shader would hand them on, and the driver divides.
+//! The near and the far surface of a pair alternate in being drawn first, so that a depth buffer that
+//! stores equal depths for both is wrong in half of the texels. Vertices are in clip space, with the
+//! distance as w. Their four coordinates are rounded to 32 bits, as a vertex shader's output is, and the
+//! driver divides.
 
 mod claims;
 mod lessons;
@@ -24,7 +25,7 @@ use serde::Deserialize;
 /// The distance of the far plane.
 const FAR: f64 = 1000.0;
 
-/// Behind everything.
+/// The colour behind everything.
 const BACKGROUND: [f64; 3] = [0.2, 0.3, 0.4];
 
 /// Two surfaces that nearly touch.
@@ -33,10 +34,10 @@ const BACKGROUND: [f64; 3] = [0.2, 0.3, 0.4];
 pub struct Wire {
     scene: SceneName,
     method: MethodName,
-    /// In `planes`, how far the farther plane lies behind the nearer one, in units of distance; in
-    /// `slanted` and `decal`, the part of the distance by which the surface in front is nearer.
+    /// In `planes`, the distance from the nearer to the farther plane. In `slanted` and `decal`, the
+    /// fraction of the distance by which the front surface is nearer.
     gap: f64,
-    /// Distance of the near plane; the far plane lies at 1000.
+    /// Distance of the near plane; the far plane is at 1000.
     #[serde(default = "usual_near")]
     near: f64,
 }
@@ -48,11 +49,11 @@ fn usual_near() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum SceneName {
-    /// Facing planes in pairs, at distances from 2 to 900.
+    /// Pairs of planes that face the viewer, at distances from 2 to 900.
     Planes,
     /// Two planes that lead away from the viewer, from 10 to 500.
     Slanted,
-    /// Such a plane with a decal on it, at no distance, and a lid above both.
+    /// Such a plane with a decal on it, without a gap, and a lid above both.
     Decal,
 }
 
@@ -82,18 +83,18 @@ enum MethodName {
     PolygonOffset,
 }
 
-/// Four corners in the picture, with the inverse of their distance instead of a depth: it is linear
-/// over the picture wherever the surface is flat.
+/// Four corners in the picture, with the inverse of their distance instead of a depth: the inverse is
+/// linear in the picture on a flat surface.
 #[derive(Clone, Copy, Debug)]
 struct Quad {
     corners: [[f64; 3]; 4],
     color: [f64; 4],
-    /// True if it lies on another surface.
+    /// True if it is a decal on another surface.
     is_decal: bool,
 }
 
 impl Quad {
-    /// An upright rectangle whose top and bottom edges have these distances.
+    /// Returns an upright rectangle whose top and bottom edges have these distances.
     fn new([left, top, right, bottom]: [f64; 4], distances: [f64; 2], color: [f64; 4]) -> Self {
         let [upper, lower] = distances.map(|d| 1.0 / d);
         Self {
@@ -114,7 +115,7 @@ impl Quad {
     }
 }
 
-/// The quads in the order in which they are drawn, of which later ones lie in front where they touch.
+/// Returns the quads in drawing order; where two touch, the later one is in front.
 fn quads(wire: &Wire) -> Vec<Quad> {
     match wire.scene {
         SceneName::Planes => planes(wire.gap),
@@ -131,7 +132,7 @@ fn planes(gap: f64) -> Vec<Quad> {
     let mut all = Vec::new();
     for (i, distance) in distances.into_iter().enumerate() {
         let left = 16.0 * i as f64;
-        // Whatever is behind the far plane would not be seen.
+        // A plane beyond the far plane would be invisible.
         let behind = (distance + gap).min(FAR);
         let pair = |top: f64| {
             let area = [left, top, left + 16.0, top + 64.0];
@@ -145,7 +146,7 @@ fn planes(gap: f64) -> Vec<Quad> {
     all
 }
 
-/// Distances at the top and at the bottom of a plane that leads away.
+/// The distances at the top and at the bottom of a plane that leads away.
 const LEADING: [f64; 2] = [500.0, 10.0];
 
 fn slanted(gap: f64) -> Vec<Quad> {
@@ -162,7 +163,7 @@ fn slanted(gap: f64) -> Vec<Quad> {
 }
 
 fn decal(gap: f64) -> Vec<Quad> {
-    // The distance of the plane at a row, in which its inverse is linear.
+    // The distance of the plane at a row. Its inverse is linear in the row.
     let at = |row: f64| {
         let [top, bottom] = LEADING.map(f64::recip);
         (top + (bottom - top) * row / 128.0).recip()
@@ -174,7 +175,7 @@ fn decal(gap: f64) -> Vec<Quad> {
     let plane = on_plane([0.0, 0.0, 128.0, 128.0], 0.0, [0.55, 0.5, 0.45, 1.0]);
     let lid = on_plane([64.0, 0.0, 120.0, 128.0], gap, RIGHT);
     let mut decal = plane;
-    // Turned, so that it shares no edge with the plane and is rounded in other ways.
+    // The decal is turned, so that it shares no edge with the plane and its rounding differs.
     decal.corners = [[30.0, 10.0], [18.0, 100.0], [98.0, 118.0], [110.0, 28.0]]
         .map(|[x, y]| [x, y, at(y).recip()]);
     decal.color = [0.9, 0.8, 0.2, 1.0];
@@ -186,7 +187,7 @@ fn decal(gap: f64) -> Vec<Quad> {
 struct Buffer {
     format: TextureFormat,
     near: f64,
-    /// Distance of the far plane, or infinity.
+    /// The distance of the far plane, or infinity.
     far: f64,
     reversed: bool,
     shader: Shader,
@@ -257,7 +258,8 @@ impl Buffer {
         match (self.far.is_infinite(), self.reversed) {
             (true, true) => nearness,
             (true, false) => 1.0 - nearness,
-            // The same with near and far exchanged: small numbers far away, which a float keeps well.
+            // Near and far are exchanged, so that distant points have small depths, for which floats are
+            // precise.
             (false, true) => window_depth(distance, [self.far, self.near]),
             (false, false) => window_depth(distance, [self.near, self.far]),
         }
@@ -274,7 +276,7 @@ impl Buffer {
 
     fn draw(&self, polygons: &[Polygon], is_decal: bool) -> Draw {
         let mut draw = stage::draw(self.shader, polygon::mesh(SIZE, polygons));
-        // Whatever is rounded to the far plane is still there.
+        // Surfaces that round to the far plane must still be drawn.
         let compare = if self.reversed {
             CompareFunction::GreaterEqual
         } else {

@@ -1,5 +1,5 @@
-//! Depth shown by formulae that have one right result: as grey, as distance, as fog; and two
-//! pictures that dissolve into each other.
+//! Depth shown by formulas that have one right result: as grey, as distance and as fog. Also, two pictures
+//! that dissolve into each other.
 
 mod lessons;
 
@@ -22,10 +22,10 @@ const FAR: f64 = 1000.0;
 /// The colour of fog.
 const FOG: [f64; 3] = [0.75, 0.8, 0.9];
 
-/// Cells of each picture that dissolves, across and down.
+/// Cells per picture that dissolves, across and down.
 const CELLS: u32 = 16;
 
-/// Depth, or a dissolve.
+/// A scene of depth or of a dissolve.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Wire {
@@ -33,11 +33,11 @@ pub enum Wire {
     Slanted {
         /// Depth shown as a colour.
         method: DepthMethod,
-        /// Distance of the near plane, 0.0001 to 10; the far plane lies at 1000. The nearer it is, the
-        /// closer all depths come to 1, and the less is left of the distance.
+        /// The distance of the near plane, 0.0001 to 10; the far plane is at 1000. The nearer it is, the
+        /// closer all depths are to 1, and the less they tell about the distance.
         near: f64,
     },
-    /// Two pictures, of which one is blended over the other.
+    /// Two pictures; the second is blended over the first.
     Pictures {
         /// The method.
         method: DissolveMethod,
@@ -54,7 +54,7 @@ pub enum DepthMethod {
     Grey,
     /// The distance as grey, 0 at the near plane and 1 at the far plane.
     Linearized,
-    /// The surface's colour, which fades to that of fog with the distance.
+    /// The surface's colour, which fades to the colour of fog with the distance.
     Fog,
 }
 
@@ -62,7 +62,7 @@ pub enum DepthMethod {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DissolveMethod {
-    /// The blend constant weighs the second picture, 1 minus the constant the first.
+    /// The blend constant is the weight of the second picture, and 1 minus the constant that of the first.
     Dissolve,
 }
 
@@ -82,9 +82,9 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     }
 }
 
-/// Planes that do not meet: left, top, right and bottom, the distances at the four corners from the top
-/// left counter-clockwise, and a colour. The inverse of the distance is linear in the picture, so that
-/// of the last corner follows from the others.
+/// Returns planes that do not meet. Each is defined by its left, top, right and bottom, the distances at
+/// three corners counter-clockwise from the top left, and a colour. The inverse of the distance is linear
+/// in the picture, so that the distance of the last corner follows from the others.
 fn planes(near: f64) -> Vec<Polygon> {
     let plane = |[left, top, right, bottom]: [f64; 4], distances: [f64; 3], color: [f64; 3]| {
         let [a, b, c] = distances.map(|d| window_depth(d, [near, FAR]));
@@ -129,7 +129,7 @@ fn slanted(method: DepthMethod, near: f64) -> MethodScene {
         DepthMethod::Fog => Shader::Fog,
     };
     let mut draw = stage::draw(shader, polygon::mesh(SIZE, &polygons));
-    // What rounds to the far plane is there too.
+    // Surfaces that round to the far plane must still be drawn.
     draw.depth = stage::depth(CompareFunction::LessEqual, true);
     draw.params.color = [near as f32, FAR as f32, 0.0, 0.0];
     draw.params.back_color = [FOG[0], FOG[1], FOG[2], 1.0].map(|v| v as f32);
@@ -158,7 +158,7 @@ fn slanted(method: DepthMethod, near: f64) -> MethodScene {
     made(stage, picture, surfaces)
 }
 
-/// A picture over nothing.
+/// Returns a scene with this picture and its surfaces, over black.
 fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> MethodScene {
     MethodScene {
         scene: stage.read(&[picture]),
@@ -171,7 +171,7 @@ fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> MethodScene {
     }
 }
 
-/// The codes of a picture's cell: a sunset, or a board.
+/// Returns the codes of a picture's cell: of a sunset, or of a board.
 fn cell(picture: usize, x: u32, y: u32) -> [u32; 3] {
     match picture {
         0 => [255 - y * 8, 60 + y * 9, 20 + x * 14],

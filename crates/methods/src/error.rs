@@ -3,13 +3,13 @@
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// A parameter that a method cannot draw with.
+/// A parameter with which a method cannot draw.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{key}: {message}")]
 pub struct ParameterError {
     /// The parameter, as case files name it.
     pub key: String,
-    /// The error, and the values that are possible.
+    /// The error, and the possible values.
     pub message: String,
 }
 
@@ -22,7 +22,7 @@ impl ParameterError {
     }
 }
 
-/// Refuses a parameter outside of its range.
+/// Refuses a parameter outside its range.
 pub(crate) fn within(
     key: &str,
     value: f64,

@@ -1,7 +1,7 @@
-//! The grid of vertices that every driver keeps exactly.
+//! The grid of vertex positions that every driver represents exactly.
 //!
-//! A polygon with rounded vertices is another polygon. So vertices are brought to the grid before the
-//! truth is taken of them: truth and drivers speak of the same triangles.
+//! A polygon with rounded vertices is a different polygon. Vertices are therefore moved to the grid before
+//! the truth is computed, so that truth and drivers use the same triangles.
 
 #[cfg(test)]
 mod tests;
@@ -10,15 +10,15 @@ use crate::polygon::Polygon;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Vertices lie on multiples of one over this many texels, which every driver keeps exactly: Vulkan and
-/// OpenGL ask for 4 sub-pixel bits.
+/// The number of grid steps per texel. Every driver represents vertices on this grid exactly: Vulkan and
+/// OpenGL require 4 sub-pixel bits.
 const GRID: f64 = 16.0;
 
-/// The polygons as triangles whose vertices lie on a grid that every driver keeps, and whose edges
-/// lead through no texel's centre: what covers a texel is then beyond doubt. Vertices at the same place
-/// stay together, depths stay with their vertices, and triangles without area are left out.
+/// Splits the polygons into triangles whose vertices are on a grid that every driver represents exactly,
+/// and whose edges pass through no texel's centre, so that the texels they cover are certain. Vertices at
+/// the same place stay together, depths stay with their vertices, and triangles without area are left out.
 ///
-/// A polygon of more than three corners becomes a fan around its middle.
+/// A polygon with more than three corners becomes a fan around its middle.
 pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
     let mut places: HashMap<[u64; 2], usize> = HashMap::new();
     let mut points: Vec<[i64; 2]> = Vec::new();
@@ -61,11 +61,11 @@ pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
     triangles.into_iter().filter_map(polygon).collect()
 }
 
-/// Moves points by single steps of the grid until no edge leads through a centre. Points on the edges
-/// of the picture stay there.
+/// Moves points by single steps of the grid until no edge passes through a centre. Points on the edges of
+/// the picture stay there.
 fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
     let ends = size.map(|s| i64::from(s) * GRID as i64);
-    // Far more than needed: a step frees most edges, and each pass takes a step for each tied edge.
+    // Far more passes than needed: a step frees most edges, and each pass takes a step per tied edge.
     for pass in 0..64_usize {
         let mut tied = false;
         for (i, [a, b]) in edges.iter().copied().enumerate() {
@@ -77,7 +77,7 @@ fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
                 let at = points[index][axis];
                 at != 0 && at != ends[axis]
             };
-            // Another end and axis each time, or two edges could push a point to and fro.
+            // Alternates between ends and axes, because otherwise two edges could push a point to and fro.
             let ways = [(a, 0), (b, 1), (a, 1), (b, 0)];
             let turn = pass + i;
             let way = (0..4).map(|k| ways[(turn + k) % 4]);
@@ -97,13 +97,13 @@ fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
     }
 }
 
-/// True if an edge leads through the centre of a texel of the picture.
+/// Returns true if an edge passes through the centre of a texel of the picture.
 fn touches_centre(size: [u32; 2], a: [i64; 2], b: [i64; 2]) -> bool {
     let step = GRID as i64;
     let half = step / 2;
     let is_centre = |x: i64| x.rem_euclid(step) == half;
     let within = |c: i64, axis: usize| (0..i64::from(size[axis]) * step).contains(&c);
-    // Along the axis on which the edge is longer, so that it is never divided by nothing.
+    // Steps along the axis on which the edge is longer, so that the divisor is never 0.
     let long = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
     let short = 1 - long;
     let (from, to) = if a[long] <= b[long] { (a, b) } else { (b, a) };

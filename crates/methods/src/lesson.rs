@@ -1,11 +1,11 @@
 //! Short explanations of methods, with their sources.
 
-/// One method: the way it works, and where and why it fails.
+/// One method: how it works, and where and why it fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lesson {
     /// The method, as ids name it.
     pub method: &'static str,
-    /// The way it works, in a sentence.
+    /// How it works, in a sentence.
     pub works: &'static str,
     /// Where and why it fails, in a sentence.
     pub fails: &'static str,

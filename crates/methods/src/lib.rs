@@ -1,9 +1,9 @@
 //! Rendering methods: ways to draw one scene that differ in accuracy and time.
 //!
-//! A question (transparency, anti-aliasing, …) has scenes and methods. A method turns one of its
-//! scenes into passes and draws of the common scene model, so that it is written once and every
-//! backend draws the same. Beside the passes stands the [`Truth`]: the geometry that should be seen,
-//! which is the scene's and knows nothing of the method.
+//! A question (transparency, anti-aliasing, …) has scenes and methods. A method turns one of its scenes
+//! into passes and draws of the common scene model, so that it is written once and every backend draws the
+//! same. The scene also gives the [`Truth`]: the geometry that should be seen, which does not depend on the
+//! method.
 
 mod accumulation;
 mod anti_aliasing;

@@ -11,9 +11,9 @@ pub struct Method {
     pub scene: String,
     /// The method, as the id names it: `depth-peeling`.
     pub name: String,
-    /// The parameter along which the stability curve runs.
+    /// The parameter that the stability curve is drawn over.
     pub parameter: Option<Parameter>,
-    /// The truth of the first attachment that is read back, whose alpha does not count.
+    /// The truth of the first attachment that is read back, ignoring alpha.
     pub truth: Truth,
 }
 

@@ -3,10 +3,10 @@
 use crate::truth::Truth;
 use etalon_scene::Scene;
 
-/// A scene and what should be seen of it.
+/// A scene and its truth.
 pub struct MethodScene {
     /// The scene; the first attachment that is read back is the picture.
     pub scene: Scene,
-    /// Returns the truth.
+    /// What should be seen.
     pub truth: Truth,
 }

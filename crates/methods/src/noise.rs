@@ -7,17 +7,17 @@ use etalon_frame::SplitMix64;
 pub(crate) struct Noise(SplitMix64);
 
 impl Noise {
-    /// The numbers of a seed.
+    /// Creates the generator with a seed.
     pub(crate) fn new(seed: u64) -> Self {
         Self(SplitMix64(seed))
     }
 
-    /// The next number from 0 to just below 1.
+    /// Returns the next number, at least 0 and below 1.
     pub(crate) fn next(&mut self) -> f64 {
         (self.0.roll() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// The next number between two others.
+    /// Returns the next number between two bounds.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + self.next() * (high - low)
     }

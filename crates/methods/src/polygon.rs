@@ -3,21 +3,21 @@
 use crate::truth::{Paint, Surface};
 use etalon_scene::{Mesh, Vertex};
 
-/// A flat convex polygon, as it is drawn.
+/// A flat convex polygon that is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Polygon {
     /// Corners in order: x and y in texels from the top left corner, and the window depth.
     pub(crate) corners: Vec<[f64; 3]>,
     /// The vertex colour: straight red, green, blue and alpha.
     pub(crate) color: [f64; 4],
-    /// Texture coordinates of each corner; empty for none.
+    /// Texture coordinates of each corner; empty if unused.
     pub(crate) uv: Vec<[f64; 2]>,
-    /// Clip-space w of each corner, by which the driver divides; empty for 1.
+    /// Clip-space w of each corner, by which the driver divides; empty if every w is 1.
     pub(crate) w: Vec<f64>,
 }
 
 impl Polygon {
-    /// A polygon of one colour.
+    /// Creates a polygon of one colour.
     pub(crate) fn new(corners: Vec<[f64; 3]>, color: [f64; 4]) -> Self {
         Self {
             corners,
@@ -27,8 +27,8 @@ impl Polygon {
         }
     }
 
-    /// An upright rectangle between left, top, right and bottom in texels at one depth,
-    /// counter-clockwise as it is seen: a front face.
+    /// Creates an upright rectangle between left, top, right and bottom in texels, at one depth,
+    /// counter-clockwise as seen: a front face.
     pub(crate) fn rect([left, top, right, bottom]: [f64; 4], depth: f64, color: [f64; 4]) -> Self {
         let corners = vec![
             [left, top, depth],
@@ -39,7 +39,7 @@ impl Polygon {
         Self::new(corners, color)
     }
 
-    /// The polygon as the truth knows it, in its own colour.
+    /// Returns the polygon as a surface of the truth, in its own colour.
     pub(crate) fn surface(&self) -> Surface {
         Surface {
             corners: self.corners.clone(),
@@ -48,7 +48,7 @@ impl Polygon {
     }
 }
 
-/// Polygons as a list of triangles, each polygon a fan around its first corner.
+/// Returns the polygons as a list of triangles, each polygon a fan around its first corner.
 pub(crate) fn mesh(size: [u32; 2], polygons: &[Polygon]) -> Mesh {
     let clip = |value: f64, size: u32| value / f64::from(size) * 2.0 - 1.0;
     let vertex = |polygon: &Polygon, i: usize| {
@@ -74,7 +74,7 @@ pub(crate) fn mesh(size: [u32; 2], polygons: &[Polygon]) -> Mesh {
     }
 }
 
-/// A triangle that covers everything, with texture coordinates 0 to 1 from the top left corner.
+/// Returns a triangle that covers everything, with texture coordinates 0 to 1 from the top left corner.
 pub(crate) fn cover() -> Mesh {
     let vertex = |x: f32, y: f32| Vertex {
         position: [x, y, 0.0, 1.0],

@@ -11,7 +11,7 @@ use crate::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A scene drawn by a method, by question.
+/// A scene and the method that draws it, by question.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "question", rename_all = "kebab-case")]
 pub enum MethodWire {
@@ -40,7 +40,7 @@ pub enum MethodWire {
 /// Draws a scene by a method.
 ///
 /// # Errors
-/// If a parameter is out of its range, or a method does not know the scene.
+/// If a parameter is out of its range, or if the method does not support the scene.
 pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
     match wire {
         MethodWire::Transparency(wire) => transparency::make(wire),
@@ -73,7 +73,7 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     .flatten()
 }
 
-/// Returns the explanations of a question's methods; none for a question that there is not.
+/// Returns the explanations of a question's methods; empty for an unknown question.
 pub fn lessons(question: &str) -> &'static [Lesson] {
     match question {
         "transparency" => transparency::LESSONS,

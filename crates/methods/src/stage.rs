@@ -1,4 +1,4 @@
-//! Building scenes in code: attachments, passes, draws with everything off.
+//! Building scenes in code: attachments, passes, and draws with every test and blending off.
 
 use crate::polygon::cover;
 use etalon_frame::TextureFormat;
@@ -8,20 +8,20 @@ use etalon_scene::{
     Sampler, Scene, Shader, Viewport,
 };
 
-/// Width and height of a method's picture in texels, where a scene does not ask for another.
+/// Width and height of a method's picture in texels, unless a scene needs another size.
 pub(crate) const SIZE: [u32; 2] = [128, 128];
 
-/// A draw of triangles with every test off and no blending. [`Stage::pass`] sets its viewport.
+/// Returns a draw of triangles with every test off and no blending. [`Stage::pass`] sets its viewport.
 pub(crate) fn draw(shader: Shader, mesh: Mesh) -> Draw {
     Draw::new(shader, mesh, Viewport::whole([0, 0]))
 }
 
-/// A depth test.
+/// Returns a depth test.
 pub(crate) fn depth(compare: CompareFunction, write: bool) -> Option<DepthState> {
     Some(DepthState { compare, write })
 }
 
-/// A blend equation that adds.
+/// Returns the component of a blend equation that adds.
 pub(crate) fn add(src_factor: BlendFactor, dst_factor: BlendFactor) -> BlendComponent {
     BlendComponent {
         operation: BlendOperation::Add,
@@ -30,7 +30,7 @@ pub(crate) fn add(src_factor: BlendFactor, dst_factor: BlendFactor) -> BlendComp
     }
 }
 
-/// The same blend for colour and alpha.
+/// Returns the same blend equation for colour and alpha.
 pub(crate) fn both(component: BlendComponent) -> Option<BlendState> {
     Some(BlendState {
         color: component,
@@ -38,7 +38,7 @@ pub(crate) fn both(component: BlendComponent) -> Option<BlendState> {
     })
 }
 
-/// Straight colours over what is there (Porter and Duff 1984): `over`.
+/// Returns the blend state `over` for straight colours (Porter and Duff 1984).
 pub(crate) fn over() -> Option<BlendState> {
     Some(BlendState {
         color: add(BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha),
@@ -46,7 +46,8 @@ pub(crate) fn over() -> Option<BlendState> {
     })
 }
 
-/// A texture at half its size: a linear filter right between four texels is their mean.
+/// Returns a draw of a texture at half its size: a linear filter exactly between four texels returns their
+/// mean.
 fn halved(texture: usize) -> Draw {
     let mut draw = draw(Shader::SampledColor, cover());
     draw.textures = vec![texture];
@@ -57,7 +58,7 @@ fn halved(texture: usize) -> Draw {
     draw
 }
 
-/// A scene while it is being built.
+/// A scene that is being built.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
     attachments: Vec<Attachment>,
@@ -66,7 +67,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// An empty scene.
+    /// Returns an empty scene.
     pub(crate) fn new() -> Self {
         Self {
             attachments: Vec::new(),
@@ -75,7 +76,7 @@ impl Stage {
         }
     }
 
-    /// Adds an attachment and gives its index.
+    /// Adds an attachment and returns its index.
     pub(crate) fn attachment(
         &mut self,
         name: impl Into<String>,
@@ -94,7 +95,7 @@ impl Stage {
         self.attachments.len() - 1
     }
 
-    /// A single-sample colour attachment that is cleared.
+    /// Adds a single-sample colour attachment that is cleared.
     pub(crate) fn color(
         &mut self,
         name: impl Into<String>,
@@ -106,7 +107,7 @@ impl Stage {
         self.attachment(name, format, size, 1, contents)
     }
 
-    /// A depth attachment, or one of depth and stencil, that is cleared; stencil to 0.
+    /// Adds a depth attachment, with or without stencil, that is cleared; stencil to 0.
     pub(crate) fn depth(
         &mut self,
         name: impl Into<String>,
@@ -122,19 +123,19 @@ impl Stage {
         self.attachment(name, format, size, samples, contents)
     }
 
-    /// Gives the scene a pool.
+    /// Sets the scene's pool.
     pub(crate) fn pool(&mut self, pool: Pool) {
         self.pool = Some(pool);
     }
 
-    /// Adds a pass. A draw with one target has it for all of the pass's colour attachments, a draw
-    /// without a viewport fills them.
+    /// Adds a pass. A draw with one target uses it for all colour attachments of the pass, and a draw
+    /// without a viewport covers them.
     pub(crate) fn pass(&mut self, color: &[usize], depth_stencil: Option<usize>, draws: Vec<Draw>) {
         self.resolving_pass(color, vec![None; color.len()], depth_stencil, draws);
     }
 
-    /// Adds passes that draw to an attachment whose sides are those of a picture doubled so often, and halve it
-    /// again. Meshes know nothing of texels: the same one fills an attachment of any size.
+    /// Adds passes that draw to an attachment with the picture's sides doubled `doublings` times, and halve
+    /// it again. Meshes do not depend on texels, so the same mesh fills an attachment of any size.
     pub(crate) fn supersampled(
         &mut self,
         picture: usize,
@@ -188,7 +189,7 @@ impl Stage {
         });
     }
 
-    /// The scene, of which these attachments are read back.
+    /// Returns the scene, which reads back these attachments.
     pub(crate) fn read(self, read: &[usize]) -> Scene {
         Scene {
             attachments: self.attachments,

@@ -18,7 +18,7 @@ use etalon_frame::TextureFormat;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// An effect, and how it is drawn.
+/// An effect, and the method that draws it.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Wire {
@@ -26,22 +26,22 @@ pub enum Wire {
     Outlines {
         /// The method.
         method: outlines::MethodName,
-        /// Of the outlines, in texels, 0.5 to 24.
+        /// The width of the outlines in texels, 0.5 to 24.
         width: f64,
     },
-    /// Boxes above a mirror that lies on the ground.
+    /// Boxes above a mirror on the ground.
     Mirror {
         /// The method for the reflection.
         method: mirror::MethodName,
-        /// The distance of the boxes from the mirror's middle, sideways, 0 to 3; the mirror is 2.4 wide.
+        /// The sideways distance of the boxes from the mirror's middle, 0 to 3; the mirror is 2.4 wide.
         shift: f64,
     },
     /// Cards in parallel rays of light, which cast shadows on each other and on a wall.
     ShadowVolume {
         /// The sides of volumes that are counted.
         method: shadows::MethodName,
-        /// The distance of the near plane behind the picture's plane, -1 to 0.8: cards stand at 0.1, 0.3
-        /// and 0.5, the wall at 0.9.
+        /// The distance of the near plane behind the picture's plane, -1 to 0.8. Cards are at 0.1, 0.3 and
+        /// 0.5, and the wall is at 0.9.
         eye: f64,
     },
 }

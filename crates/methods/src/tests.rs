@@ -4,7 +4,7 @@ use super::*;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// Questions, scenes, methods and a parameter inside of its range.
+/// Questions, scenes and methods, with a parameter inside its range.
 fn all() -> Vec<Value> {
     let depth = [
         "depth16",
@@ -142,7 +142,7 @@ fn every_method_draws_every_scene() {
         for vertex in draws.clone().flat_map(|d| &d.mesh.vertices) {
             let [x, y, z, w] = vertex.position;
             assert!([x, y, z, w].iter().all(|v| v.is_finite()), "{wire}");
-            // Elsewhere vertices are exact, and nothing but their places matters.
+            // For other questions vertices are exact, and only their positions matter.
             let projects = ["depth-precision", "texture-sampling"].map(Value::from);
             assert!(w == 1.0 || projects.contains(&wire["question"]), "{wire}");
             assert!(
@@ -225,7 +225,7 @@ fn methods_that_do_not_know_a_scene_are_refused() {
     }
 }
 
-/// The depth of a triangle at a place it covers.
+/// Returns the depth of a triangle at a place that it covers.
 fn depth_at(corners: &[[f64; 3]], [x, y]: [f64; 2]) -> Option<f64> {
     let [a, b, c] = [corners[0], corners[1], corners[2]];
     let side = |p: [f64; 3], q: [f64; 3]| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
@@ -238,7 +238,7 @@ fn depth_at(corners: &[[f64; 3]], [x, y]: [f64; 2]) -> Option<f64> {
 fn without_a_depth_test_the_nearest_is_drawn_last() {
     let scene =
         json!({"question": "visibility-cost", "scene": "rooms", "method": "no-test", "layers": 7});
-    // The truth's surfaces stand in the order of the draw without a test.
+    // The truth's surfaces are in the order of the draw without a test.
     let truth = made(&scene).truth;
     let mut overdraw = 0;
     for (x, y) in (0..128).flat_map(|y| (0..128).map(move |x| (x, y))) {
@@ -252,7 +252,7 @@ fn without_a_depth_test_the_nearest_is_drawn_last() {
         assert!(depths.iter().all(|d| last <= *d), "{at:?}: {depths:?}");
         overdraw += depths.len();
     }
-    // Walls cover most of the picture, each.
+    // Each wall covers most of the picture.
     assert!(overdraw > 5 * 128 * 128, "{overdraw}");
 }
 
@@ -276,12 +276,13 @@ fn the_driver_projects_to_the_surfaces_of_the_truth() {
         let meant = truth.surfaces.iter().flat_map(|s| &s.corners);
         assert_eq!(drawn.len(), meant.clone().count(), "{wire}");
         for (at, meant) in drawn.iter().zip(meant) {
-            // Roundings to 32 bits of x or y, of w, and none of the quotient.
+            // The bound covers rounding x or y and w to 32 bits, but not the quotient.
             let place = (at[0] - meant[0]).abs().max((at[1] - meant[1]).abs());
             let nearness = (at[2] / meant[2] - 1.0).abs();
             assert!(place < 2e-5 && nearness < 1e-7, "{wire}: {at:?} {meant:?}");
         }
-        // Clip-space z is that of the projection: nothing lies before the near plane or beyond the far one.
+        // Clip-space z is that of the projection: nothing is in front of the near plane or beyond the far
+        // plane.
         let vertices = scene.passes[0].draws.iter().flat_map(|d| &d.mesh.vertices);
         for [.., z, w] in vertices.map(|v| v.position) {
             assert!((0.0..=w).contains(&z), "{wire}: {z} {w}");

@@ -1,8 +1,7 @@
-//! Texture sampling: a ground of tiles that leads to the horizon, one tile a texel, without smaller levels of the
-//! texture.
+//! Texture sampling: a ground of tiles that reaches the horizon, one tile per texel, without mipmaps.
 //!
-//! The ground is one rectangle that begins behind the eye. The driver clips it, divides by w and interpolates texture
-//! coordinates; the truth knows every tile by its corners.
+//! The ground is one rectangle that begins behind the eye. The driver clips it, divides by w and
+//! interpolates texture coordinates; the truth has the corners of every tile.
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
@@ -31,7 +30,7 @@ pub(crate) use lessons::LESSONS;
 pub struct Wire {
     scene: SceneName,
     method: MethodName,
-    /// Tiles to a unit of distance, 0.25 to 4; the eye stands one unit above them.
+    /// Tiles per unit of distance, 0.25 to 4; the eye is one unit above them.
     tiles: f64,
 }
 
@@ -49,8 +48,8 @@ enum MethodName {
     Nearest,
     /// The weighted mean of the four texels around it.
     Linear,
-    /// Nearest texels at coordinates that are linear over the picture, in two triangles that begin at the nearest
-    /// visible row.
+    /// Nearest texels at coordinates that are linear in the picture, in two triangles that begin at the
+    /// nearest visible row.
     Affine,
     /// The mean of 2 by 2 nearest texels.
     #[serde(rename = "supersampling-2x2")]
@@ -60,7 +59,7 @@ enum MethodName {
     Supersampling4x4,
 }
 
-/// The sky.
+/// The colour of the sky.
 const BACKGROUND: [f64; 3] = [0.55, 0.7, 0.9];
 
 /// Half the ground's width.
@@ -69,13 +68,13 @@ const HALF_WIDTH: f64 = 12.0;
 /// The z of the ground's ends: behind the eye, and in front of it.
 const ENDS: [f64; 2] = [4.0, -28.0];
 
-/// The z of the nearest row that is seen, or a little nearer.
+/// The z of the nearest visible row, or slightly nearer.
 const NEAREST: f64 = -0.9;
 
 /// Width and height of the texture, which repeats.
 const TEXTURE: u32 = 8;
 
-/// Returns the camera: one unit above the ground, turned down to it.
+/// Returns the camera: one unit above the ground, tilted down.
 fn view() -> View {
     let eye = DVec3::new(0.0, 1.0, 0.0);
     let at = eye + DVec3::new(0.0, -0.3, -1.0);
@@ -105,7 +104,7 @@ fn corner(x: f64, z: f64, tiles: f64) -> (DVec3, [f64; 2]) {
     (DVec3::new(x, 0.0, z), turns)
 }
 
-/// Returns the ground as two triangles between two z: in clip space, or projected with w 1.
+/// Returns the ground between two z as two triangles, in clip space or projected with w 1.
 fn ground(ends: [f64; 2], tiles: f64, divided: bool) -> Mesh {
     let view = view();
     let [near, far] = ends;
@@ -127,7 +126,7 @@ fn ground(ends: [f64; 2], tiles: f64, divided: bool) -> Mesh {
     }
 }
 
-/// Returns the tiles that are seen.
+/// Returns the visible tiles.
 fn seen(per_unit: f64) -> Vec<Polygon> {
     let count = |length: f64| (length * per_unit).ceil() as u32;
     let texels = tiles();

@@ -11,14 +11,14 @@ pub struct Truth {
     pub background: [f64; 3],
     /// The part of a texel that counts.
     pub coverage: Coverage,
-    /// The surfaces, in any order. Of two at the same depth the later one is in front.
+    /// The surfaces, in any order. Of two surfaces at the same depth, the later one is in front.
     pub surfaces: Vec<Surface>,
 }
 
-/// The part of a texel that its colour stands for.
+/// The part of a texel that its colour represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// At its centre: for questions in which edges play no part, or where methods take one sample.
+    /// Its centre: for questions in which edges do not matter, or whose methods take one sample.
     Center,
     /// The mean over its area.
     Area,
@@ -27,7 +27,7 @@ pub enum Coverage {
 /// One flat convex polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
-    /// At least three corners in order around it, either way: x and y in texels from the top left
+    /// At least three corners in order around it, in either direction: x and y in texels from the top left
     /// corner, and a depth that grows away from the eye and is linear in x and y (a window depth, or
     /// minus 1 over the distance).
     pub corners: Vec<[f64; 3]>,
@@ -42,15 +42,15 @@ pub enum Paint {
     Flat([f64; 4]),
     /// The surface's depth as grey, opaque.
     Depth,
-    /// The distance that the surface's depth stands for as grey, opaque: the depth is a window depth of
-    /// a perspective projection, 0 at the near and 1 at the far plane.
+    /// The distance that the surface's depth represents as grey, opaque. The depth is a window depth of a
+    /// perspective projection, 0 at the near and 1 at the far plane.
     Distance {
         /// Distance of the near plane.
         near: f64,
         /// Distance of the far plane.
         far: f64,
     },
-    /// A colour that fades to another with the distance, opaque; depths as in [`Paint::Distance`].
+    /// A colour that fades to another one with the distance, opaque; depths as in [`Paint::Distance`].
     Fog {
         /// Red, green and blue at the near plane.
         color: [f64; 3],

@@ -1,9 +1,9 @@
-//! The promises of the scene model, asserted of methods' scenes.
+//! Checks that methods' scenes keep the promises of the scene model.
 
 use etalon_scene::{Contents, Pool, Scene};
 
-/// Asserts what the model promises of every scene: indices in range, sizes and samples that agree, no
-/// pass that reads what it draws to, targets that the shader writes.
+/// Asserts what the model promises of every scene: indices are in range, sizes and samples agree, no pass
+/// reads what it draws to, and the shader writes all targets.
 pub(crate) fn assert_valid(scene: &Scene) {
     assert!(!scene.read.is_empty());
     assert!(scene.read.iter().all(|i| *i < scene.attachments.len()));

@@ -1,5 +1,5 @@
-//! Solid scenes in perspective or seen along an axis: clipped and projected in 64-bit floats, then
-//! brought to a grid, so that truth and drivers speak of the same triangles.
+//! Solid scenes in perspective or seen along an axis. They are clipped and projected in 64-bit floats, then
+//! moved to a grid, so that truth and drivers use the same triangles.
 
 #[cfg(test)]
 mod tests;
@@ -8,7 +8,7 @@ use crate::polygon::Polygon;
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec3};
 
-/// A flat convex face in the world, counter-clockwise as it is seen from its front.
+/// A flat convex face in the world, counter-clockwise as seen from its front.
 #[derive(Clone, Debug)]
 pub(crate) struct Face {
     /// At least three corners.
@@ -18,13 +18,13 @@ pub(crate) struct Face {
 }
 
 impl Face {
-    /// The normal, of no special length.
+    /// Returns the normal, which has no particular length.
     fn normal(&self) -> DVec3 {
         let [a, b, c] = [0, 1, 2].map(|i| self.corners[i]);
         (b - a).cross(c - a)
     }
 
-    /// True if a point lies before its front.
+    /// Returns true if a point is in front of the face.
     pub(crate) fn looks_at(&self, point: DVec3) -> bool {
         self.normal().dot(point - self.corners[0]) > 0.0
     }
@@ -38,7 +38,7 @@ impl Face {
         }
     }
 
-    /// The face lit from the upper left, so that faces differ.
+    /// Returns the face lit from the upper left, so that faces differ in brightness.
     pub(crate) fn lit(mut self) -> Self {
         let light = DVec3::new(-0.4, 0.8, 0.45).normalize();
         let bright = 0.65 + 0.35 * self.normal().normalize_or_zero().dot(light);
@@ -49,7 +49,7 @@ impl Face {
     }
 }
 
-/// The faces of an upright box between two corners, seen from outside; each in the light.
+/// Returns the lit faces of an upright box between two corners, seen from outside.
 pub(crate) fn cuboid(low: DVec3, high: DVec3, color: [f64; 4]) -> Vec<Face> {
     let corner = |x: usize, y: usize, z: usize| {
         let pick = |bit: usize, low: f64, high: f64| if bit == 0 { low } else { high };
@@ -93,7 +93,7 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// An eye at one point that looks at another, sees so many degrees from top to bottom, and nothing
+    /// Creates a view from `eye` towards `at` with a vertical field of view in degrees, which sees nothing
     /// nearer or farther than two distances.
     pub(crate) fn perspective(
         size: [u32; 2],
@@ -110,7 +110,7 @@ impl View {
         }
     }
 
-    /// The same with parallel rays, a picture of so much height.
+    /// Creates the same view with parallel rays, for a picture of this height.
     pub(crate) fn parallel(
         size: [u32; 2],
         [eye, at]: [DVec3; 2],
@@ -123,7 +123,8 @@ impl View {
         }
     }
 
-    /// The window depth of a distance: 0 at the near, 1 at the far plane, linear in the picture.
+    /// Returns the window depth of a distance: 0 at the near plane, 1 at the far plane, linear in the
+    /// picture.
     pub(crate) fn depth(&self, distance: f64) -> f64 {
         match self.lens {
             Lens::Perspective(_) => window_depth(distance, [self.near, self.far]),
@@ -131,7 +132,7 @@ impl View {
         }
     }
 
-    /// A point of eye space in the picture: x and y in texels, and the window depth.
+    /// Projects a point of eye space to the picture: x and y in texels, and the window depth.
     fn project(&self, point: DVec3) -> DVec3 {
         let distance = -point.z;
         let half = match self.lens {
@@ -139,7 +140,7 @@ impl View {
             Lens::Parallel(half) => half,
         };
         let [width, height] = self.size;
-        // As many texels to the unit across as down.
+        // A unit has the same number of texels across and down.
         let texels = height / 2.0 / half;
         DVec3::new(
             width / 2.0 + point.x * texels,
@@ -148,7 +149,7 @@ impl View {
         )
     }
 
-    /// Returns a point of the world in clip space, wherever it lies: the driver clips and divides.
+    /// Returns a point of the world in clip space, without clipping: the driver clips and divides.
     pub(crate) fn clip_position(&self, point: DVec3) -> [f64; 4] {
         let eye = self.world.transform_point3(point);
         let distance = -eye.z;
@@ -163,8 +164,8 @@ impl View {
         [eye.x / half * height / width, eye.y / half, z, w]
     }
 
-    /// Projects faces, clipped to the near and far plane but not to the picture's
-    /// edges. Faces without anything left are left out.
+    /// Projects faces, clipped to the near and far plane but not to the picture's edges. Drops
+    /// faces that are clipped entirely.
     pub(crate) fn unbounded(&self, faces: &[Face]) -> Vec<Polygon> {
         let polygon = |face: &Face| {
             let eye: Vec<DVec3> = face.moved(&self.world).corners;
@@ -196,14 +197,14 @@ impl View {
     }
 }
 
-/// The window depth of a distance in a perspective projection: 0 at the near, 1 at the far plane.
+/// Returns the window depth of a distance in a perspective projection: 0 at the near plane, 1 at the far
+/// plane.
 pub(crate) fn window_depth(distance: f64, [near, far]: [f64; 2]) -> f64 {
     far * (distance - near) / (distance * (far - near))
 }
 
-/// Clips a convex polygon to where a function that is linear in space is not negative
-/// (Sutherland and Hodgman 1974). Neighbours cut a common edge at the same point, whichever way they
-/// run along it.
+/// Clips a convex polygon to the half space in which a linear function is not negative (Sutherland and
+/// Hodgman 1974). Neighbours cut a common edge at the same point, in whichever direction they traverse it.
 pub(crate) fn clip(corners: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     let mut left = Vec::with_capacity(corners.len() + 1);
     for (i, a) in corners.iter().copied().enumerate() {
@@ -213,7 +214,7 @@ pub(crate) fn clip(corners: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec
             left.push(a);
         }
         if (at > 0.0 && next < 0.0) || (at < 0.0 && next > 0.0) {
-            // Always from the inner to the outer end.
+            // Always interpolates from the inner to the outer end.
             let (from, to, d, e) = if at > 0.0 {
                 (a, b, at, next)
             } else {

@@ -1,5 +1,5 @@
-//! The cost of visibility: rooms behind rooms, seen through openings, with a
-//! fragment shader that does much work. All methods give the same picture.
+//! The cost of visibility: rooms behind rooms, seen through openings, with an expensive fragment shader.
+//! All methods give the same picture.
 
 mod claims;
 mod lessons;
@@ -20,10 +20,10 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Steps of work of each fragment.
+/// Steps of work per fragment.
 const STEPS: f32 = 64.0;
 
-/// Behind everything.
+/// The colour behind everything.
 const BACKGROUND: [f64; 3] = [0.85, 0.9, 1.0];
 
 /// The most rooms behind each other.
@@ -35,30 +35,30 @@ const MOST: u32 = 32;
 pub struct Wire {
     scene: SceneName,
     method: MethodName,
-    /// The number of walls behind each other, 1 to 32: about the depth complexity.
+    /// The number of walls behind each other, 1 to 32, which is about the depth complexity.
     layers: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum SceneName {
-    /// Walls with openings, boxes between them.
+    /// Walls with openings, and boxes between them.
     Rooms,
 }
 
-/// The order and the tests that reject hidden surfaces.
+/// The drawing order, and the tests that reject hidden surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MethodName {
     /// Painter's order: back to front, without a depth buffer.
     NoTest,
-    /// A depth test, triangles in no order.
+    /// A depth test, triangles in no particular order.
     Unsorted,
     /// A depth test, near triangles first.
     FrontToBack,
-    /// All depths first, without colour; then, in no order, the fragments of equal depth.
+    /// All depths first, without colour; then the fragments of equal depth, in no particular order.
     DepthPrepass,
-    /// As `discard`, with tests that are forced to happen before the shader.
+    /// As `discard`, with tests that are forced to run before the shader.
     ForcedEarlyTest,
     /// As `front-to-back`, with a shader that could discard.
     Discard,
@@ -66,8 +66,8 @@ enum MethodName {
     WrittenDepth,
 }
 
-/// Faces back to front as the eye sees them: the farthest room first; in a room its far wall, what
-/// stands to the sides, the partitions, what stands in the middle.
+/// Returns the faces back to front as seen from the eye: the farthest room first; within a room its far
+/// wall, the boxes at the sides, the partitions, then the boxes in the middle.
 fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
     let mut all = Vec::new();
     for room in (0..layers).rev() {
@@ -110,7 +110,7 @@ fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
     all
 }
 
-/// A wall across the whole picture with an opening at x and y.
+/// Returns a wall across the whole picture with an opening at x and y.
 fn wall(z: f64, [x, y]: [f64; 2], color: [f64; 4]) -> Vec<Face> {
     const EDGE: f64 = 30.0;
     let [left, right, low, high] = [x - 1.2, x + 1.2, y - 1.1, y + 1.1];
@@ -133,7 +133,7 @@ fn wall(z: f64, [x, y]: [f64; 2], color: [f64; 4]) -> Vec<Face> {
     .to_vec()
 }
 
-/// The faces of a convex solid, those that look away first.
+/// Returns the faces of a convex solid, first the faces that face away from the eye.
 fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
     let (front, mut all): (Vec<Face>, Vec<Face>) =
         faces.into_iter().partition(|face| face.looks_at(eye));
@@ -141,7 +141,7 @@ fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
     all
 }
 
-/// A fixed pseudo-random order.
+/// Returns a fixed pseudo-random order.
 fn shuffled(polygons: &[Polygon]) -> Vec<Polygon> {
     let key = |i: usize| (i as u32).wrapping_mul(0x9e37_79b1) >> 4;
     let mut order: Vec<usize> = (0..polygons.len()).collect();
@@ -189,7 +189,7 @@ fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
     }
 }
 
-/// The triangles of the rooms, back to front.
+/// Returns the triangles of the rooms, back to front.
 fn triangles(layers: u32) -> Vec<Polygon> {
     let eye = DVec3::new(0.25, 0.3, 0.0);
     let at = DVec3::new(0.1, -0.1, -30.0);

@@ -1,17 +1,18 @@
-//! What passes and clear commands do to one aspect.
+//! The operations of passes and clear commands on one aspect.
 
 use etalon_frame::Aspect;
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, Pass, StoreOperation};
 
 pub(super) const ASPECTS: [Aspect; 3] = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
 
-/// Each of depth and stencil with the other, and the value to which that is cleared by mistake.
+/// Depth with stencil and stencil with depth, and the value to which a mistake clears the second of the
+/// pair.
 pub(super) const BOTH: [(Aspect, Aspect, u32); 2] = [
     (Aspect::Depth, Aspect::Stencil, 0),
     (Aspect::Stencil, Aspect::Depth, 1),
 ];
 
-/// The name in a sentence.
+/// Returns the name for use in a sentence.
 pub(super) fn word(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::Color => "colour",
@@ -31,7 +32,7 @@ fn clears<T: PartialEq>(operations: &Operations<T>) -> bool {
     operations.load != LoadOperation::Load
 }
 
-/// True if a pass begins with a clear.
+/// Returns true if a pass begins with a clear.
 pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
     match aspect {
         Aspect::Color => pass.operations.color.iter().any(clears),
@@ -40,7 +41,7 @@ pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
     }
 }
 
-/// Lets a pass begin with a clear: to 0, or to a depth of 1.
+/// Makes a pass begin with a clear: to 0, or to a depth of 1.
 pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => each_color(pass, |o| o.load = LoadOperation::Clear([0.0; 4])),
@@ -50,7 +51,7 @@ pub(super) fn clear(pass: &mut Pass, aspect: Aspect) {
     }
 }
 
-/// Lets a pass begin with what an aspect holds, and keep depth or stencil at its end.
+/// Makes a pass load an aspect at its beginning, and keep depth or stencil at its end.
 pub(super) fn load(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => each_color(pass, |o| o.load = LoadOperation::Load),
@@ -63,7 +64,7 @@ fn discards<T>(operations: &Operations<T>) -> bool {
     operations.store == StoreOperation::Discard
 }
 
-/// True if a pass ends with a discard.
+/// Returns true if a pass ends with a discard.
 pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
     match aspect {
         Aspect::Color => pass.operations.color.iter().any(discards),
@@ -72,7 +73,7 @@ pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
     }
 }
 
-/// Lets a pass end with a discard.
+/// Makes a pass end with a discard.
 pub(super) fn discard(pass: &mut Pass, aspect: Aspect) {
     match aspect {
         Aspect::Color => each_color(pass, |o| o.store = StoreOperation::Discard),
@@ -82,7 +83,7 @@ pub(super) fn discard(pass: &mut Pass, aspect: Aspect) {
     }
 }
 
-/// True if a command clears an aspect.
+/// Returns true if a command clears an aspect.
 pub(super) fn reaches(command: &Clear, aspect: Aspect) -> bool {
     match command.target {
         ClearTarget::Color { .. } => aspect == Aspect::Color,
@@ -94,7 +95,7 @@ pub(super) fn reaches(command: &Clear, aspect: Aspect) -> bool {
     }
 }
 
-/// Lets a command that clears depth or stencil clear the other too.
+/// Makes a command that clears depth or stencil clear both.
 pub(super) fn reach_both(command: &mut Clear) {
     if let ClearTarget::DepthStencil { depth, stencil, .. } = &mut command.target {
         depth.get_or_insert(1.0);

@@ -1,4 +1,4 @@
-//! The rasterizer with one bug in it.
+//! The rasterizer with a planted bug.
 
 use super::mutant::Mutant;
 use super::plant::{Plant, all_draws};
@@ -20,7 +20,7 @@ pub struct MutantBackend {
 }
 
 impl MutantBackend {
-    /// Returns the rasterizer with the bug of this name; `None` if there is none.
+    /// Returns the rasterizer with the bug of this name; `None` if no bug has this name.
     pub fn new(name: &str) -> Option<Self> {
         let mutant = mutants().iter().find(|m| m.name == name)?;
         Some(Self {
@@ -30,7 +30,7 @@ impl MutantBackend {
         })
     }
 
-    /// Returns the scene that the bug turns a scene into.
+    /// Returns the scene that the bug makes of a scene.
     fn believed(&self, scene: &Scene) -> Scene {
         let before = self.before.replace(Some(scene.clone()));
         let mut believed = scene.clone();
@@ -44,8 +44,8 @@ impl MutantBackend {
     }
 }
 
-/// Reverts tests of aspects that a pass does not have, which no bug can make a driver test, and removes
-/// indices of vertices that a bug left out.
+/// Reverts tests of aspects that a pass lacks, which no bug can make a driver test, and removes indices of
+/// vertices that a bug removed.
 fn keep_possible(asked: &Scene, believed: &mut Scene) {
     for (pass, original) in believed.passes.iter_mut().zip(&asked.passes) {
         let format = pass.depth_stencil.map(|i| asked.attachments[i].format);
@@ -97,7 +97,7 @@ impl Backend for MutantBackend {
     }
 }
 
-/// A scene that is another one from some submission on.
+/// A scene that is replaced by another from some submission on.
 struct PreparedAgain<P> {
     right: P,
     wrong: P,
@@ -106,7 +106,7 @@ struct PreparedAgain<P> {
 }
 
 impl<P> PreparedAgain<P> {
-    /// The frame of the last submission.
+    /// Returns the frame of the last submission.
     fn drawn(&mut self) -> &mut P {
         if self.submissions >= self.from {
             &mut self.wrong

@@ -8,7 +8,7 @@ use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_scene::{DepthBias, PolygonMode};
 
-/// Changes the step of one encoding, given the right one and the largest depth of a primitive.
+/// Changes the step of one encoding, given the correct step and the largest depth of a primitive.
 fn step(encoding: ChannelEncoding, bug: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Plant {
     bias_unit(move |e, largest| {
         let right = Faithful.bias_unit(e, largest);
@@ -24,7 +24,7 @@ fn step(encoding: ChannelEncoding, bug: impl Fn(f64, f64) -> f64 + Send + Sync +
 const STEP: &str =
     "Vulkan: Depth Bias: r is one for the attachment and at most 2 * 2^-n for fixed point";
 
-/// Changes the constant where nothing is clamped.
+/// Changes the constant of biases without a clamp.
 fn constant(bug: fn(i32) -> f64) -> Plant {
     bias(move |state, unit, slope| {
         if state.clamp != 0.0 {
@@ -94,7 +94,7 @@ bugs! {
     ] {
         "float-step-{name}: On float depth, a step is {about}." => step(Float32, move |r, _| r * factor);
     }
-    // The text allows these steps one by one, but not beside each other in one attachment.
+    // The specification allows each of these steps, but not different ones in one attachment.
     source "a step of floats on fixed-point depth";
     for (name, about, factor as fn(f64) -> f64) in [
         ("far-doubled", "twice as large beyond depth 0.5", |z| if z > 0.5 { 2.0 } else { 1.0 }),

@@ -30,7 +30,7 @@ const ALPHA_OPERATION: Places<BlendOperation> = |d| {
         .collect()
 };
 
-/// Adds the swaps of factors, of colour and of alpha.
+/// Adds swaps of factors, for colour and for alpha.
 pub(super) fn factors(list: &mut List, pairs: &[(BlendFactor, BlendFactor)]) {
     let different = |(right, wrong): &(_, _)| !same_for_alpha(*right, *wrong);
     let (all, for_alpha) = (
@@ -43,7 +43,7 @@ pub(super) fn factors(list: &mut List, pairs: &[(BlendFactor, BlendFactor)]) {
     }
 }
 
-/// One side of the equations alone: the other's factors are zero, and the sides are added.
+/// Returns one side of the equations: the other side's factors are zero, and the sides are added.
 fn side(state: &BlendState, encodings: Encodings, input: &Input, source: bool) -> [f32; 4] {
     let mut state = *state;
     for component in [&mut state.color, &mut state.alpha] {
@@ -62,7 +62,7 @@ fn component(state: &BlendState, c: usize) -> &BlendComponent {
     if c == 3 { &state.alpha } else { &state.color }
 }
 
-/// The two sides joined.
+/// Combines the two sides.
 fn joined(operation: BlendOperation, s: f32, d: f32) -> f32 {
     match operation {
         BlendOperation::Add => s + d,
@@ -77,7 +77,7 @@ fn is_extreme(operation: BlendOperation) -> bool {
     [BlendOperation::Min, BlendOperation::Max].contains(&operation)
 }
 
-/// Changes what is blended, and in which encodings.
+/// Changes the inputs of blending, and their encodings.
 pub(super) fn before(
     bug: impl Fn(&BlendState, &mut Encodings, &mut Input) + Send + Sync + 'static,
 ) -> Plant {
@@ -103,12 +103,12 @@ fn is_saturated(factor: BlendFactor) -> bool {
     factor == BlendFactor::SrcAlphaSaturated
 }
 
-/// Replaces saturate in the equation of colour.
+/// Replaces the saturate factor in the colour equation.
 fn unsaturated(factor: BlendFactor) -> Plant {
     swapped(COLOR_FACTORS, BlendFactor::SrcAlphaSaturated, factor)
 }
 
-/// A source over a destination, by its alpha.
+/// Blends the source over the destination, by the source's alpha.
 pub(super) const OVER: BlendState = {
     let over = BlendComponent {
         operation: BlendOperation::Add,
@@ -200,12 +200,12 @@ bugs! {
         unsaturated(BlendFactor::SrcAlpha);
     "saturate-not-one-for-alpha: For alpha, saturate is computed as for colour." =>
         after(|state, encodings, input, result| {
-            // Alpha's equation on alpha's operands, computed as if it were red.
+            // The alpha equation with alpha's operands, computed as if they were red.
             let mut as_red = *input;
             (as_red.src[0], as_red.dst[0]) = (input.src[3], input.dst[3]);
             let both = BlendState { color: state.alpha, ..*state };
             let factors = [state.alpha.src_factor, state.alpha.dst_factor];
-            // Red's constant is not alpha's; where one takes part, the bug does not show.
+            // Red's constant differs from alpha's, so the bug does not show if a constant takes part.
             let constant = factors.iter().any(|f| f.name().contains("constant"));
             if factors.into_iter().any(is_saturated) && !constant {
                 result[3] = faithful_blend(&both, encodings, &as_red)[0];

@@ -1,11 +1,11 @@
-//! Bugs of one format or of one number of samples, which no other format or number shows.
+//! Bugs that only one format or one number of samples shows.
 
 use crate::list::bugs;
 use crate::plant::{Plant, contents, images_of};
 use etalon_frame::{Image, TextureFormat};
 use etalon_scene::{Attachment, Contents};
 
-/// Some attachments start from 0.
+/// Makes some attachments start from 0.
 fn uncleared(which: impl Fn(&Attachment) -> bool + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
         let strikes = which(attachment);
@@ -17,13 +17,13 @@ fn uncleared(which: impl Fn(&Attachment) -> bool + Send + Sync + 'static) -> Pla
     })
 }
 
-/// Each texel gets the codes of the one before.
+/// Gives each texel the codes of the previous one.
 fn one_on(image: &mut Image) {
     let texel = image.channels.len() * image.samples as usize;
     image.codes.rotate_right(texel);
 }
 
-/// The second sample of each texel gets the codes of the first.
+/// Gives the second sample of each texel the codes of the first.
 fn repeated(image: &mut Image) {
     let n = image.channels.len();
     for texel in image.codes.chunks_exact_mut(n * image.samples as usize) {

@@ -22,12 +22,12 @@ fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) 
     })
 }
 
-/// Moves the codes of some encodings and values.
+/// Moves the codes of some encodings and values by a number of steps.
 fn off(steps: i64, rounded: fn(ChannelEncoding, f32) -> bool) -> Plant {
     clear_code(move |e, v| nudge(e, code(e, v), if rounded(e, v) { steps } else { 0 }))
 }
 
-/// True if an encoding is one of depth. Colours of 32-bit floats count as depths too.
+/// Returns true for encodings of depth. Colours of 32-bit floats count as depths too.
 fn is_depth(encoding: ChannelEncoding) -> bool {
     matches!(encoding, Unorm(16 | 24) | Float32)
 }

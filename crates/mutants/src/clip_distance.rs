@@ -12,10 +12,10 @@ const VERTICES: Places<Vertex> = |d| {
     d.mesh.vertices.iter_mut().filter(|_| clips).collect()
 };
 
-/// The bits that switch distances on.
+/// The bits that enable clip distances.
 const ENABLES: Places<u8> = |d| vec![&mut d.clip_distances];
 
-/// Does not clip; where the shader has two distances, they become positive.
+/// Disables clipping. If the shader has two distances, they become positive.
 fn unclipped(draw: &mut Draw) {
     if draw.shader == Shader::ClipFlat {
         draw.mesh.vertices.iter_mut().for_each(|v| v.uv = [1.0; 2]);
@@ -23,7 +23,7 @@ fn unclipped(draw: &mut Draw) {
     draw.clip_distances = 0;
 }
 
-/// Changes each triangle of a list whose vertices have two distances.
+/// Changes each triangle of a list whose shader has two distances.
 fn triangles(bug: fn(&mut [Vertex])) -> Plant {
     draws(move |draw| {
         let triangles = draw.topology == PrimitiveTopology::TriangleList;

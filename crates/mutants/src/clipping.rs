@@ -1,33 +1,34 @@
-//! Bugs of clipping: vertices behind the eye, near its plane, and far beyond the picture.
+//! Bugs of clipping: vertices behind or near the eye, and vertices far outside the picture.
 
 use crate::fields::VERTICES;
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, draws, each};
 use etalon_scene::{Draw, PrimitiveTopology, Vertex};
 
-/// True if a vertex does not lie in front of the eye.
+/// Returns true if a vertex is not in front of the eye.
 fn is_behind(vertex: &Vertex) -> bool {
     vertex.position[3] <= 0.0
 }
 
-/// True if a vertex lies outside of the view volume.
+/// Returns true if a vertex is outside the view volume.
 fn is_outside(vertex: &Vertex) -> bool {
     let [x, y, z, w] = vertex.position;
     is_behind(vertex) || x.abs() > w || y.abs() > w || z < 0.0 || z > w
 }
 
-/// True if a vertex lies before the near or beyond the far plane, and not behind the eye.
+/// Returns true if a vertex is in front of the near plane or beyond the far plane, but not behind the eye.
 fn is_beyond_planes(vertex: &Vertex) -> bool {
     let [.., z, w] = vertex.position;
     w > 0.0 && (z < 0.0 || z > w)
 }
 
-/// Changes the triangles without indices of which a vertex is of a kind.
+/// Changes the triangles without indices that have a vertex for which `which` is true.
 fn triangles(which: fn(&Vertex) -> bool, bug: fn(&mut [Vertex])) -> Plant {
     draws(move |draw| change(draw, which, bug))
 }
 
-/// Changes the triangles without indices of which a vertex lies beyond a number of texels.
+/// Changes the triangles without indices that have a vertex farther from the viewport's middle than this
+/// many texels.
 fn far(texels: f32, bug: fn(&mut [Vertex])) -> Plant {
     draws(move |draw| {
         let half = draw.viewport.rect[2] / 2.0;
@@ -46,13 +47,13 @@ fn change(draw: &mut Draw, which: impl Fn(&Vertex) -> bool, bug: fn(&mut [Vertex
     }
 }
 
-/// Draws nothing of a primitive.
+/// Makes a primitive degenerate, so that nothing is drawn.
 fn lose(vertices: &mut [Vertex]) {
     let first = vertices[0];
     vertices.fill(first);
 }
 
-/// Moves vertices in front of the eye, whose places are given in texels from the middle of the viewport.
+/// Moves vertices in front of the eye, given their positions in texels from the middle of the viewport.
 fn places(moved: fn(f32) -> f32) -> Plant {
     draws(move |draw| {
         let [_, _, width, height] = draw.viewport.rect.map(|v| v / 2.0);
@@ -65,7 +66,7 @@ fn places(moved: fn(f32) -> f32) -> Plant {
     })
 }
 
-/// Divides a vertex behind the eye by its w.
+/// Divides the position of a vertex behind the eye by its w.
 fn mirrored(vertex: &mut Vertex) {
     let w = vertex.position[3];
     if w < 0.0 {

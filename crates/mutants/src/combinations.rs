@@ -1,4 +1,5 @@
-//! Bugs of states that a driver gets right alone and wrong together, and of passes that lack draws or colour.
+//! Bugs of states that a driver handles correctly alone but not together, and of passes without draws or
+//! without colour.
 
 use crate::fields::{FACES, FIELDS};
 use crate::list::bugs;
@@ -8,7 +9,7 @@ use etalon_scene::{CullMode, Draw, LoadOperation, Pass, Scene, Shader};
 /// The bit of alpha in a write mask.
 const ALPHA: u8 = 0b1000;
 
-/// Switches alpha to coverage off in some draws.
+/// Disables alpha to coverage in some draws.
 fn uncovered(strikes: fn(&Scene, &Pass, &Draw) -> bool) -> Plant {
     passes(move |scene, number, pass| {
         for draw in &mut pass.draws {
@@ -17,7 +18,7 @@ fn uncovered(strikes: fn(&Scene, &Pass, &Draw) -> bool) -> Plant {
     })
 }
 
-/// Leaves the fragment shader out where it draws without colour.
+/// Removes the fragment shader of some draws in passes without colour.
 fn shaderless(strikes: fn(Shader) -> bool) -> Plant {
     passes(move |_, _, pass| {
         let colorless = pass.color.is_empty();
@@ -32,7 +33,7 @@ fn shaderless(strikes: fn(Shader) -> bool) -> Plant {
     })
 }
 
-/// True of draws of which nothing is left.
+/// Returns true for draws that are discarded entirely.
 fn is_discarded(draw: &Draw) -> bool {
     draw.rasterizer_discard || draw.cull == CullMode::FrontAndBack
 }
@@ -97,7 +98,7 @@ bugs! {
             }
         }), area "scissor", source "guard bands around the middle of the viewport";
 
-    // State that a draw of which nothing is left leaves to the next.
+    // State that a draw that is discarded entirely leaves to the next draw.
     source "Adreno: state of a draw with rasterizer discard";
     let changed = ["viewport-rect", "viewport-depth", "scissor", "blend", "write-mask", "stencil-test"];
     let struck = FIELDS.iter().filter(|field| field.in_sequences() && changed.contains(&field.name));

@@ -6,7 +6,7 @@ use crate::plant::{Plant, draws, each, set};
 use crate::tables::{pairs, turned};
 use etalon_scene::{CullMode, Draw, FrontFace, PrimitiveTopology, PrimitiveVertices, Shader};
 
-/// Turns a strip into a list of triangles, given each one's number and indices.
+/// Converts a strip to a list of triangles. `order` gets each triangle's number and indices.
 fn unstripped(draw: &mut Draw, order: impl Fn(usize, [usize; 3]) -> Option<[usize; 3]>) {
     if draw.topology != PrimitiveTopology::TriangleStrip {
         return;

@@ -11,7 +11,7 @@ const VERTICES: Places<Vertex> = |d| {
     d.mesh.vertices.iter_mut().filter(|_| culls).collect()
 };
 
-/// Culls each triangle of a list of which a vertex has a negative distance.
+/// Culls each triangle of a list that has a vertex with a negative distance.
 fn cull_by_one(draw: &mut Draw) {
     let culls = draw.shader.cull_distances() > 0;
     if culls && draw.topology == PrimitiveTopology::TriangleList {

@@ -9,7 +9,7 @@ use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_pipeline::compare;
 use etalon_scene::{CompareFunction, DepthState, Shader};
 
-/// Replaces the conversion to one encoding.
+/// Replaces the conversion of depths to one encoding.
 fn stored(encoding: ChannelEncoding, bug: impl Fn(f32) -> u32 + Send + Sync + 'static) -> Plant {
     depth_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
 }
@@ -50,7 +50,7 @@ bugs! {
     "shader-depth-ignored: The depth that the shader writes is ignored." =>
         draws(|draw| draw.shader = Shader::UniformColor),
         source "the vertex depth kept despite a written one", when |draw| draw.shader == Shader::FlatColorDepth;
-    // Only draws with a stencil test show it.
+    // Only draws with a stencil test show this bug.
     "written-before-stencil-decides: Depth is written before the stencil test." =>
         written(|[covered, stencil, depth]| [covered && stencil && depth, covered && depth]),
         source "v3d: early depth against stencil writes", area "stencil";

@@ -5,7 +5,7 @@ use crate::list::bugs;
 use crate::plant::Plant;
 use crate::tables::second_source_neighbours;
 
-/// Changes the sources of blends that take the second one.
+/// Changes the sources of blends that use the second source.
 fn sources(bug: fn(&mut Input)) -> Plant {
     before(move |state, _, input| {
         let factors = [state.color, state.alpha].map(|c| [c.src_factor, c.dst_factor]);

@@ -1,4 +1,4 @@
-//! The fields of a draw: where they stand, and which of them may be stale.
+//! The fields of a draw: their places, and which of them can be stale.
 
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, ColorTarget, CompareFunction, CullMode, DepthBias,
@@ -6,10 +6,10 @@ use etalon_scene::{
     Sampler, StencilFace, StencilOperation, StencilState, Vertex,
 };
 
-/// The places of a field in a draw: none where it is off, several where each face or target has its own.
+/// Returns the places of a field in a draw: none if it is off, several if each face or target has its own.
 pub(super) type Places<T> = for<'a> fn(&'a mut Draw) -> Vec<&'a mut T>;
 
-/// Declares [`Places`] by what iterates over them.
+/// Declares [`Places`] from expressions that can be iterated.
 macro_rules! places {
     ($($name:ident: $type:ty = |$draw:ident| $places:expr;)+) => {
         $(pub(super) const $name: Places<$type> = |$draw| $places.into_iter().collect();)+
@@ -57,47 +57,47 @@ places! {
     COVERAGE: Option<SampleCoverage> = |d| [&mut d.multisample.sample_coverage];
 }
 
-/// Takes a field over from another draw.
+/// Copies a field from another draw.
 pub(super) type Take = fn(&Draw, &mut Draw);
 
-/// Where cases show that a field is stale.
+/// The cases that show that a field is stale.
 #[derive(PartialEq)]
 pub(super) enum Shows {
-    /// In its area, whose cases follow each other with other values of it.
+    /// Cases of its area, which change it from one case to the next.
     Cases,
-    /// In the area `sequence`, whose cases change it between draws and between passes.
+    /// Cases of the area `sequence`, which change it between draws and between passes.
     Sequences,
     Both,
 }
 
-/// A field that may be stale.
+/// A field that can be stale.
 pub(super) struct Field {
     pub(super) shows: Shows,
     pub(super) area: &'static str,
     pub(super) name: &'static str,
     pub(super) take: Take,
-    /// Takes it over where it is switched off, that is, has its default value.
+    /// Copies the field only if the draw has it off, that is, at its default.
     pub(super) take_when_off: Option<Take>,
 }
 
 impl Field {
-    /// The name in a sentence.
+    /// Returns the name for use in a sentence.
     pub(super) fn words(&self) -> String {
         self.name.replace('-', " ")
     }
 
-    /// True if cases of its area show it.
+    /// Returns true if cases of its area show it.
     pub(super) fn in_cases(&self) -> bool {
         self.shows != Shows::Sequences
     }
 
-    /// True if sequences show it.
+    /// Returns true if sequences show it.
     pub(super) fn in_sequences(&self) -> bool {
         self.shows != Shows::Cases
     }
 }
 
-/// Takes over what stands in the same places of another draw.
+/// Copies a part of each of a field's places from another draw.
 fn part<T>(places: Places<T>, before: &Draw, draw: &mut Draw, part: fn(&mut T, &T)) {
     let mut before = before.clone();
     let places = places(draw).into_iter().zip(places(&mut before));
@@ -110,8 +110,9 @@ fn take_default<T: Clone + Default + PartialEq>(to: &mut T, from: &T) {
     }
 }
 
-/// Writes a [`Take`]: of a field of the draw (`.field`), of places (`in PLACES`), of a field of what stands there
-/// (`in PLACES.field`, with `?` where it may be off on either side), or of anything else (`= function`).
+/// Writes a [`Take`] that copies a field of the draw (`.field`), whole places (`in PLACES`), a field of
+/// each place (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
+/// function`).
 macro_rules! take {
     (.$($field:tt)+) => { |before, draw| draw.$($field)+.clone_from(&before.$($field)+) };
     (in $places:ident) => { |before, draw| part($places, before, draw, Clone::clone_from) };
@@ -126,7 +127,7 @@ macro_rules! take {
     (= $take:expr) => { $take };
 }
 
-/// Lists fields by area, those that may be switched off in places of their own (`off PLACES`).
+/// Lists fields by area. Fields that can be switched off name the places for this (`off PLACES`).
 macro_rules! fields {
     ($($area:literal { $($shows:ident $name:literal $take:tt $(off $places:ident)?;)+ })+) => {
         pub(super) const FIELDS: &[Field] = &[$($(Field {
@@ -223,7 +224,7 @@ fields! {
         Sequences "sampler-filter" (in SAMPLER.filter);
         Sequences "sampler-address-across" (in SAMPLER.address[0]);
         Sequences "sampler-address-down" (in SAMPLER.address[1]);
-        // What follows is taken over where the scene stays one that a driver could be asked for.
+        // These fields are copied only if the scene remains valid.
         Sequences "shader" (= |before, draw| {
             let textures = before.shader.textures() == draw.shader.textures();
             if textures && before.shader.counts_runs() == draw.shader.counts_runs() {

@@ -34,7 +34,7 @@ const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
     ("ufloat10", Ufloat(5), 3),
 ];
 
-/// Replaces the store of one encoding.
+/// Replaces the conversion of stored colours to one encoding.
 pub(super) fn store(
     encoding: ChannelEncoding,
     bug: impl Fn(f32) -> u32 + Send + Sync + 'static,
@@ -42,7 +42,7 @@ pub(super) fn store(
     color_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
 }
 
-/// Replaces the destination value that a blend reads of one encoding.
+/// Replaces the conversion of destination values of one encoding for blending.
 fn read(encoding: ChannelEncoding, bug: impl Fn(u32) -> f32 + Send + Sync + 'static) -> Plant {
     color_value(move |e, c| if e == encoding { bug(c) } else { value(e, c) })
 }
@@ -55,7 +55,7 @@ fn is_signed(encodings: Encodings) -> bool {
     encodings[0] == Snorm(8)
 }
 
-/// Changes what is blended with floats.
+/// Changes the inputs of blending with float attachments.
 fn float_inputs(bug: fn(&mut Input)) -> Plant {
     before(move |_, encodings, input| {
         if encodings[0].is_float() {
@@ -64,7 +64,7 @@ fn float_inputs(bug: fn(&mut Input)) -> Plant {
     })
 }
 
-/// Changes the results of blending floats.
+/// Changes the results of blending with float attachments.
 fn float_results(bug: fn(f32) -> f32) -> Plant {
     after(move |_, encodings, _, result| {
         if encodings[0].is_float() {
@@ -73,10 +73,10 @@ fn float_results(bug: fn(f32) -> f32) -> Plant {
     })
 }
 
-/// Replaces the rounding of signed values.
+/// Replaces the rounding of values of signed formats.
 fn signed(round: fn(f32) -> f32) -> Plant {
     store(Snorm(8), move |v| {
-        // Codes are rounded, so that the product's last bit does not matter.
+        // Nearly exact codes are rounded first, so that the product's last bit does not matter.
         let exact = v.clamp(-1.0, 1.0) * 127.0;
         let near = exact.round();
         let whole = (exact - near).abs() < 1e-4;
@@ -90,7 +90,7 @@ fn value(encoding: ChannelEncoding, code: u32) -> f32 {
     value
 }
 
-/// The sRGB-encoded value of a linear one, and back, as an 8-bit texture unit would convert them.
+/// Converts a linear value to sRGB, clamped to 0 to 1; `linear` is the inverse.
 fn encoded(linear: f32) -> f32 {
     etalon_frame::linear_to_srgb(f64::from(linear.clamp(0.0, 1.0))) as f32
 }
@@ -99,7 +99,7 @@ fn linear(encoded: f32) -> f32 {
     etalon_frame::srgb_to_linear(f64::from(encoded.clamp(0.0, 1.0))) as f32
 }
 
-/// Returns the input clamped to a lower end and 1.
+/// Clamps the inputs to the range from `low` to 1.
 fn clamp(input: &Input, low: f32) -> Input {
     let held = |values: [[f32; 1]; 4]| values.map(|[v]| [v.clamp(low, 1.0)]);
     BlendInput {
@@ -110,7 +110,7 @@ fn clamp(input: &Input, low: f32) -> Input {
     }
 }
 
-/// The code next to a value on the side of 0.
+/// Rounds a value to a code, towards 0.
 fn truncated(encoding: ChannelEncoding, v: f32) -> u32 {
     let v = f64::from(v);
     let order = if v < 0.0 {
@@ -196,7 +196,7 @@ bugs! {
         "unorm{bits}-destination-truncated: Destinations of {bits} bits are read as the upper of 8." =>
             read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0),
             source "SwiftShader: 565/5551 blended on truncated bits";
-        // Four bits repeated are exactly their value.
+        // For four bits, repeating the bits gives the exact value.
         if (bits > 4) {
             "unorm{bits}-destination-replicated: Destinations of {bits} bits are read as 8 that repeat them." =>
                 read(Unorm(bits), move |c| (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0),

@@ -1,11 +1,11 @@
-//! Bugs of dynamic state: what a pipeline holds acts, or what was set for another draw.
+//! Bugs of dynamic state: a draw uses the pipeline's static value, or the value set for another draw.
 
 use crate::fields::{BLEND, WRITE_MASK};
 use crate::list::bugs;
 use crate::plant::{Plant, draws, each, passes, set};
 use etalon_scene::{ColorTarget, LogicOperation};
 
-/// Changes the targets of each draw of a pass after the first, given those of that one.
+/// Changes the targets of each draw after the first in a pass, given the first draw's targets.
 fn of_first(bug: fn(&mut ColorTarget, &ColorTarget)) -> Plant {
     passes(move |scene, number, pass| {
         for draw in pass.draws.iter_mut().skip(1) {

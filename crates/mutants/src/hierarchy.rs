@@ -1,7 +1,8 @@
-//! Bugs of a coarse depth: a least and a greatest depth for each tile, by which whole tiles are rejected.
+//! Bugs of a coarse depth buffer, which stores the least and the greatest depth of each tile to reject
+//! whole tiles.
 //!
-//! The rasterizer has none, so these bugs bring one: without a bug it changes no frame, since it only
-//! rejects tiles in which no fragment passes. Each bug makes it wrong in one way.
+//! The rasterizer has no such buffer, so these bugs add one. Without a bug it changes no frame, since it
+//! only rejects tiles in which no fragment passes. Each bug makes it wrong in one way.
 
 use crate::aspects::reaches;
 use crate::hooks::code;
@@ -21,40 +22,40 @@ use etalon_scene::{
 /// A least and a greatest code.
 type Range = [u32; 2];
 
-/// True of the draws that a bug strikes, given the number of the pass.
+/// Returns true for the draws that a bug affects, given the pass index.
 type Strikes = fn(usize, &Draw) -> bool;
 
-/// The parts of a coarse depth of which each may be wrong.
+/// A coarse depth buffer. Each of its parts can be wrong.
 #[derive(Clone, Copy)]
 struct Unit {
     /// The side of a tile, in texels.
     side: usize,
-    /// What these draws write is not noted.
+    /// The draws whose writes are not recorded.
     missed: Strikes,
-    /// Of these draws, every fragment of every tile that they touch is noted as written.
+    /// The draws for which every fragment of every tile that they touch is recorded as written.
     overrated: Strikes,
-    /// The comparison of a draw, given the depth test of the draw before.
+    /// Returns the comparison that is used for a draw, given the previous draw's depth test.
     compare: fn(Option<DepthState>, CompareFunction) -> CompareFunction,
-    /// True if draws whose shader writes depth are tested by the depth of their vertices.
+    /// True if draws whose shader writes depth are tested with the depths of their vertices.
     trusts_vertices: bool,
-    /// True if a draw is rejected beyond what is right, given its depths and those stored.
+    /// Returns true if a draw is rejected by mistake, given its depths and the stored ones.
     also: fn(CompareFunction, Range, Range) -> bool,
-    /// The depth that is noted for the initial clear.
+    /// The depth that is recorded for the initial clear.
     initial: Option<f32>,
-    /// True if a pass change brings back what the initial clear left.
+    /// True if a new pass resets the ranges to those after the initial clear.
     forgets: bool,
-    /// Tiles beyond this many in a row are those of the row's start.
+    /// The number of tiles per row; further tiles share the entries at the start of the row.
     columns: usize,
-    /// True if tiles that extend beyond the attachment are not noted after the initial clear.
+    /// True if tiles that extend beyond the attachment are not recorded after the initial clear.
     misses_edges: bool,
-    /// True if the clear of a load operation is not noted.
+    /// True if the clear of a load operation is not recorded.
     misses_loads: bool,
-    /// True if rejected tiles lose their stencil operation.
+    /// True if rejected tiles skip their stencil operation.
     loses_stencil: bool,
 }
 
 impl Default for Unit {
-    /// A coarse depth without a bug.
+    /// Returns a coarse depth without a bug.
     fn default() -> Self {
         Self {
             side: 8,
@@ -73,16 +74,16 @@ impl Default for Unit {
     }
 }
 
-/// The coarse depth of one prepared scene.
+/// The coarse depth buffer of one prepared scene.
 #[derive(Default)]
 struct Coarse {
     unit: Unit,
-    /// The ranges of each attachment's tiles, row by row; empty without depth.
+    /// The ranges of each attachment's tiles, row by row; empty for attachments without depth.
     maps: Vec<Vec<Range>>,
     /// The maps after the initial clear.
     initial: Vec<Vec<Range>>,
     before: Option<DepthState>,
-    /// The tiles that are rejected, and the attachments as they are before the draw.
+    /// The tiles that are rejected, and copies of the attachments before the draw.
     rejected: Vec<Area>,
     kept: Vec<(usize, Surface)>,
 }
@@ -103,7 +104,7 @@ fn range(surface: &Surface, area: Area) -> Range {
     })
 }
 
-/// True if no depth of a draw passes against any stored one.
+/// Returns true if no depth of a draw passes against any stored depth.
 fn rejects(compare: CompareFunction, [lo, hi]: Range, [min, max]: Range) -> bool {
     match compare {
         CompareFunction::Never => true,
@@ -166,7 +167,7 @@ impl Coarse {
         }
     }
 
-    /// Notes the depths of an attachment.
+    /// Records the depths of an attachment.
     fn note(&mut self, scene: &Scene, index: usize, surfaces: &[Surface]) {
         if encoding(scene, index).is_none() {
             return;
@@ -185,8 +186,8 @@ impl Coarse {
         }
     }
 
-    /// Returns the tiles that a draw touches, with the range of its depths there; nothing if a vertex is not in
-    /// front.
+    /// Returns the tiles that a draw touches, with the range of its depths in each; empty if any vertex is
+    /// not in front of the eye.
     fn touched(
         &self,
         encoding: ChannelEncoding,
@@ -276,7 +277,7 @@ impl Coarse {
         }
     }
 
-    /// Notes what a draw wrote.
+    /// Records what a draw wrote.
     fn drawn(&mut self, scene: &Scene, number: usize, draw: &Draw, surfaces: &[Surface]) {
         let (Some(index), Some(depth)) = (scene.passes[number].depth_stencil, draw.depth) else {
             return;

@@ -1,4 +1,4 @@
-//! The rasterizer's steps with one of them replaced.
+//! The rasterizer's steps, with one of them replaced.
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{
@@ -13,9 +13,9 @@ use etalon_scene::{
 };
 use std::array::from_fn;
 
-/// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
-/// function returns anything made from hooks, so that this file does not depend on `plant`. A replacement
-/// has the arguments of its step, or works on single texels.
+/// Declares the replaceable steps: for each, a field of [`Hooks`] and a function that replaces it. The
+/// function returns anything that can be made from hooks, so that this file does not depend on `plant`. A
+/// replacement has the arguments of its step, or works on single texels.
 macro_rules! hooks {
     (
         whole { $($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)+ }
@@ -24,7 +24,7 @@ macro_rules! hooks {
             $step:ident($($step_argument:ident: $step_type:ty),*) -> $step_result:ty = |$bug:ident| $replaced:expr;
         )+ }
     ) => {
-        /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
+        /// Replacements of single steps, one texel at a time. Planted bugs need not be fast.
         #[derive(Default)]
         pub(super) struct Hooks {
             $($name: Option<Box<dyn Fn($($type),*) -> $result + Send + Sync>>,)+
@@ -63,11 +63,11 @@ hooks! {
     whole {
         /// The stencil reference of a fragment whose shader writes one.
         exported(of: &Exported) -> u8;
-        /// True if a bit of the sample mask that a shader reads is set.
+        /// Whether a bit of the sample mask that a shader reads is set.
         input_bit(of: &InputBit) -> bool;
         /// The stencil test.
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
-        /// The stencil update, write mask and all.
+        /// The stencil update, including the write mask.
         stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
         /// The depth comparison of codes, incoming first.
         depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
@@ -79,39 +79,39 @@ hooks! {
         bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
         /// The depth bias, given the least step and the slope.
         bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
-        /// True if points and lines are biased.
+        /// Whether points and lines are biased.
         biases_lines() -> bool;
-        /// True if points and lines face front.
+        /// Whether points and lines face front.
         lines_face_front() -> bool;
         /// The clamping of a depth to the viewport's range.
         held_to_range(depth: f32, range: [f32; 2]) -> f32;
         /// The depth bounds test, given the bounds, the stored and the incoming depth.
         in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
-        /// True if fragments outside the depth bounds count as failing the depth test.
+        /// Whether fragments outside the depth bounds count as failing the depth test.
         bounds_fail_as_depth() -> bool;
         /// The positions of samples, in 1/256 texel.
         sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-        /// True if a sample is drawn, given its index and the number of samples.
+        /// Whether a sample is drawn, given its index and the number of samples.
         sample_drawn(state: &Multisample, sample: usize, samples: usize) -> bool;
-        /// The sample at whose position a run takes its inputs, given its first sample and the number of
-        /// samples; `None` for the centre.
+        /// The sample at whose position a shader run takes its inputs, given its first sample and the
+        /// number of samples; `None` for the centre.
         shaded_at(state: &Multisample, first: usize, samples: usize) -> Option<usize>;
         /// The sample whose stored value a sample's test or blend reads.
         stored_sample(aspect: Aspect, sample: usize) -> usize;
         /// The sample at whose position a sample's depth is taken, given the number of samples.
         depth_sample(sample: usize, samples: usize) -> usize;
-        /// The interpolation of a shader's texture coordinates, and the points at which they are taken.
+        /// The interpolation of a shader's texture coordinates, and the points at which they are sampled.
         interpolation(shader: Shader) -> (Interpolation, InterpolationSampling);
         /// A channel of a resolved texel.
         resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
     }
     texels {
-        /// Coverage, restricted to texels of which `bug([x, y], [width, height])` is true.
+        /// Coverage, restricted to texels for which `bug([x, y], [width, height])` is true.
         covered([u32; 2], [u32; 2]) -> bool:
         covered(x: usize, y: usize, size: [u32; 2], mask: Mask) -> Mask =
             |bug| from_fn(|i| mask[i] && bug([(x + i) as u32, y as u32], size));
 
-        /// Texels are fetched from `bug([x, y], [width, height])`.
+        /// Fetches, redirected to `bug([x, y], [width, height])`.
         fetch([u32; 2], [u32; 2]) -> [u32; 2]:
         fetch(surface: &Surface, x: usize, y: usize) -> [Real; 4] = |bug| {
             let size = [surface.width as u32, surface.height as u32];
@@ -164,35 +164,35 @@ hooks! {
         second_source(state: &Multisample, second: [Real; 4]) -> [Real; 4] =
             |bug| planes(from_fn(|i| bug(state, second.map(|plane| plane[i]))));
 
-        /// Logic operations, given whether they apply to the attachment, and the codes of source and
-        /// destination.
+        /// Logic operations, given whether they apply to the attachment, the encoding, and the codes of
+        /// source and destination.
         logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32:
         logic(
             obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, src: Codes, dst: Codes
         ) -> Codes = |bug| from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i]));
 
-        /// True if a fragment's alpha covers a sample, given its index and the number of samples.
+        /// Whether a fragment's alpha covers a sample, given its index and the number of samples.
         alpha_covers(f32, usize, usize) -> bool:
         alpha_covers(alpha: Real, sample: usize, samples: usize) -> Mask = |bug| alpha.map(|a| bug(a, sample, samples));
 
-        /// The number of runs of a shader that share a texel, given the number of samples.
+        /// The number of shader runs per texel, given the number of samples.
         shader_runs(Shader, &Multisample, usize) -> usize:
         shader_runs(shader: Shader, state: &Multisample, samples: usize) -> usize =
             |bug| bug(shader, state, samples).clamp(1, samples);
 
-        /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
-        /// index and the number of samples.
+        /// Whether a shader's sample mask keeps a sample, given the written mask, the sample's index and
+        /// the number of samples.
         mask_keeps(u32, usize, usize) -> bool:
         mask_keeps(mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask =
             |bug| mask.bits.map(|bits| bug(mask.written(bits as u32), sample, samples));
 
-        /// True if a shader keeps a fragment, given the value and its limit.
+        /// Whether a shader keeps a fragment, given the value and its limit.
         kept(f32, f32) -> bool:
         kept(kept: &Kept<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
     }
 }
 
-/// Returns the planes of the colours of texels.
+/// Transposes the colours of texels into planes.
 fn planes(texels: [[f32; 4]; LANES]) -> [Real; 4] {
     from_fn(|c| texels.map(|texel| texel[c]))
 }

@@ -1,4 +1,4 @@
-//! Bugs of interpolation: the way in which attributes vary over a primitive, and where they are taken.
+//! Bugs of interpolation: how attributes vary over a primitive, and where they are sampled.
 
 use crate::fields::{Places, VERTICES};
 use crate::hooks::interpolation;
@@ -14,7 +14,7 @@ const READ: Places<Vertex> = |d| {
     d.mesh.vertices.iter_mut().filter(|_| reads).collect()
 };
 
-/// Takes what is interpolated at samples elsewhere.
+/// Moves per-sample interpolation to other points.
 fn sampled(elsewhere: InterpolationSampling) -> Plant {
     interpolation(
         move |shader: Shader| match shader.interpolation_sampling() {

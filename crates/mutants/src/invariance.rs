@@ -1,4 +1,4 @@
-//! Bugs that leave each frame legal and make it differ from another one.
+//! Bugs that leave each frame legal but different from another frame.
 
 use crate::list::{SMALL, bugs};
 use crate::plant::{Plant, frames, nudge};
@@ -6,7 +6,7 @@ use etalon_frame::{Aspect, Image};
 use etalon_scene::{Contents, Draw, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Raises what lies between the ends by one step, in some images of some scenes.
+/// Raises all values that are not at an end of their range by one step, in some images of some scenes.
 fn steps(
     when: impl Fn(&Scene) -> bool + Send + Sync + 'static,
     which: fn(&Scene, &Image) -> bool,

@@ -1,4 +1,4 @@
-//! The list of mutants while the classes add theirs.
+//! The list of mutants while classes add to it.
 
 use crate::fields::Places;
 use crate::mutant::Mutant;
@@ -6,12 +6,12 @@ use crate::plant::{Plant, swapped};
 use etalon_scene::Draw;
 use std::fmt::Display;
 
-/// The source of a bug that no driver is known to have shipped.
+/// The source of a bug that no driver is known to have had.
 pub(super) const CONFUSION: &str = "a likely mistake, known from no driver";
 /// The source of a bug too small for suites with thresholds.
 pub(super) const SMALL: &str = "a small error, below the thresholds of other suites";
 
-/// Offsets of small errors in codes.
+/// The sizes of small errors, in codes.
 pub(super) const STEPS: [(&str, i64); 4] = [
     ("plus-1", 1),
     ("minus-1", -1),
@@ -19,14 +19,14 @@ pub(super) const STEPS: [(&str, i64); 4] = [
     ("minus-3", -3),
 ];
 
-/// The clause that lets conversions round either way.
+/// The clause that lets conversions round in either direction.
 pub(super) const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
                                   Fixed-Point: one of the two closest values, the nearest only recommended";
 /// The clause that lets blending be as coarse as the destination.
 pub(super) const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
                                     destination components, read as codes of the destination";
 
-/// The mutants so far, and the class, area and source of those that follow.
+/// The mutants so far, and the class, area and source of the next ones.
 #[derive(Debug, Default)]
 pub(super) struct List {
     class: &'static str,
@@ -36,12 +36,12 @@ pub(super) struct List {
 }
 
 impl List {
-    /// Sets the class of the mutants that follow, and the area that must catch them.
+    /// Sets the class of the following mutants, and the area that must catch them.
     pub(super) fn class(&mut self, class: &'static str, area: &'static str) {
         (self.class, self.area, self.source) = (class, area, CONFUSION);
     }
 
-    /// Sets the source of the mutants that follow in the class.
+    /// Sets the source of the following mutants in the class.
     pub(super) fn source(&mut self, source: &'static str) {
         self.source = source;
     }
@@ -62,8 +62,8 @@ impl List {
         });
     }
 
-    /// Adds a mutant for each pair of values: a field that is the first acts as the second. `name` and
-    /// `about` say which field it is.
+    /// Adds a mutant for each pair of values, which uses the second value in place of the first. `name` and
+    /// `about` identify the field.
     pub(super) fn swaps<T: Copy + PartialEq + Display + Send + Sync + 'static>(
         &mut self,
         name: &str,
@@ -78,14 +78,14 @@ impl List {
     }
 }
 
-/// What a mutant has of its own.
+/// Facts that differ from those of the class.
 #[derive(Default)]
 pub(super) struct Facts {
     pub(super) source: Option<&'static str>,
     pub(super) area: Option<&'static str>,
     /// The clause that allows it.
     pub(super) legal: Option<&'static str>,
-    /// True of the draws that it strikes.
+    /// Returns true for the draws that it affects.
     pub(super) when: Option<fn(&Draw) -> bool>,
 }
 
@@ -99,10 +99,11 @@ macro_rules! bugs {
     };
 }
 
-/// Adds rows of mutants to a list: `"name: The effect." => plant, fact value;`, where `{…}` in the text stands for a
-/// variable and facts are those of [`Facts`]. Between them stand the class and source of what follows, loops over rows
-/// (where an entry's function has a type, `for (name, bug as type)`), conditions, variables, functions that add more
-/// (`also`) and fields whose values act as others (`swaps`).
+/// Adds rows of mutants to a list: `"name: The effect." => plant, fact value;`, in which `{…}` in the text
+/// is replaced by a variable, and facts are those of [`Facts`]. Other entries set the class or the source
+/// of the following rows, loop over rows (with a type if an entry has a function: `for (name, bug as
+/// type)`), test conditions, define variables, call functions that add more rows (`also`), or swap values
+/// of fields (`swaps`).
 macro_rules! rows {
     ($list:ident;) => {};
     ($list:ident; class $class:literal, $area:expr; $($rest:tt)*) => {

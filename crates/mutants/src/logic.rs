@@ -18,7 +18,7 @@ fn right(obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, s: u
     }
 }
 
-/// Returns the result of an operation on a number of bits.
+/// Returns the result of an operation on this number of bits.
 fn bits(bits: u8, operation: LogicOperation, s: u32, d: u32) -> u32 {
     logic_operation(ChannelEncoding::Unorm(bits), operation, s, d)
 }

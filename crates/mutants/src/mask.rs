@@ -11,7 +11,7 @@ fn masks(bug: impl Fn(u8) -> u8 + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// The mask with two of its bits exchanged.
+/// Returns the mask with two of its bits exchanged.
 fn exchanged(mask: u8, a: u8, b: u8) -> u8 {
     let bit = |n: u8| mask >> n & 1;
     (mask & !(1 << a | 1 << b)) | bit(a) << b | bit(b) << a

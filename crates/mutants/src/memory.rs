@@ -1,7 +1,7 @@
-//! Bugs of what is stored: attachments and counters, changed between the draws.
+//! Bugs of stored data: attachments and counters that change between draws.
 //!
-//! A driver's memory of an attachment is more than its texels: caches, cleared tiles, coarse depths. A bug
-//! there shows when something else is done first, so such a bug remembers what it has seen.
+//! A driver stores more for an attachment than its texels: caches, cleared tiles, coarse depths. A bug
+//! there shows only after something else was done, so such a bug remembers what it has seen.
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Steps, Stored};
@@ -15,7 +15,7 @@ pub(super) struct Memory(RefCell<Box<Bug>>);
 type Bug = dyn FnMut(Moment, &Scene, Stored<'_>);
 
 impl Memory {
-    /// Returns a bug that is told of every moment.
+    /// Creates a bug that is called at every moment.
     pub(super) fn new(bug: impl FnMut(Moment, &Scene, Stored<'_>) + 'static) -> Self {
         Self(RefCell::new(Box::new(bug)))
     }
@@ -27,7 +27,7 @@ impl Steps for Memory {
     }
 }
 
-/// Left, top, right and bottom of texels; the last two are exclusive.
+/// Left, top, right and bottom in texels; right and bottom are exclusive.
 pub(super) type Area = [usize; 4];
 
 /// Returns the texels of an area of a surface, row by row.
@@ -40,7 +40,7 @@ pub(super) fn texel_rows(
     (top..bottom.min(surface.height)).map(move |y| y * stride + left..y * stride + right)
 }
 
-/// Copies the texels of an area, all aspects and samples.
+/// Copies the texels of an area, with all aspects and samples.
 pub(super) fn copy(from: &Surface, to: &mut Surface, area: Area) {
     for texels in texel_rows(from, area) {
         for (to, from) in to.planes.iter_mut().zip(&from.planes) {

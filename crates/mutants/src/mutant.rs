@@ -9,9 +9,9 @@ pub struct Mutant {
     pub name: String,
     /// The effect, in one sentence.
     pub about: String,
-    /// The driver that shipped it, or the kind of mistake.
+    /// The driver that had it, or the kind of mistake.
     pub source: &'static str,
-    /// The area whose cases alone must catch it.
+    /// The area whose cases must be enough to catch it.
     pub area: &'static str,
     /// The clause that allows it; `None` if it must be caught.
     pub legal: Option<&'static str>,

@@ -1,4 +1,4 @@
-//! Planting a bug: in the scene, in a step, or in the frame.
+//! Planting a bug in the scene, in a step, or in the frame.
 
 use crate::fields::Places;
 use crate::hooks::Hooks;
@@ -15,15 +15,15 @@ type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
-    /// The driver draws another scene, given the one that it has drawn before.
+    /// The driver draws another scene, given the previously drawn one.
     Scene(Box<SceneBug>),
     /// Every draw is changed.
     Draws(Box<DrawBug>),
-    /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
+    /// The driver draws another scene, starting at this submission of a prepared scene, counted from 1.
     Again(u32, Box<SceneBug>),
     /// A step of the rasterizer is replaced.
     Steps(Box<Hooks>),
-    /// What a submission has stored is changed. Each prepared scene has a bug of its own, which may
+    /// The data that a submission has stored is changed. Each prepared scene has its own bug, which can
     /// remember earlier moments and submissions.
     Memory(Box<MemoryBug>),
     /// The frame is changed when it is read back.
@@ -37,7 +37,7 @@ impl fmt::Debug for Plant {
 }
 
 impl Plant {
-    /// Restricts a bug of draws to some of them.
+    /// Restricts a bug of draws to draws for which `strikes` is true.
     pub(super) fn when(self, strikes: fn(&Draw) -> bool) -> Self {
         let Self::Draws(bug) = self else {
             return self;
@@ -56,7 +56,7 @@ impl From<Hooks> for Plant {
     }
 }
 
-/// Changes what is stored at some moments. Each prepared scene has a state of its own.
+/// Changes stored data at some moments. Each prepared scene has its own state.
 pub(super) fn memory<S: Default + 'static>(
     bug: impl Fn(&mut S, Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
 ) -> Plant {
@@ -71,12 +71,12 @@ pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
     Plant::Scene(Box::new(move |_, scene| bug(scene)))
 }
 
-/// Changes the scene from a submission on.
+/// Changes the scene, starting at a submission.
 pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
     Plant::Again(from, Box::new(move |_, scene| bug(scene)))
 }
 
-/// Changes every pass, given the scene that is asked for and the number of the pass.
+/// Changes every pass, given the original scene and the index of the pass.
 pub(super) fn passes(bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
         let asked = scene.clone();
@@ -96,7 +96,7 @@ pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
     Plant::Draws(Box::new(bug))
 }
 
-/// Changes a field of every draw, wherever the draw has it.
+/// Changes a field of every draw that has it.
 pub(super) fn each<T: 'static>(
     field: Places<T>,
     bug: impl Fn(&mut T) + Send + Sync + 'static,
@@ -104,7 +104,7 @@ pub(super) fn each<T: 'static>(
     draws(move |draw| field(draw).into_iter().for_each(&bug))
 }
 
-/// Gives a field of a draw a value.
+/// Returns a function that sets a field of a draw to a value.
 pub(super) fn put<T: Copy + Send + Sync + 'static>(
     field: Places<T>,
     value: T,
@@ -112,12 +112,12 @@ pub(super) fn put<T: Copy + Send + Sync + 'static>(
     move |draw| field(draw).into_iter().for_each(|place| *place = value)
 }
 
-/// Gives a field of every draw a value.
+/// Sets a field of every draw to a value.
 pub(super) fn set<T: Copy + Send + Sync + 'static>(field: Places<T>, value: T) -> Plant {
     draws(put(field, value))
 }
 
-/// Lets one value of a field act as another.
+/// Makes one value of a field act as another.
 pub(super) fn swapped<T: Copy + PartialEq + Send + Sync + 'static>(
     field: Places<T>,
     right: T,
@@ -143,7 +143,7 @@ pub(super) fn sized(bug: impl Fn(&mut Draw, [u32; 2]) + Send + Sync + 'static) -
     })
 }
 
-/// Changes what attachments start from.
+/// Changes the initial contents of attachments.
 pub(super) fn contents(bug: impl Fn(&mut Attachment) + Send + Sync + 'static) -> Plant {
     scene(move |scene| scene.attachments.iter_mut().for_each(&bug))
 }
@@ -158,7 +158,7 @@ pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
     }))
 }
 
-/// Changes every draw but the first, given the unchanged draw before it.
+/// Changes every draw except the first, given the unchanged previous draw.
 pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
         let mut before: Option<Draw> = None;
@@ -200,7 +200,7 @@ pub(super) fn images_of(
     })
 }
 
-/// Fetches every texel of one aspect from another place: `from([x, y], [width, height])`.
+/// Replaces every texel of an aspect by another texel of the image: `from([x, y], [width, height])`.
 pub(super) fn moved(
     aspect: Aspect,
     from: impl Fn([u32; 2], [u32; 2]) -> [u32; 2] + Send + Sync + 'static,
@@ -208,11 +208,11 @@ pub(super) fn moved(
     images(aspect, move |image| move_texels(image, &from))
 }
 
-/// Fetches every texel of an image from another place.
+/// Replaces every texel of an image by another of its texels.
 pub(super) fn move_texels(image: &mut Image, from: impl Fn([u32; 2], [u32; 2]) -> [u32; 2]) {
     let original = image.codes.clone();
     let [width, height] = image.size;
-    // A texel's samples lie side by side and move together.
+    // A texel's samples are adjacent and move together.
     let n = image.channels.len() * image.samples as usize;
     for (number, texel) in (0..).zip(image.codes.chunks_exact_mut(n)) {
         let [x, y] = from([number % width, number / width], image.size);
@@ -221,13 +221,13 @@ pub(super) fn move_texels(image: &mut Image, from: impl Fn([u32; 2], [u32; 2]) -
     }
 }
 
-/// Returns a code moved by a number of steps, clamped to its encoding.
+/// Moves a code by a number of steps, within the range of its encoding.
 pub(super) fn nudge(encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
     let order = encoding.order_of_code(code) + steps;
     encoding.code_of_order(order.clamp(encoding.min_order(), encoding.max_order()))
 }
 
-/// Returns a value rounded to a normalized integer of `bits` bits.
+/// Rounds a value to a normalized integer with `bits` bits.
 pub(super) fn in_bits(value: f32, bits: u32) -> f32 {
     let most = ((1_u64 << bits) - 1) as f32;
     (value * most).round() / most

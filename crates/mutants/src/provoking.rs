@@ -1,4 +1,4 @@
-//! Bugs of the vertex whose attributes are flat over a primitive.
+//! Bugs of the vertex that provides the flat attributes of a primitive.
 
 use crate::list::bugs;
 use crate::plant::{draws, from_draw};
@@ -9,7 +9,7 @@ fn is(draw: &Draw, topology: PrimitiveTopology) -> bool {
     draw.topology == topology
 }
 
-/// True if a vertex lies outside of the viewport.
+/// Returns true if any vertex of a draw is outside the viewport.
 fn is_clipped(draw: &Draw) -> bool {
     let outside = |v: f32| !(-1.0..=1.0).contains(&v);
     let mut vertices = draw.mesh.vertices.iter();
@@ -60,7 +60,7 @@ bugs! {
         }), source "a strip made into a list whose odd triangles exchange their first vertices";
     "second-run-reversed: After a restart the primitives are drawn from the other end." =>
         draws(|draw| {
-            // This leaves the picture and exchanges the ends.
+            // The picture stays the same, but the ends are exchanged.
             let indices = draw.mesh.indices.iter_mut();
             let second = indices.flat_map(|strip| strip.split_mut(|i| *i == RESTART).nth(1));
             second.for_each(<[_]>::reverse);

@@ -5,14 +5,14 @@ use crate::plant::{Plant, images, move_texels, moved, nudge};
 use crate::tables::CHANNELS;
 use etalon_frame::{Aspect, ChannelEncoding, Image};
 
-/// A place of a texel, given its own and the size.
+/// Returns the texel to read instead of a texel, given its position and the size.
 type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
 
 const RIGHT: From = |[x, y], _| [x.saturating_sub(1), y];
 const DOWN: From = |[x, y], _| [x, y.saturating_sub(1)];
 const UPSIDE_DOWN: From = |[x, y], [_, h]| [x, h - 1 - y];
 
-/// Returns a code moved by a number of steps; depths stay above 0, since no depth is negative.
+/// Moves a code by a number of steps; depths stay at least 0, since no depth is negative.
 fn held(aspect: Aspect, encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
     let moved = nudge(encoding, code, steps);
     if aspect == Aspect::Depth && encoding.order_of_code(moved) < 0 {
@@ -42,14 +42,14 @@ fn texels(
     })
 }
 
-/// Moves a code by a number of steps, inwards from an end of its range.
+/// Moves a code by a number of steps, in the direction in which its range allows it.
 fn inwards(aspect: Aspect, image: &mut Image, place: usize, steps: i64) {
     let (encoding, code) = (image.channels[0], image.codes[place]);
     let ways = [steps, -steps].map(|steps| held(aspect, encoding, code, steps));
     image.codes[place] = if ways[0] == code { ways[1] } else { ways[0] };
 }
 
-/// Permutes the samples of every texel: each gets the codes of sample `from(sample, samples)`.
+/// Permutes the samples of every texel: each sample gets the codes of sample `from(sample, samples)`.
 fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
     images(aspect, move |image| {
         let (n, samples) = (image.channels.len(), image.samples as usize);
@@ -63,7 +63,7 @@ fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
     })
 }
 
-/// Moves the texels of one sample: each gets the codes of texel `from([x, y], size)`.
+/// Moves the texels of one sample: each texel gets the codes of texel `from([x, y], size)`.
 fn plane(aspect: Aspect, which: fn(usize) -> usize, from: From) -> Plant {
     images(aspect, move |image| {
         let original = image.codes.clone();
@@ -78,7 +78,7 @@ fn plane(aspect: Aspect, which: fn(usize) -> usize, from: From) -> Plant {
     })
 }
 
-/// The number of codes of a texel.
+/// Returns the number of codes per texel.
 fn codes(image: &Image) -> usize {
     image.channels.len() * image.samples as usize
 }

@@ -10,7 +10,7 @@ use etalon_scene::Pass;
 const CODES_AVERAGED: &str = "Vulkan: VkResolveModeFlagBits: sRGB samples should be made linear before \
                               they are averaged, and need not be";
 
-/// Replaces a resolved value, given those of the samples, in ascending order, and their average.
+/// Replaces a resolved value, given the samples' values in ascending order, and their average.
 fn from_values(bug: fn(&[f32], f32) -> f32) -> Plant {
     resolve(move |encoding, codes| {
         let mean = mean(encoding, codes);
@@ -70,7 +70,7 @@ bugs! {
                     resolves.extend(target.take().map(|t| (*source, t)));
                 }
             }
-            // Passes that draw nothing hold the resolves.
+            // Passes without draws perform the resolves.
             let last = scene.passes.last().cloned();
             for (source, target) in resolves {
                 scene.passes.extend(last.clone().map(|last| Pass {

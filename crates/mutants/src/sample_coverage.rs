@@ -1,4 +1,4 @@
-//! Bugs of sample coverage: a share of the samples, or its inverse.
+//! Bugs of sample coverage: a fraction of the samples, possibly inverted.
 
 use crate::fields::SAMPLE_COVERAGE;
 use crate::hooks::sample_drawn;
@@ -6,7 +6,7 @@ use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, draws, each};
 use etalon_scene::{Multisample, SampleCoverage};
 
-/// The number of samples that a value covers.
+/// Returns the number of samples that a value covers.
 fn count(value: f32, samples: usize) -> usize {
     (value.clamp(0.0, 1.0) * samples as f32).round() as usize
 }
@@ -15,8 +15,8 @@ fn in_mask(state: &Multisample, sample: usize) -> bool {
     state.mask & (1 << sample) != 0
 }
 
-/// Replaces the test of a sample where there are several: whether the share covers it, before any inversion,
-/// whether the share is inverted, and whether the mask has its bit.
+/// Replaces the test of a sample if there are several: whether the value covers it before inversion,
+/// whether the coverage is inverted, and whether the mask has its bit.
 fn tested(
     covers: fn(f32, usize, usize) -> bool,
     bug: fn(bool, bool, bool) -> bool,
@@ -34,7 +34,8 @@ fn tested(
     })
 }
 
-/// Replaces the conversion of a value to samples, given the sample's index and the number of samples.
+/// Replaces the conversion of a value to covered samples, given the sample's index and the number of
+/// samples.
 fn shares(bug: fn(f32, usize, usize) -> bool) -> Plant {
     tested(
         bug,
@@ -43,12 +44,12 @@ fn shares(bug: fn(f32, usize, usize) -> bool) -> Plant {
     )
 }
 
-/// Replaces the combination of share, inversion and mask.
+/// Replaces the combination of coverage, inversion and mask.
 fn combined(bug: fn(bool, bool, bool) -> bool) -> Plant {
     tested(|v, s, n| s < count(v, n), bug, |_| true)
 }
 
-/// Lets a share decide whether one sample is drawn.
+/// Makes the value decide whether a single sample is drawn.
 fn of_one(bug: fn(SampleCoverage) -> bool) -> Plant {
     tested(
         |v, s, n| s < count(v, n),

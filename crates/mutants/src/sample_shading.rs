@@ -1,4 +1,4 @@
-//! Bugs of sample shading: the share of a texel's samples that have a shader run of their own.
+//! Bugs of sample shading: the fraction of a texel's samples that have their own shader run.
 
 use crate::fields::Places;
 use crate::hooks::{shaded_at, shader_runs};
@@ -22,7 +22,7 @@ fn exact(share: f32, samples: usize) -> usize {
 
 const MORE: &str = "Vulkan: Sample Shading; OpenGL 4.6: 14.3.1.1: at least as many";
 
-/// Replaces the sample at which a run under sample shading lies.
+/// Replaces the sample at whose position a run of sample shading takes its inputs.
 fn placed(bug: fn(usize, usize) -> Option<usize>) -> Plant {
     shaded_at(move |state, first, samples| {
         state.min_sample_shading.and_then(|_| bug(first, samples))

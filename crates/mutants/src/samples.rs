@@ -8,7 +8,7 @@ use crate::plant::{Plant, passes};
 use etalon_frame::{Aspect, standard_sample_positions};
 use etalon_scene::Multisample;
 
-/// Changes the multisample state of draws to several samples, given their number.
+/// Changes the multisample state of draws with several samples, given their number.
 fn states(bug: impl Fn(&mut Multisample, u32) + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let samples = scene.pass_samples(&scene.passes[number]);
@@ -23,7 +23,7 @@ fn masks(bug: impl Fn(u32, u32) -> u32 + Send + Sync + 'static) -> Plant {
     states(move |state, samples| state.mask = bug(state.mask, samples))
 }
 
-/// Changes the positions of several samples.
+/// Changes the positions of samples if there are several.
 fn placed(bug: impl Fn(&mut Vec<[u16; 2]>) + Send + Sync + 'static) -> Plant {
     sample_positions(move |mut positions: Vec<[u16; 2]>| {
         if positions.len() > 1 {
@@ -33,7 +33,7 @@ fn placed(bug: impl Fn(&mut Vec<[u16; 2]>) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// Changes the position of each of several samples.
+/// Changes the position of each sample if there are several.
 fn each_placed(bug: fn([u16; 2]) -> [u16; 2]) -> Plant {
     placed(move |positions| positions.iter_mut().for_each(|place| *place = bug(*place)))
 }

@@ -13,12 +13,12 @@ fn scissors(bug: fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>) -> Plant {
     sized(move |draw, size| draw.scissor = draw.scissor.and_then(|rect| bug(rect, size)))
 }
 
-/// What an attachment has on the other side of a rectangle.
+/// Returns the length of an attachment after a rectangle's end.
 fn before(size: u32, start: u32, length: u32) -> u32 {
     size.saturating_sub(start.saturating_add(length))
 }
 
-/// The up to four rectangles around another.
+/// Returns the up to four rectangles around another.
 fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
     let (left, top) = (x.min(size[0]), y.min(size[1]));
     let (right, bottom) = ((x + w).min(size[0]), (y + h).min(size[1]));
@@ -33,15 +33,15 @@ fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
     ]
 }
 
-/// Masks writes.
+/// Masks the writes of one kind of attachment.
 type Mask = fn(&mut Draw);
 
 const COLOR: Mask = |draw| draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
 const DEPTH: Mask = |draw| draw.depth.iter_mut().for_each(|d| d.write = false);
 const STENCIL: Mask = |draw| FACES(draw).into_iter().for_each(|f| f.write_mask = 0);
 
-/// The scissor test is not done for one kind of attachment: the draw is repeated around the rectangle
-/// with the writes of the other two kinds masked.
+/// Skips the scissor test for one kind of attachment: the draw is repeated around the rectangle with the
+/// writes of the other two kinds masked.
 fn beyond(others: [Mask; 2]) -> Plant {
     passes(move |scene, number, pass| {
         let asked = &scene.passes[number];
@@ -59,14 +59,14 @@ fn beyond(others: [Mask; 2]) -> Plant {
     })
 }
 
-/// The first draw's rectangle, and the size of its attachments.
+/// Returns the first draw's rectangle, and the size of its attachments.
 fn first_rect(scene: &Scene) -> Option<([u32; 4], [u32; 2])> {
     let pass = scene.passes.first()?;
     let rect = pass.draws.first()?.scissor?;
     Some((rect, scene.pass_size(pass)))
 }
 
-/// A draw that fills a rectangle with depth 0 and stencil 0.
+/// Returns a draw that fills a rectangle with depth 0 and stencil 0.
 fn filler(first: &Draw, rect: [u32; 4]) -> Draw {
     let mut draw = first.clone();
     draw.scissor = Some(rect);
@@ -126,7 +126,7 @@ bugs! {
     "ignored-for-depth: Depth is written outside the rectangle." => beyond([COLOR, STENCIL]);
     "ignored-for-stencil: Stencil is written outside the rectangle." => beyond([COLOR, DEPTH]);
 
-    // The first draw's rectangle applies to the clears before it: outside of it, attachments start from 0.
+    // The first draw's rectangle applies to the clears before it: outside it, attachments start from 0.
     source "clears that obey the scissor test";
     "clears-color: The first draw's rectangle also holds back the clear of colour." =>
         scene(|scene| {

@@ -1,4 +1,4 @@
-//! Bugs of sequences: what draws, clears, passes and submissions leave to the next, contents that an
+//! Bugs of sequences: state that draws, clears, passes and submissions leave to the next, contents that an
 //! attachment loses between passes, and queries that get each other's values.
 
 mod clears;

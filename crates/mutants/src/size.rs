@@ -1,6 +1,6 @@
-//! Bugs that only large pictures and many primitives, draws or vertices meet.
+//! Bugs that only large pictures or many primitives, draws or vertices show.
 //!
-//! Each has a condition that no case of 16 by 16 texels fulfils: a tile, a batch or a counter that ends.
+//! Each bug has a condition that no case of 16 by 16 texels meets: the end of a tile, a batch or a counter.
 
 mod clears;
 mod vertices;
@@ -11,7 +11,7 @@ use crate::list::bugs;
 use crate::plant::{Plant, calls, draws, from_draw, sized};
 use etalon_scene::{CompareFunction, Draw, PrimitiveTopology, Shader};
 
-/// Draws each primitive of long lists as often as is told by its number.
+/// Repeats each primitive of long lists; `bug` returns the number of times, given the primitive's index.
 fn times(bug: impl Fn(usize) -> usize + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
         let size = match draw.topology {
@@ -31,7 +31,8 @@ fn times(bug: impl Fn(usize) -> usize + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// True if a comparison lets smaller depths pass, and not greater ones.
+/// Returns true if a comparison passes smaller depths but not greater ones, and false for the reverse;
+/// `None` otherwise.
 fn nearer(compare: CompareFunction) -> Option<bool> {
     match compare {
         CompareFunction::Less | CompareFunction::LessEqual => Some(true),
@@ -40,7 +41,7 @@ fn nearer(compare: CompareFunction) -> Option<bool> {
     }
 }
 
-/// Changes large draws that test depth.
+/// Changes draws with a depth test to large attachments.
 fn tests(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
     sized(move |draw, [w, h]| {
         if w.max(h) > 64 && draw.depth.is_some() {
@@ -69,7 +70,7 @@ bugs! {
     "thin-from-256: Attachments of one row or column are drawn up to texel 255." =>
         covered(|[x, y], [w, h]| w.min(h) > 1 || x.max(y) < 256);
     for side in [8, 16, 32, 64] {
-        // True of what lies in whole tiles, or in a first tile that the attachment cuts.
+        // True in whole tiles, and in a first tile that the attachment cuts.
         let whole = move |texel: u32, length: u32| length < side || texel < length / side * side;
         "cut-columns-{side}: Columns past the last whole tile of {side} are not drawn." =>
             covered(move |[x, _], [w, _]| whole(x, w));

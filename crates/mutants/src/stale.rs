@@ -1,11 +1,11 @@
-//! Stale fields: of the case before, of the draw before, and the default where a pass begins.
+//! Stale fields: values of the previous case or draw, or the default when a pass begins.
 
 use crate::fields::{FIELDS, Take};
 use crate::list::{List, rows};
 use crate::plant::{Plant, from_case, from_draw, passes};
 use etalon_scene::{ColorTarget, Draw, Viewport};
 
-/// Adds the class `sticky`: each field as the case or the draw before had it.
+/// Adds the class `sticky`: each field has the value of the previous case or draw.
 pub(super) fn sticky(list: &mut List) {
     type Before = fn(Take) -> Plant;
     let kinds: [(&str, Before); 2] = [("case", from_case), ("draw", from_draw)];
@@ -28,7 +28,7 @@ pub(super) fn sticky(list: &mut List) {
     }
 }
 
-/// Fields that do not act by default: what they belong to is off.
+/// Fields without effect by default, because what they parametrize is off.
 const PARAMETERS: [&str; 5] = [
     "depth-compare",
     "depth-write",
@@ -37,7 +37,7 @@ const PARAMETERS: [&str; 5] = [
     "stencil-write-mask",
 ];
 
-/// Adds the fields that a change of the pass resets.
+/// Adds the fields that a new pass resets.
 pub(super) fn reset(list: &mut List) {
     let acts = |name| !PARAMETERS.contains(&name);
     for field in FIELDS.iter().filter(|f| f.in_cases() && acts(f.name)) {
@@ -56,8 +56,8 @@ pub(super) fn reset(list: &mut List) {
     }
 }
 
-/// Adds the fields that one draw leaves to the next, each by itself: a driver that tracks changes
-/// forgets one of them.
+/// Adds the fields that one draw leaves to the next, one by one: a driver that tracks changes misses one of
+/// them.
 pub(super) fn stays(list: &mut List) {
     for field in FIELDS.iter().filter(|field| field.in_sequences()) {
         let (name, words, take) = (field.name, field.words(), field.take);

@@ -22,17 +22,17 @@ fn turned(draw: &Draw) -> Draw {
     turned
 }
 
-/// Replaces the update, of which the write mask then takes the bits, given face, path and stored value.
+/// Replaces the update before the write mask is applied, given face, path and stored value.
 fn update(bug: fn(&StencilFace, Path, u8) -> u8) -> Plant {
     stencil_write(move |f, path, stored| masked(f.write_mask, stored, bug(f, path, stored)))
 }
 
-/// A stored value with the bits of a mask replaced.
+/// Returns the stored value with the bits of a mask replaced.
 fn masked(mask: u8, stored: u8, new: u8) -> u8 {
     (stored & !mask) | (new & mask)
 }
 
-/// The right update.
+/// Returns the correct update.
 fn write(f: &StencilFace, path: Path, stored: u8) -> u8 {
     let new = stencil_operation(path.operation(f), stored, f.reference);
     masked(f.write_mask, stored, new)

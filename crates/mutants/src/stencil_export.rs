@@ -7,17 +7,17 @@ use crate::plant::{each, from_draw, set};
 use etalon_cpu::steps::{Exported, Path};
 use etalon_scene::{Draw, EarlyTests, Shader, StencilOperation};
 
-/// True of draws whose shader writes a reference.
+/// Returns true for draws whose shader writes a stencil reference.
 fn exports(draw: &Draw) -> bool {
     draw.shader.writes_reference()
 }
 
-/// Returns what the shader writes for the texel.
+/// Returns the value that the shader writes for the texel.
 fn value(exported: &Exported) -> i32 {
     exported.written[exported.lane]
 }
 
-/// Returns the shader's reference, or the draw's if not `exported`.
+/// Returns the shader's reference if `exported` is true, otherwise the draw's.
 fn if_so(export: &Exported, exported: bool) -> u8 {
     if exported {
         value(export) as u8

@@ -1,11 +1,11 @@
-//! Neighbours of states: those that a mistake in a table would exchange.
+//! Neighbouring states, which a mistake in a table would exchange.
 
 use etalon_scene::{BlendFactor, CompareFunction, FrontFace, LogicOperation};
 
-/// Returns functions that differ in one of the three outcomes below, equal and above.
+/// Returns pairs of functions that differ in one of the three results: below, equal or above.
 pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
-    // Bit 0: true when below, bit 1: when equal, bit 2: when above. This is the order in which the
-    // functions are declared, and every API's.
+    // Bit 0: true when below, bit 1: when equal, bit 2: when above. The functions are declared in this
+    // order here and in every API.
     let order = CompareFunction::ALL;
     let bits = |n: usize| [1, 2, 4].map(|bit| (order[n], order[n ^ bit]));
     (0..order.len()).flat_map(bits).collect()
@@ -18,14 +18,14 @@ pub(super) fn pairs<T: Copy + PartialEq>(values: &[T]) -> impl Iterator<Item = (
         .filter(|(a, b)| a != b)
 }
 
-/// Returns values and those declared before and after them, cyclically.
+/// Returns pairs of values that are declared next to each other, cyclically, in both orders.
 pub(super) fn round<T: Copy>(values: &[T]) -> Vec<(T, T)> {
     let n = values.len();
     let both = |i: usize| [1, n - 1].map(|by| (values[i], values[(i + by) % n]));
     (0..n).flat_map(both).collect()
 }
 
-/// Returns operations and those declared before and after them, cyclically; and those that differ in
+/// Returns pairs of operations that are declared next to each other, cyclically, and pairs that differ in
 /// which of source and destination is inverted.
 pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
     use LogicOperation as L;
@@ -41,7 +41,7 @@ pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
     pairs
 }
 
-/// The factors: rows by whose value they take, columns by channel or alpha, each with its complement.
+/// The factors: one row per operand, columns by channel or alpha, each with its complement.
 const FACTORS: [[BlendFactor; 4]; 4] = {
     use BlendFactor as F;
     [
@@ -57,20 +57,20 @@ const FACTORS: [[BlendFactor; 4]; 4] = {
     ]
 };
 
-/// Returns whose value a factor takes, counted from source, destination, constant and second source; and
-/// 0 for the channel, 2 for alpha, one more for the complement. `None` if it takes no single value.
+/// Returns the operand of a factor (source, destination, constant or second source) and its column: 0 for
+/// the channel, 2 for alpha, plus 1 for the complement. `None` if it takes no single value.
 pub(super) fn place(factor: BlendFactor) -> Option<[usize; 2]> {
     let mut places = (0..4).flat_map(|row| (0..4).map(move |column| [row, column]));
     places.find(|[row, column]| FACTORS[*row][*column] == factor)
 }
 
-/// Returns factors and those that differ in one thing: complement, channel or alpha, whose value.
+/// Returns pairs of factors that differ in one respect: the complement, channel or alpha, or the operand.
 fn neighbours(row: usize, other: usize) -> impl Iterator<Item = (BlendFactor, BlendFactor)> {
     let (row, other) = (FACTORS[row], FACTORS[other]);
     (0..4).flat_map(move |c| [row[c ^ 1], row[c ^ 2], other[c]].map(|wrong| (row[c], wrong)))
 }
 
-/// Returns the neighbours of factors of the second source.
+/// Returns the neighbours of the second source's factors.
 pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
     neighbours(3, 0).collect()
 }
@@ -92,7 +92,7 @@ pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
     pairs
 }
 
-/// True if two factors are equal in the alpha equation.
+/// Returns true if two factors are equal in the alpha equation.
 pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
     let meaning = |factor| match place(factor) {
         Some([row, column]) => FACTORS[row][column | 2],
@@ -102,7 +102,7 @@ pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
     meaning(a) == meaning(b)
 }
 
-/// Returns the other order of vertices.
+/// Returns the opposite winding.
 pub(super) fn turned(face: FrontFace) -> FrontFace {
     match face {
         FrontFace::Ccw => FrontFace::Cw,
@@ -110,7 +110,7 @@ pub(super) fn turned(face: FrontFace) -> FrontFace {
     }
 }
 
-/// Rectangles that are one texel off: the name, the effect, and what is added to them.
+/// Rectangles that are one texel off: the name, the effect, and the offsets.
 pub(super) const ONE_TEXEL: [(&str, &str, [i32; 4]); 8] = [
     ("right", "lie one texel too far right", [1, 0, 0, 0]),
     ("left", "lie one texel too far left", [-1, 0, 0, 0]),

@@ -5,7 +5,7 @@ use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, draws, scene};
 use etalon_scene::{BlendFactor, ColorTarget};
 
-/// Changes the targets of draws to several attachments.
+/// Changes the targets of draws with several attachments.
 fn targets(bug: fn(&mut [ColorTarget])) -> Plant {
     draws(move |draw| {
         if draw.targets.len() > 1 {
@@ -14,7 +14,7 @@ fn targets(bug: fn(&mut [ColorTarget])) -> Plant {
     })
 }
 
-/// Returns the equivalent of a factor for a destination alpha of 1.
+/// Replaces a factor by its equivalent for a destination alpha of 1.
 fn with_alpha_one(factor: &mut BlendFactor) {
     *factor = match *factor {
         BlendFactor::DstAlpha => BlendFactor::One,
@@ -75,7 +75,7 @@ bugs! {
             }
         }), source "wgpu: per-target enable arguments flipped";
 
-    // Formats without alpha beside formats with it.
+    // Formats without alpha together with formats that have it.
     "alpha-missing-on-one-is-missing-on-all: Where one attachment has no alpha, all count as without." =>
         scene(|scene| {
             for pass in &mut scene.passes {

@@ -8,7 +8,7 @@ use etalon_scene::{CullMode, DomainOrigin, Draw, FrontFace, PolygonMode, Shader,
 
 const TESSELLATION: Places<Tessellation> = |d| d.tessellation.iter_mut().collect();
 
-/// True of draws whose triangles face other than their patch.
+/// Returns true for draws whose triangles face the opposite way to their patch.
 fn turns(draw: &Draw) -> bool {
     draw.tessellation.is_some_and(|t| !t.keeps_order())
 }

@@ -7,14 +7,14 @@ use crate::tables::pairs;
 use etalon_scene::{AddressMode, Contents, Draw, FilterMode};
 use std::collections::BTreeSet;
 
-/// The texture coordinates of draws that sample.
+/// The texture coordinates of draws that sample textures.
 const COORDINATES: Places<[f32; 2]> = |d| {
     let samples = d.shader.samples_texture();
     let vertices = d.mesh.vertices.iter_mut().filter(|_| samples);
     vertices.map(|v| &mut v.uv).collect()
 };
 
-/// Changes draws that sample what an earlier pass drew, given the size of the texture.
+/// Changes draws that sample a texture that an earlier pass drew, given its size.
 fn of_drawn(bug: fn(&mut Draw, [f32; 2])) -> Plant {
     scene(move |scene| {
         let sizes = scene.attachments.iter().map(|a| a.size.map(|s| s as f32));
@@ -32,7 +32,7 @@ fn of_drawn(bug: fn(&mut Draw, [f32; 2])) -> Plant {
     })
 }
 
-/// Changes every texel of the textures that some draw samples, given its number.
+/// Changes every texel of the textures that a draw samples, given its index.
 fn texels(bug: fn(usize, &mut [u32])) -> Plant {
     scene(move |scene| {
         let draws = scene.passes.iter().flat_map(|p| &p.draws);
@@ -52,7 +52,7 @@ fn texels(bug: fn(usize, &mut [u32])) -> Plant {
 bugs! {
     class "texture", "texture";
 
-    // Bugs of textures that were drawn, which those of uploaded ones do not show.
+    // Bugs of drawn textures, which uploaded textures do not show.
     source "a texture of a framebuffer treated unlike an uploaded one";
     "drawn-upside-down: A sampler sees drawn textures upside down." =>
         of_drawn(|draw, _| draw.mesh.vertices.iter_mut().for_each(|v| v.uv[1] = 1.0 - v.uv[1]));

@@ -1,5 +1,5 @@
-//! Bugs of the tiles and batches that drivers work in: texels that draws and clears do not reach, edges
-//! one texel off where a tile ends, draws and primitives lost where a batch ends.
+//! Bugs of the tiles and batches in which drivers work: texels that draws and clears miss, edges that are
+//! one texel off at the end of a tile, and draws and primitives that are lost at the end of a batch.
 
 use crate::aspects::{ASPECTS, word};
 use crate::hooks::{code, covered, fetch};
@@ -15,7 +15,7 @@ use etalon_scene::{Attachment, Contents, Draw, PolygonMode, PrimitiveTopology, P
 /// The sides of tiles, in texels.
 const TILES: [u32; 4] = [8, 16, 32, 64];
 
-/// The names of the edges, with the axis, and true for the far one.
+/// The edges: name, axis, and true for the far edge.
 const EDGES: [(&str, usize, bool); 4] = [
     ("left", 0, false),
     ("top", 1, false),
@@ -23,12 +23,12 @@ const EDGES: [(&str, usize, bool); 4] = [
     ("bottom", 1, true),
 ];
 
-/// Draws nothing at texels of which `bug([x, y], [width, height])` is true.
+/// Draws nothing at texels for which `bug([x, y], [width, height])` is true.
 fn lost(bug: impl Fn([u32; 2], [u32; 2]) -> bool + Send + Sync + 'static) -> Plant {
     covered(move |texel, size| !bug(texel, size))
 }
 
-/// Changes the primitives of each draw that has more than this many and fits the condition.
+/// Changes the primitives of each draw that has more than this many and meets the condition.
 fn long(
     more_than: usize,
     strikes: fn(&Draw) -> bool,
@@ -58,7 +58,7 @@ fn long(
     })
 }
 
-/// Gives the texels of one aspect other codes.
+/// Changes the codes of the texels in an area, in one aspect.
 fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: Area) {
     let encodings: &[ChannelEncoding] = match aspect {
         Aspect::Color => attachment.format.color_channels(),
@@ -79,7 +79,7 @@ fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: A
     }
 }
 
-/// Leaves an area of cleared attachments uncleared, given their size; `None` clears all.
+/// Leaves an area of cleared attachments uncleared, given their size; `None` leaves nothing uncleared.
 fn uncleared(
     aspect: Aspect,
     area: impl Fn([usize; 2]) -> Option<Area> + Clone + Send + Sync + 'static,
@@ -183,7 +183,7 @@ bugs! {
         "primitives-past-{n}-lost: Primitives past {n} are lost." =>
             long(n, |_| true, move |indices| indices.truncate(n));
     }
-    // Cases have so many points, and fewer of the others.
+    // The batch sizes that cases reach: most with points, fewer with other primitives.
     for (kind, batches, strikes as fn(&Draw) -> bool) in [
         ("points", &[64, 256, 1024][..], |draw| draw.topology == PointList),
         ("lines", &[64, 256], |draw| [LineList, LineStrip].contains(&draw.topology)),

@@ -6,7 +6,7 @@ use etalon_frame::ChannelEncoding::Float16;
 use etalon_frame::TextureFormat::{self, Rgba8Unorm, Rgba32Float};
 use etalon_scene::Contents;
 
-/// Changes the codes of uploads, given the format and the numbers of codes per texel and row.
+/// Changes the codes of uploads, given the format and the number of codes per texel and per row.
 fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
         let texel = attachment.format.color_channels().len();
@@ -17,7 +17,7 @@ fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync +
     })
 }
 
-/// Changes every code of uploads of one format.
+/// Changes every code of uploads in one format.
 fn codes(struck: TextureFormat, bug: impl Fn(u32) -> u32 + Send + Sync + 'static) -> Plant {
     texels(move |codes, format, _| {
         if format == struck {
@@ -26,12 +26,12 @@ fn codes(struck: TextureFormat, bug: impl Fn(u32) -> u32 + Send + Sync + 'static
     })
 }
 
-/// Changes every value of uploaded floats.
+/// Changes every value of uploaded 32-bit floats.
 fn floats(bug: fn(f32) -> f32) -> Plant {
     codes(Rgba32Float, move |c| bug(f32::from_bits(c)).to_bits())
 }
 
-/// A value rounded to a 16-bit float.
+/// Rounds a value to a 16-bit float.
 fn half(value: f32) -> f32 {
     let order = Float16.order_of_code(Float16.nearest_code(f64::from(value)));
     Float16.value_of_order(order) as f32

@@ -5,7 +5,7 @@ use crate::plant::{Plant, draws, sized};
 use crate::tables::ONE_TEXEL;
 use etalon_scene::{Draw, PrimitiveTopology};
 
-/// Makes the viewport the whole attachment, and leaves vertices where they are.
+/// Extends the viewport to the whole attachment, without moving vertices.
 fn unclipped(draw: &mut Draw, size: [u32; 2]) {
     let [x, y, w, h] = draw.viewport.rect;
     let [all_w, all_h] = size.map(|s| s as f32);

@@ -1,4 +1,4 @@
-//! The adapters of a run or bench, and those that cannot be used.
+//! The adapters of a run or bench, and the adapters that it could not use.
 
 use etalon_frame::Limits;
 use serde::{Deserialize, Serialize};
@@ -15,17 +15,16 @@ pub struct AdapterRecord {
     pub device: String,
     /// The driver as it names itself.
     pub driver: String,
-    /// The driver's version, as far as the driver reports it.
+    /// The driver's version as the driver reports it; empty if it reports none.
     pub driver_version: String,
-    /// The driver's identifier for programs: `VkDriverId` and PCI ids in Vulkan; empty where the API has
-    /// none.
+    /// The driver's identifier for programs: `VkDriverId` and PCI ids in Vulkan; empty if the API has none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub driver_id: String,
     /// The API's version.
     pub api_version: String,
     /// True if the device is the processor.
     pub software: bool,
-    /// The release of the driver, as its description says.
+    /// The release of the driver, if the adapter's description states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
     /// Its limits and features.
@@ -43,14 +42,14 @@ pub struct Release {
 }
 
 impl AdapterRecord {
-    /// The name up to an `@`, behind which one release of a driver is told from others: expectations speak of
-    /// all of them.
+    /// Returns the name up to an `@`. What follows the `@` names one release of the driver, and
+    /// expectations apply to all releases.
     pub fn without_release(&self) -> &str {
         let (name, _) = self.name.split_once('@').unwrap_or((&self.name, ""));
         name
     }
 
-    /// Driver and version in one text, which the `driver` globs of expectations match.
+    /// Returns driver and version in one text, which the `driver` globs of expectations match.
     pub fn driver_text(&self) -> String {
         format!("{} {}", self.driver, self.driver_version)
             .trim()

@@ -1,10 +1,10 @@
 //! A bench folder: `bench.jsonl`, the raw frame times of cases on adapters.
 //!
-//! The first line is a [`BenchHeader`], every other one a [`BenchLine`], in the order of events: the
-//! verdict of a case's picture on an adapter, then a line per [`Round`] of frame times. A round is one
-//! fresh preparation of the scene. Rounds of cases and adapters interleave, so a bench that was killed
-//! still holds the same number of rounds of each, within one. Nothing is summarised and no sample but the
-//! warm-up, which is counted, is discarded: comparing two benches needs the samples.
+//! The first line is a [`BenchHeader`], and every other line is a [`BenchLine`], in the order of events:
+//! first the verdict of a case's picture on an adapter, then a line per [`Round`] of frame times. A round
+//! is one fresh preparation of the scene. Rounds of cases and adapters interleave, so the round counts of a
+//! bench that was killed differ by at most one. Nothing is summarised, and only the warm-up is discarded
+//! and counted, because comparing two benches needs the samples.
 
 mod cell;
 mod header;

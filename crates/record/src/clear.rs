@@ -1,4 +1,4 @@
-//! Emptying a folder of what a command recorded there, so that another kind can take its place.
+//! Removing what a command recorded in a folder, so that another kind of recording can take its place.
 
 use crate::error::RecordError;
 use crate::folder::FolderKind;
@@ -6,10 +6,10 @@ use crate::report_files::{ReportFiles, remove_file};
 use crate::writer::BESIDE;
 use std::path::Path;
 
-/// Removes what a folder holds of a kind, its reports first and its header last. Other files stay.
+/// Removes everything of one kind from a folder, its reports first and its header last. Other files stay.
 ///
 /// # Errors
-/// When a file cannot be removed.
+/// If a file cannot be removed.
 pub fn clear(folder: &Path, kind: FolderKind, reports: ReportFiles) -> Result<(), RecordError> {
     reports.remove(folder)?;
     if kind == FolderKind::Run {

@@ -1,13 +1,13 @@
-//! Differences that keep two runs from being one: on resuming, and on merging.
+//! Differences that prevent resuming a run, or merging two runs.
 
 use crate::adapter::AdapterRecord;
 use crate::bench::BenchHeader;
 use crate::header::{Header, Settings};
 
 impl Header {
-    /// The first difference that keeps records of this run and of the other from being parts of one run:
-    /// selection, settings or version of the suite. `None` if there is none. Shards, adapters, time and
-    /// memory limits are not compared.
+    /// Returns the first difference in selection, settings or version of the suite that prevents this run
+    /// and another from being parts of one run, or `None`. Shards, adapters, and time and memory limits are
+    /// not compared.
     pub fn conflict(&self, other: &Self) -> Option<String> {
         let (a, b) = (&self.settings, &other.settings);
         let differ = |what: &str, x: String, y: String| {
@@ -47,7 +47,8 @@ impl Header {
 }
 
 impl AdapterRecord {
-    /// The first difference from another adapter of the same name; `None` if it is the same driver.
+    /// Returns the first difference from another adapter with the same name; `None` if it is the same
+    /// driver.
     pub fn conflict(&self, other: &Self) -> Option<String> {
         let who = |a: &Self| format!("{}, {}, {}", a.device, a.driver_text(), a.api_version);
         if who(self) != who(other) {
@@ -62,8 +63,7 @@ impl AdapterRecord {
     }
 }
 
-/// The first difference that keeps the bench of one header from going on with the other; `None` if there is
-/// none.
+/// Returns the first difference that prevents resuming the bench of one header with the other, if any.
 pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<String> {
     let differ = |what: &str, x: &str, y: &str| {
         (x != y).then(|| format!("{what} was {x} there and is {y} here"))
@@ -126,8 +126,7 @@ pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<
         })
 }
 
-/// The first difference that keeps the run of one header from going on with the other; `None` if there is
-/// none.
+/// Returns the first difference that prevents resuming the run of one header with the other, if any.
 pub(crate) fn resume_conflict(there: &Header, here: &Header) -> Option<String> {
     if let Some(conflict) = there.conflict(here) {
         return Some(conflict);

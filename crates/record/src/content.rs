@@ -1,7 +1,8 @@
-//! What a place for a folder holds.
+//! The content of a folder, or of a path at which there is no folder yet.
 //!
-//! A folder is known by a file of a name alone when it is read, so that a damaged one is told as such. It is replaced only
-//! if that file begins with a header of ours: a folder of somebody else may have files of the same names.
+//! A folder's kind is recognized by a file name alone when it is read, so that a damaged folder gives an
+//! error about its damage. A folder is replaced only if that file begins with a header of etalon, because
+//! other programs' folders can have files with the same names.
 
 use crate::error::RecordError;
 use crate::folder::FolderKind;
@@ -12,22 +13,22 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
-/// The content of a place for a folder.
+/// The content of a folder that a command may write to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Nothing.
     Empty,
-    /// What a command recorded.
+    /// A recording of this kind.
     Recorded(FolderKind),
-    /// Something else.
+    /// Anything else.
     Other,
 }
 
 impl Content {
-    /// Looks at a place for a folder, which need not exist.
+    /// Inspects a path, at which no folder need exist.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn of(folder: &Path) -> Result<Self, RecordError> {
         let mut entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
@@ -48,10 +49,10 @@ impl Content {
         })
     }
 
-    /// [`Content::of`], if a command may write into the place.
+    /// Returns [`Content::of`] if a command may write there.
     ///
     /// # Errors
-    /// When the place holds something else, or cannot be read.
+    /// If the folder holds anything else, or cannot be read.
     pub fn writable(folder: &Path) -> Result<Self, RecordError> {
         match Self::of(folder)? {
             Self::Other => Err(RecordError::Foreign {
@@ -63,7 +64,7 @@ impl Content {
     }
 }
 
-/// True if a process leaves a file of this name behind when it ends before its header is written.
+/// Returns true if a process that ends before it has written its header leaves a file with this name.
 fn is_remnant(name: &str) -> bool {
     let unfinished = |kind: FolderKind| {
         let hidden = name.strip_prefix('.');
@@ -72,7 +73,7 @@ fn is_remnant(name: &str) -> bool {
     name == LOCK_FILE || FolderKind::ALL.into_iter().any(unfinished)
 }
 
-/// True for the ending of an unfinished file: a point and the number of a process.
+/// Returns true for the suffix of an unfinished file: a dot and a process id.
 fn is_process(ending: &str) -> bool {
     ending
         .strip_prefix('.')
@@ -82,31 +83,32 @@ fn is_process(ending: &str) -> bool {
 /// The most bytes of a header that are read to recognize it.
 const MAX_MARK: u64 = 64 << 20;
 
-/// True if a file begins with a header of ours: a line with a JSON object that has the key `etalon`.
+/// Returns true if a file begins with a header of etalon: a line with a JSON object that has the key
+/// `etalon`.
 pub fn is_marked(file: &Path) -> bool {
     let mut line = Vec::new();
     let mut read = || {
         let file = File::open(file)?.take(MAX_MARK);
         BufReader::new(file).read_until(b'\n', &mut line)
     };
-    // A pipe would be waited for.
+    // Reading a pipe would block.
     file.is_file() && read().is_ok() && has_key(&line)
 }
 
-/// True if a line is a JSON object with the key `etalon`.
+/// Returns true if a line is a JSON object with the key `etalon`.
 fn has_key(line: &[u8]) -> bool {
     let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
     let object: Result<BTreeMap<String, IgnoredAny>, _> = serde_json::from_slice(line);
     object.is_ok_and(|object| object.contains_key("etalon"))
 }
 
-/// True if one of two paths lies in the other, or both name one place. They need not exist.
+/// Returns true if one path is inside the other, or both name one place. Neither need exist.
 pub fn overlap(path: &Path, other: &Path) -> bool {
     let (path, other) = (resolved(path), resolved(other));
     path.starts_with(&other) || other.starts_with(&path)
 }
 
-/// Returns the absolute path without links of as much as exists, and the rest as it is.
+/// Returns the absolute path, with links resolved in the part that exists.
 fn resolved(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut resolved = PathBuf::new();

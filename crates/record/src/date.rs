@@ -2,7 +2,7 @@
 
 use etalon_frame::shortened;
 
-/// Checks that the value of a key is a day.
+/// Checks that the value of a key is a date.
 ///
 /// # Errors
 /// The message, if it does not have the form `2027-01-31`.
@@ -12,7 +12,7 @@ pub(crate) fn check_date(key: &str, date: &str) -> Result<(), String> {
     }
     let date = shortened(date);
     Err(format!(
-        "\"{key}\": {date:?} is no day; days are written as \"2027-01-31\""
+        "\"{key}\": {date:?} is not a day; days are written as \"2027-01-31\""
     ))
 }
 
@@ -30,7 +30,7 @@ fn is_date(text: &str) -> bool {
     text.len() == 10 && text.char_indices().all(form) && exists(date)
 }
 
-/// The days of a month; 0 for a number that no month has.
+/// Returns the number of days in a month; 0 if no month has this number.
 fn days(year: u32, month: u32) -> u32 {
     let leap = year.is_multiple_of(4) && !year.is_multiple_of(100) || year.is_multiple_of(400);
     match month {

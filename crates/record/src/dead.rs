@@ -1,6 +1,8 @@
-//! Dead expectations: those that can excuse nothing, or had their chance and excused nothing.
+//! Dead expectations: expectations that can excuse nothing, or that could have excused something and did
+//! not.
 //!
-//! Only what is certain is called dead. An expectation whose cases or adapters a run left out may be alive.
+//! An expectation is called dead only if that is certain. If a run left out some of its cases or adapters,
+//! it may be alive.
 
 use crate::error::RecordError;
 use crate::expectations::{Expectations, Known, compile_glob};
@@ -16,17 +18,17 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 state_enum! {
-    /// The reason for which an expectation is dead.
+    /// Why an expectation is dead.
     DeadKind: array {
         /// A glob over ids, or an alternative in one, matches no case.
         NoCase = "no-case",
         /// A glob over names, or an alternative in one, matches no adapter that is described or was used.
         NoAdapter = "no-adapter",
-        /// Another expectation excuses all that it does.
+        /// Another expectation excuses everything that it excuses.
         Covered = "covered",
         /// All its cases were drawn on all its adapters, and none had its verdict.
         NeverMatched = "never-matched",
-        /// Its last day is over.
+        /// Its expiry date has passed.
         Expired = "expired",
     }
 }
@@ -37,7 +39,7 @@ state_enum! {
 pub struct Dead {
     /// The reason.
     pub kind: DeadKind,
-    /// The file, and the number in a list.
+    /// The file, and the entry's number if the file is a list.
     pub place: String,
     /// The dead glob, the place of the expectation that covers it, or its own reason.
     pub about: String,
@@ -47,10 +49,11 @@ pub struct Dead {
 const MAX_BYTES: u64 = 16 << 20;
 
 impl Dead {
-    /// Writes the dead expectations of a run into its folder; without any, removes the list of an earlier run.
+    /// Writes the dead expectations of a run into its folder; without any, removes the list of an
+    /// earlier run.
     ///
     /// # Errors
-    /// When the file cannot be written or removed.
+    /// If the file cannot be written or removed.
     pub fn write(folder: &Path, dead: &[Self]) -> Result<(), RecordError> {
         let path = folder.join(DEAD_FILE);
         if dead.is_empty() {
@@ -67,10 +70,10 @@ impl Dead {
         fs::write(&path, text).map_err(RecordError::io("write", &path))
     }
 
-    /// Reads the dead expectations in a run folder; none where there is no list.
+    /// Reads the dead expectations in a run folder; returns none if the folder has no list.
     ///
     /// # Errors
-    /// When the list cannot be read or does not parse.
+    /// If the list cannot be read or does not parse.
     pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
         let path = folder.join(DEAD_FILE);
         let mut text = String::new();
@@ -89,8 +92,9 @@ impl Dead {
 }
 
 impl Expectations {
-    /// The dead expectations, by kind and in the order of their files. `ids` are all existing cases, `described`
-    /// the names of adapters that there may be besides those of the run.
+    /// Returns the dead expectations, sorted by kind and then in the order of their files. `ids` are all
+    /// existing cases; `described` are the names of the adapters that are described, whether or not the run
+    /// used them.
     pub fn dead(&self, run: &Run, ids: &[String], described: &[String]) -> Vec<Dead> {
         let used = run.header.adapters.iter().map(|a| &a.name);
         let mut names = Names::new(used.chain(described));
@@ -121,7 +125,7 @@ impl Expectations {
                 part(DeadKind::Expired, format!("{last}: {}", known.reason));
             }
             if !self.applies(number) {
-                // Another machine or run may have what it names.
+                // The cases and adapters that it names can belong to another machine or run.
                 reaches.push(Reach::default());
                 continue;
             }
@@ -140,7 +144,7 @@ impl Expectations {
                 *other != number
                     && covers(by, known)
                     && reach.is_within(&reaches[*other])
-                    // Of two that are the same, the second is dead.
+                    // Of two equal expectations, the second is dead.
                     && (*other < number || !back())
             });
             if let Some((_, by)) = cover {
@@ -161,12 +165,13 @@ impl Expectations {
         dead
     }
 
-    /// True if a run drew all cases of an expectation on all its adapters, and none had a verdict that it excuses.
+    /// Returns true if a run drew all cases of an expectation on all its adapters, and it excused no
+    /// verdict.
     fn never_matched(&self, number: usize, reach: &Reach, run: &Run, names: &[String]) -> bool {
         let Some(known) = self.all().get(number) else {
             return false;
         };
-        // What is flaky may pass each time, and what is skipped has no verdict.
+        // A flaky case can pass every time, and a skipped case has no verdict.
         if self.expired(known) || matches!(known.verdict, Verdict::Flaky | Verdict::Skipped) {
             return false;
         }
@@ -221,7 +226,7 @@ impl Reach {
     }
 }
 
-/// True if an expectation excuses the verdict of another, for each driver and on each day that the other does.
+/// Returns true if an expectation excuses whatever another one excuses, for each driver and on each day.
 fn covers(by: &Known, known: &Known) -> bool {
     let verdict = by.excuses(known.verdict)
         && (known.verdict == Verdict::Skipped) == (by.verdict == Verdict::Skipped);
@@ -245,7 +250,7 @@ fn is_pattern(glob: &str) -> bool {
     glob.contains(['*', '?', '[', '{', '\\'])
 }
 
-/// Names, and which of them each glob matches that was asked about: entries share most of their globs.
+/// Names, and the names that each glob matched so far. Entries share most of their globs.
 struct Names {
     sorted: Vec<String>,
     matches: HashMap<String, Vec<usize>>,
@@ -260,7 +265,7 @@ impl Names {
         }
     }
 
-    /// The indices of the names that one of the globs matches.
+    /// Returns the indices of the names that one of the globs matches.
     fn reach(&mut self, globs: &[String]) -> BTreeSet<usize> {
         let mut reach = BTreeSet::new();
         for glob in globs {
@@ -277,7 +282,7 @@ impl Names {
         &self.matches[glob]
     }
 
-    /// The glob if it matches no name; else each form of it with one alternative alone that matches none.
+    /// Returns the glob itself if it matches no name; otherwise its [`alternatives`] that match no name.
     fn parts_without(&mut self, glob: &str) -> Vec<String> {
         if self.matches(glob).is_empty() {
             return vec![glob.to_owned()];
@@ -288,7 +293,7 @@ impl Names {
     }
 }
 
-/// The indices of the names, which are sorted, that a glob matches.
+/// Returns the indices of the names that a glob matches. `names` must be sorted.
 fn matches(glob: &str, names: &[String]) -> Vec<usize> {
     if !is_pattern(glob) {
         let found = names.binary_search_by(|name| name.as_str().cmp(glob));
@@ -307,8 +312,8 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
         .collect()
 }
 
-/// The glob with one alternative in place of one of its groups `{…}`, for each alternative of each group; none
-/// where it has no group, or groups within groups.
+/// Expands each group `{…}` of a glob in turn: one glob per alternative, which replaces its group. Returns
+/// none if the glob has no group, or has nested groups.
 fn alternatives(glob: &str) -> Vec<String> {
     let mut globs = Vec::new();
     let mut start = 0;
@@ -347,7 +352,7 @@ mod tests {
         .unwrap()
     }
 
-    /// A run of these cases on `gl:a`, in which those that begin with `a` fail.
+    /// Returns a run of these cases on `gl:a`, in which the cases that begin with `a` fail.
     fn run(ids: &[&str]) -> Run {
         let verdict = |id: &str| {
             if id.starts_with('a') {

@@ -1,9 +1,10 @@
-//! The version number of a driver: from its description, or in the text that it reports.
+//! The version number of a driver: from the adapter's description, or from the text that the driver
+//! reports.
 
 use crate::adapter::AdapterRecord;
 use semver::Version;
 
-/// Returns the version of an adapter's driver: that of its description, else the one it reports.
+/// Returns the version of an adapter's driver: from its description, otherwise as the driver reports it.
 pub fn version_of(adapter: &AdapterRecord) -> Option<Version> {
     match &adapter.release {
         Some(release) => release_version(&release.version),
@@ -11,8 +12,8 @@ pub fn version_of(adapter: &AdapterRecord) -> Option<Version> {
     }
 }
 
-/// Returns a version of numbers with dots, of which the first three count; `None` if it is anything else. A
-/// single number is one too: `118`.
+/// Parses a version of numbers separated by dots, and keeps the first three. A single number such as `118`
+/// is a version too. Returns `None` for anything else.
 pub(crate) fn release_version(text: &str) -> Option<Version> {
     let parts: Option<Vec<u64>> = text.split('.').map(|part| part.parse().ok()).collect();
     let part = |n: usize| {
@@ -23,9 +24,9 @@ pub(crate) fn release_version(text: &str) -> Option<Version> {
     Some(Version::new(part(0)?, part(1)?, part(2)?))
 }
 
-/// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa` or `NVIDIA`, else the first
-/// one with a dot. Missing parts of three are 0, further parts are dropped; `None` if there is no such
-/// number.
+/// Returns the version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa` or
+/// `NVIDIA`, otherwise the first number with a dot. Missing parts are 0, and parts after the third are
+/// dropped.
 fn driver_version(text: &str) -> Option<Version> {
     let makers = ["Mesa ", "NVIDIA "];
     let behind = makers.iter().find_map(|maker| text.split_once(maker));

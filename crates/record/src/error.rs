@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a run folder or an expectations file could not be read or written.
+/// An error of reading or writing a run folder, a bench folder or an expectations file.
 #[derive(Debug, Error)]
 pub enum RecordError {
     /// The system refused to read or write.
@@ -36,7 +36,7 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
-    /// A run was to be written over a bench, or a bench over another one.
+    /// A command would overwrite a recording of another kind.
     #[error(
         "{} holds a {}; choose another folder with --out, or replace it by --force",
         path.display(), kind.noun()
@@ -47,7 +47,7 @@ pub enum RecordError {
         /// Its content.
         kind: FolderKind,
     },
-    /// The folder holds what no command recorded.
+    /// The folder holds files that no command recorded.
     #[error("{}; name another folder", foreign(path, *damaged))]
     Foreign {
         /// The folder.
@@ -55,19 +55,19 @@ pub enum RecordError {
         /// The kind of the file in it whose header does not parse.
         damaged: Option<FolderKind>,
     },
-    /// A bench is in the folder already.
+    /// The folder already holds a bench.
     #[error(
-        "{} already holds a bench, of which {missing} rounds are missing: choose another folder with --out, --resume \
+        "{} already holds a bench, which lacks {missing} rounds: choose another folder with --out, --resume \
          measures what is missing, --force replaces it",
         path.display()
     )]
     OccupiedByBench {
         /// The folder.
         path: PathBuf,
-        /// Rounds that it lacks.
+        /// The number of rounds that it lacks.
         missing: u64,
     },
-    /// Another process writes into the folder.
+    /// Another process is writing to the folder.
     #[error(
         "another etalon is writing into {}; wait until it ends, or choose another folder with --out",
         path.display()
@@ -76,7 +76,7 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder holds a run, and neither resuming nor replacing it was asked for.
+    /// The folder holds a run, and the caller asked neither to resume nor to replace it.
     #[error(
         "{} holds a run already, with {records} of {expected} records; {}--force replaces it",
         path.display(),
@@ -85,14 +85,14 @@ pub enum RecordError {
     Occupied {
         /// The folder.
         path: PathBuf,
-        /// Records that it holds.
+        /// The number of records that it holds.
         records: u64,
-        /// Records of the whole run.
+        /// The number of records of the complete run.
         expected: u64,
         /// True if the command can resume it.
         resumes: bool,
     },
-    /// The run in the folder is not the one to resume.
+    /// The run in the folder does not match the run to resume.
     #[error(
         "what {} holds cannot be resumed: {reason}; --force replaces it",
         path.display()
@@ -123,7 +123,7 @@ pub enum RecordError {
     },
     /// The file is in another format.
     #[error(
-        "{} is in format {found} where this etalon reads formats up to {expected}; \
+        "{} is in format {found}, but this etalon reads formats up to {expected}; \
          read it with the version that wrote it, or record the run again",
         path.display()
     )]
@@ -148,7 +148,7 @@ pub enum RecordError {
         remedy: &'static str,
     },
     /// A path in a record leaves the run folder.
-    #[error("{path:?} is no path below a run folder; the record that names it is damaged")]
+    #[error("{path:?} is not a path below a run folder; the record that names it is damaged")]
     Outside {
         /// The path as recorded.
         path: String,
@@ -178,7 +178,7 @@ fn foreign(path: &Path, damaged: Option<FolderKind>) -> String {
     match damaged {
         None => format!("{path} is not empty, and etalon did not record what it holds"),
         Some(kind) => format!(
-            "{path} holds a {} without a header of etalon, so that nobody knows whose files these are",
+            "{path} holds a {} without a header of etalon, so the files may belong to another program",
             kind.file()
         ),
     }

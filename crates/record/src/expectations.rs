@@ -1,6 +1,7 @@
-//! Expectations: bad verdicts that are known and explained.
+//! Expectations: known bad verdicts with their explanation.
 //!
-//! They come from two kinds of files, a list of entries and a finding per bug, and are looked up in one form, [`Known`].
+//! They come from two kinds of files: lists of entries, and findings with one bug per file. [`Known`] is
+//! the common form in which they are looked up.
 
 use crate::adapter::AdapterRecord;
 use crate::date::check_date;
@@ -20,7 +21,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// One known verdict, as a list of expectations has it.
+/// One entry of a list of expectations: a known verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entry {
@@ -28,19 +29,19 @@ pub struct Entry {
     pub adapter: String,
     /// A glob over [`AdapterRecord::driver_text`], driver and version; `*` for any.
     pub driver: String,
-    /// The driver versions that it applies to, as comparisons of which all must hold: `>=22.3, <25.1`; all
-    /// where there is none. A driver that reports no version with a dot is in no range.
+    /// The driver versions that it applies to, as comparisons that must all be true: `>=22.3, <25.1`; every
+    /// version if absent. A driver that reports no version with a dot is in no range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// A glob over case ids; `*` also matches `/`.
     pub case: String,
-    /// The expected verdict, which excuses no other one. `flaky` excuses every bad verdict, `skipped` keeps the
-    /// case from being drawn.
+    /// The expected verdict; no other verdict is excused. `flaky` excuses every bad verdict, and `skipped`
+    /// prevents the case from being drawn.
     pub verdict: Verdict,
-    /// What the failure shows; another wrong value of the same case is not excused.
+    /// The symptom of the failure; other wrong values of the same case are not excused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symptom: Option<ExpectedSymptom>,
-    /// A glob over the processor of the machine; any where there is none.
+    /// A glob over the machine's processor; any processor if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub processor: Option<String>,
     /// Labels that the run must have, as `key=value`.
@@ -50,18 +51,18 @@ pub struct Entry {
     pub reason: String,
     /// The evidence: a bug report, a section of a specification.
     pub evidence: String,
-    /// The grade of the evidence, where somebody stated it.
+    /// The grade of the evidence, if stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grade: Option<Grade>,
     /// The bug report's address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub link: Option<String>,
-    /// The last day on which the entry counts, as `2027-01-31`.
+    /// The last day on which the entry applies, as `2027-01-31`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expires: Option<String>,
 }
 
-/// A list of entries as it is written.
+/// The file form of a list.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenList {
@@ -77,7 +78,7 @@ pub enum Source {
     Finding(Finding),
 }
 
-/// One expectation: verdicts of cases on adapters that are known.
+/// One expectation: known verdicts of cases on adapters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Known {
     /// Globs over adapter names.
@@ -90,11 +91,11 @@ pub struct Known {
     pub cases: Vec<String>,
     /// The expected verdict.
     pub verdict: Verdict,
-    /// The reason why the verdict is accepted; of a finding the title.
+    /// The reason why the verdict is accepted; for a finding, its title.
     pub reason: String,
-    /// The last day on which it counts.
+    /// The last day on which it applies.
     pub expires: Option<String>,
-    /// What the failure shows.
+    /// The symptom of the failure.
     pub symptom: Option<ExpectedSymptom>,
     /// A glob over the processor of the machine.
     pub processor: Option<String>,
@@ -145,7 +146,7 @@ impl Known {
         }
     }
 
-    /// File and number, for messages.
+    /// Returns the file and the entry's number, for messages.
     pub fn place(&self) -> String {
         let path = self.path.display();
         match self.number {
@@ -154,7 +155,7 @@ impl Known {
         }
     }
 
-    /// The name of a finding, which is that of its file; of an entry, file and number.
+    /// Returns the name of a finding, which is its file's; for an entry, its file and number.
     pub fn name(&self) -> String {
         match (self.number, self.path.file_stem()) {
             (None, Some(stem)) => stem.to_string_lossy().into_owned(),
@@ -162,8 +163,9 @@ impl Known {
         }
     }
 
-    /// True if it excuses a verdict. An entry excuses its verdict alone; a finding also violations on weaker
-    /// evidence, as which its bug shows in some cases; `flaky` every bad one.
+    /// Returns true if it excuses a verdict. An entry excuses only its own verdict. A finding also excuses
+    /// violations on weaker evidence, since its bug can show as these in some cases. `flaky` excuses every
+    /// bad verdict.
     pub fn excuses(&self, verdict: Verdict) -> bool {
         let finding = matches!(self.source, Source::Finding(_));
         self.verdict == verdict
@@ -174,7 +176,7 @@ impl Known {
                 && verdict.severity() < self.verdict.severity()
     }
 
-    /// True if it excuses a record: its verdict, and of a violation what it shows.
+    /// Returns true if it excuses a record: the verdict, and for a violation also the symptom.
     pub fn excuses_record(&self, record: Shown<'_>) -> bool {
         let shown = |symptom: &ExpectedSymptom| {
             !record.verdict.is_violation() || symptom.is_shown_by(record)
@@ -183,12 +185,13 @@ impl Known {
     }
 }
 
-/// Known verdicts, with compiled globs.
+/// Expectations with their compiled globs.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
     all: Vec<Known>,
     globs: Vec<Globs>,
-    /// The day that expectations expire before, as `2027-01-31`; none do where it is not set.
+    /// Expectations whose last day is before this day, as `2027-01-31`, have expired; if not set, none
+    /// have.
     today: Option<String>,
 }
 
@@ -198,15 +201,15 @@ struct Globs {
     driver: GlobMatcher,
     version: Option<VersionReq>,
     processor: Option<GlobMatcher>,
-    /// False if the machine has another processor, or the run lacks a label.
+    /// False if the machine has another processor, or if the run lacks a label.
     applies: bool,
-    /// Whole ids, which most findings name.
+    /// Ids without wildcards, which most findings name.
     ids: HashSet<String>,
     cases: Vec<CaseGlob>,
 }
 
-/// A glob over case ids. Most ids differ from it in the text before its first special character, which
-/// is cheaper to compare than to match.
+/// A glob over case ids. Most ids already differ from the text before its first special character, and
+/// comparing that text is cheaper than matching the glob.
 #[derive(Clone, Debug)]
 struct CaseGlob {
     prefix: String,
@@ -227,12 +230,12 @@ impl CaseGlob {
     }
 }
 
-/// True if a character may stand for others in a glob.
+/// Returns true if a character can match other text in a glob.
 fn is_special(c: char) -> bool {
     "*?[]{}!\\".contains(c)
 }
 
-/// True if a glob matches its own text alone.
+/// Returns true if a glob matches only its own text.
 fn is_plain(glob: &str) -> bool {
     !glob.contains(is_special)
 }
@@ -257,22 +260,22 @@ impl Globs {
     }
 }
 
-/// The expectation about a verdict.
+/// How a verdict relates to the expectations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation<'a> {
-    /// None names it.
+    /// No expectation names the case.
     None,
     /// The verdict is excused.
     Agrees(&'a Known),
-    /// The verdict is better than the expected one: the expectation may go.
+    /// The verdict is better than expected, so the expectation can be removed.
     Better(&'a Known),
     /// The verdict was excused until the expectation expired.
     Expired(&'a Known),
-    /// The verdict is the expected one, and what the failure shows is not.
+    /// The verdict is the expected one, but the symptom is another.
     Differs(&'a Known),
 }
 
-/// The most bytes of a file; the rest of a longer one does not parse.
+/// The most bytes of a file that are read; a longer file does not parse.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 
@@ -286,8 +289,8 @@ impl Expectations {
     /// Reads a list of entries, a finding, or a folder of findings in the order of their names.
     ///
     /// # Errors
-    /// When a file cannot be read, does not parse, or holds a glob that does not; the error
-    /// names file and line.
+    /// If a file cannot be read or does not parse, or if a glob in it does not parse; the error names file
+    /// and line.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
         if !path.is_dir() {
             return Self::parse(&text_of(path)?, path);
@@ -295,7 +298,7 @@ impl Expectations {
         let mut files = Vec::new();
         for entry in fs::read_dir(path).map_err(RecordError::io("read", path))? {
             let file = entry.map_err(RecordError::io("read", path))?.path();
-            // A pipe would be waited for.
+            // Reading a pipe would block.
             if file.extension().is_some_and(|e| e == "json") && file.is_file() {
                 files.push(file);
             }
@@ -309,10 +312,10 @@ impl Expectations {
         Ok(expectations)
     }
 
-    /// Parses findings: the paths, which serve messages only, and texts of their files.
+    /// Parses findings from pairs of a path, which only messages use, and the file's text.
     ///
     /// # Errors
-    /// When a text does not parse or holds a glob that does not.
+    /// If a text does not parse, or holds an invalid glob.
     pub fn of_findings(files: &[(&str, &str)]) -> Result<Self, RecordError> {
         let mut expectations = Self::default();
         for (path, text) in files {
@@ -322,18 +325,18 @@ impl Expectations {
         Ok(expectations)
     }
 
-    /// Parses the text of a list of entries or of a finding; `path` serves messages only. A text without content
-    /// and `[]` are empty lists.
+    /// Parses the text of a list of entries or of a finding. Only messages use `path`. An empty text and
+    /// `[]` are empty lists.
     ///
     /// # Errors
-    /// When the text does not parse or holds a glob that does not.
+    /// If the text does not parse, or holds an invalid glob.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
         let mut expectations = Self::default();
         let text = without_mark(text);
         if text.trim().is_empty() {
             return Ok(expectations);
         }
-        // What does not parse at all is told of as a list.
+        // Errors in text that is not JSON are reported as errors of a list.
         let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
         if value.get("title").is_some() && value.get("entries").is_none() {
             expectations.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
@@ -355,7 +358,7 @@ impl Expectations {
                 return Err(RecordError::Parse {
                     path: path.to_owned(),
                     line: line_of(text, &entry.case),
-                    message: format!("entry {}: reason and evidence must say something", i + 1),
+                    message: format!("entry {}: reason and evidence must not be empty", i + 1),
                     remedy: REMEDY,
                 });
             }
@@ -364,7 +367,7 @@ impl Expectations {
         Ok(expectations)
     }
 
-    /// Adds an expectation of a file with this text.
+    /// Adds an expectation from a file with this text.
     fn add(&mut self, known: Known, text: &str) -> Result<(), RecordError> {
         let (keys, remedy) = match known.number {
             Some(_) => (["adapter", "case", "version"], REMEDY),
@@ -407,9 +410,9 @@ impl Expectations {
             known.cases.iter().cloned().partition(|g| is_plain(g));
         if let Some(symptom) = &known.symptom {
             let wrong = if symptom.is_empty() {
-                Some("names nothing; it takes attachment, aspect, codes, side or counter")
+                Some("is empty; its keys are attachment, aspect, codes, side and counter")
             } else if !known.verdict.is_violation() && known.verdict != Verdict::Flaky {
-                Some("is of a wrong value, which this verdict has none of")
+                Some("describes a wrong value, which this verdict does not have")
             } else {
                 None
             };
@@ -448,7 +451,7 @@ impl Expectations {
         Ok(())
     }
 
-    /// Those that are about an adapter.
+    /// Keeps the expectations that apply to an adapter.
     #[must_use]
     pub fn about(self, adapter: &AdapterRecord) -> Self {
         let both = self.all.into_iter().zip(self.globs);
@@ -460,7 +463,7 @@ impl Expectations {
         }
     }
 
-    /// The same, as they count on a day, written as `2027-01-31`.
+    /// Sets the day, written as `2027-01-31`, on which expectations are checked for expiry.
     #[must_use]
     pub fn on(self, today: &str) -> Self {
         Self {
@@ -469,7 +472,8 @@ impl Expectations {
         }
     }
 
-    /// The same, as they count in a run with these labels, as `key=value`, on a machine with this processor.
+    /// Restricts the expectations to a run with these labels, as `key=value`, on a machine with this
+    /// processor.
     #[must_use]
     pub fn of_run(mut self, processor: &str, labels: &[String]) -> Self {
         for (known, globs) in self.all.iter().zip(&mut self.globs) {
@@ -480,7 +484,7 @@ impl Expectations {
         self
     }
 
-    /// The same, with others behind them.
+    /// Appends the expectations of `others`.
     #[must_use]
     pub fn and(mut self, others: Self) -> Self {
         self.all.extend(others.all);
@@ -488,14 +492,14 @@ impl Expectations {
         self
     }
 
-    /// True if an expectation counts on this machine and in this run.
+    /// Returns true if an expectation applies to this machine and run.
     pub(crate) fn applies(&self, number: usize) -> bool {
         self.globs.get(number).is_some_and(|globs| globs.applies)
     }
 
-    /// The expectation that keeps a case from being drawn on an adapter.
+    /// Returns the expectation that prevents drawing a case on an adapter, if any.
     pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
-        // Few expectations skip anything, and most cases are named by none.
+        // Few expectations skip anything, and few cases are named by any.
         let entries = self.all.iter().zip(&self.globs);
         let mut skips = entries.filter(|(known, _)| known.verdict == Verdict::Skipped);
         let named =
@@ -503,10 +507,10 @@ impl Expectations {
         named.map(|(known, _)| known)
     }
 
-    /// True if an expectation does not count any more.
+    /// Returns true if an expectation has expired.
     pub fn expired(&self, known: &Known) -> bool {
         match (&self.today, &known.expires) {
-            // Days written this way sort as they follow each other.
+            // Dates in this form sort chronologically.
             (Some(today), Some(last)) => today > last,
             _ => false,
         }
@@ -520,7 +524,7 @@ impl Expectations {
         self.numbers(adapter, case).map(|number| &self.all[number])
     }
 
-    /// The numbers of the expectations that name a case on an adapter.
+    /// Returns the numbers of the expectations that name a case on an adapter.
     pub fn numbers<'e, 'a>(
         &'e self,
         adapter: &'a AdapterRecord,
@@ -532,25 +536,25 @@ impl Expectations {
             .map(|(number, _)| number)
     }
 
-    /// True if an expectation names a case, on any adapter.
+    /// Returns true if an expectation names a case, on any adapter.
     pub fn names(&self, number: usize, case: &str) -> bool {
         self.globs.get(number).is_some_and(|g| g.match_case(case))
     }
 
-    /// True if an expectation is about an adapter.
+    /// Returns true if an expectation applies to an adapter.
     pub(crate) fn is_about(&self, number: usize, adapter: &AdapterRecord) -> bool {
         let globs = self.globs.get(number);
         globs.is_some_and(|g| g.match_adapter(adapter))
     }
 
-    /// True if an expectation excuses a record of the cases and adapters that it names.
+    /// Returns true if an expectation excuses a record. Its cases and adapters are not checked.
     pub(crate) fn excuses(&self, number: usize, record: Shown<'_>) -> bool {
         self.all
             .get(number)
             .is_some_and(|k| k.excuses_record(record))
     }
 
-    /// The expectations that count and name a bad verdict of a case on an adapter.
+    /// Returns the expectations that have not expired and name a bad verdict of a case on an adapter.
     pub fn bad<'e, 'a>(
         &'e self,
         adapter: &'a AdapterRecord,
@@ -560,15 +564,15 @@ impl Expectations {
             .filter(|known| known.verdict.is_bad() && !self.expired(known))
     }
 
-    /// The first expectation that counts and names a bad verdict of a case on an adapter.
+    /// Returns the first expectation of [`Expectations::bad`].
     pub fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
         self.bad(adapter, case).next()
     }
 
-    /// The text of a list with these entries.
+    /// Returns the text of a list with these entries.
     ///
     /// # Errors
-    /// When an entry has no JSON form.
+    /// If an entry cannot be written as JSON.
     pub fn to_text(entries: &[Entry]) -> Result<String, RecordError> {
         let written = WrittenList {
             entries: entries.to_vec(),
@@ -579,12 +583,12 @@ impl Expectations {
         Ok(text)
     }
 
-    /// All, in the order of their files.
+    /// Returns all expectations, in the order of their files.
     pub fn all(&self) -> &[Known] {
         &self.all
     }
 
-    /// The entries of a list.
+    /// Returns the entries that come from lists.
     pub fn entries(&self) -> Vec<&Entry> {
         let entries = self.all.iter().filter_map(|known| match &known.source {
             Source::Entry(entry) => Some(entry),
@@ -593,8 +597,8 @@ impl Expectations {
         entries.collect()
     }
 
-    /// Looks up a verdict, whatever the failure shows. An expectation that agrees goes before one that names another
-    /// verdict; otherwise the first counts.
+    /// Looks up a verdict, whatever its symptom. An expectation that agrees takes precedence over one that
+    /// names another verdict; otherwise the first one counts.
     pub fn look_up(
         &self,
         adapter: &AdapterRecord,
@@ -604,7 +608,7 @@ impl Expectations {
         self.find(adapter, case, verdict, |known| known.excuses(verdict))
     }
 
-    /// Looks up a record, as [`Expectations::look_up`] does a verdict.
+    /// Looks up a record: as [`Expectations::look_up`], but with its symptom.
     pub fn look_up_record(
         &self,
         adapter: &AdapterRecord,
@@ -633,7 +637,7 @@ impl Expectations {
         if let Some(known) = entries().find(|k| k.excuses(verdict) && !self.expired(k)) {
             return Expectation::Differs(known);
         }
-        // A case that is not supported any more has not become better, and one that is flaky may pass.
+        // A case that is no longer supported has not become better, and a flaky case can pass.
         let good =
             !verdict.is_bad() && !matches!(verdict, Verdict::NotSupported | Verdict::Skipped);
         let bad = |k: &&Known| k.verdict.is_bad() && k.verdict != Verdict::Flaky;
@@ -652,7 +656,7 @@ fn text_of(path: &Path) -> Result<String, RecordError> {
     Ok(without_mark(&text).to_owned())
 }
 
-/// The line that first holds a string value, as near as a message needs it.
+/// Returns the first line that contains a string value, for messages; the first line of all if none does.
 fn line_of(text: &str, value: &str) -> usize {
     let quoted = serde_json::to_string(value).unwrap_or_default();
     let start = text.find(&quoted).unwrap_or(0);
@@ -746,7 +750,7 @@ mod tests {
         assert!(!found("Mesa 25.1.0"));
         assert!(!found("Mesa 22.2"));
         assert!(!found("unknown"));
-        // What the description says, where the driver tells nothing or something else.
+        // The description's version counts, even if the driver reports none or another one.
         let described = |version: &str| {
             let mut adapter = adapter("vulkan:x", "SwiftShader", "Mesa 22.3.6");
             adapter.release = Some(Release {

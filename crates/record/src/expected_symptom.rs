@@ -1,4 +1,4 @@
-//! What an expected failure shows: another wrong value of the same case is another failure.
+//! The symptom of an expected failure. Another wrong value of the same case is another failure.
 
 use crate::verdict::Verdict;
 use etalon_frame::{
@@ -8,16 +8,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// The side of what is allowed on which a value lies.
+    /// Whether a value is above or below the legal values.
     Side: array {
         /// Above the highest value.
         High = "high",
-        /// Below the lowest one.
+        /// Below the lowest value.
         Low = "low",
     }
 }
 
-/// What a record shows of its case.
+/// The parts of a record that a symptom is compared with.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
     /// The verdict.
@@ -28,7 +28,7 @@ pub struct Shown<'a> {
     pub counters: &'a [CounterOutcome],
 }
 
-/// Facts that hold of each wrong value that a record lists.
+/// Facts that are true of every wrong value that a record lists.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedSymptom {
@@ -38,10 +38,10 @@ pub struct ExpectedSymptom {
     /// The aspect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aspect: Option<Aspect>,
-    /// The codes that come back, of all wrong channels; any where there are none.
+    /// The codes of all wrong channels; any codes if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub codes: Vec<u32>,
-    /// The side of what is allowed.
+    /// The side of the legal values that the wrong ones are on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
     /// The counter that is wrong, while every texel is right.
@@ -50,12 +50,12 @@ pub struct ExpectedSymptom {
 }
 
 impl ExpectedSymptom {
-    /// True if it names no fact.
+    /// Returns true if it states no fact.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// True if it is about texels.
+    /// Returns true if it is about texels.
     fn names_texels(&self) -> bool {
         let counter = self.counter;
         *self
@@ -65,7 +65,7 @@ impl ExpectedSymptom {
             }
     }
 
-    /// True if a record shows this and nothing else.
+    /// Returns true if a record shows this symptom and nothing else.
     pub fn is_shown_by(&self, record: Shown<'_>) -> bool {
         let texels = record.wrong.iter().filter(|w| w.band > Band::Imprecise);
         let mut channels = texels.flat_map(|w| &w.channels).peekable();

@@ -1,8 +1,8 @@
 //! Findings: one bug of one driver in a file of its own.
 //!
-//! A finding says more than an expectation: the clause that the driver breaks, values that it was seen to write, and how
-//! the accusation is known. It excuses what it explains: its verdict, and, since one bug shows on weaker evidence in
-//! some cases, every violation of a weaker grade.
+//! A finding says more than an expectation: the clause that the driver breaks, values that it was seen to
+//! write, and the grade of the evidence. It excuses its verdict and, since the same bug shows on weaker
+//! evidence in some cases, every violation of a weaker grade.
 
 use crate::date::check_date;
 use crate::error::RecordError;
@@ -28,31 +28,31 @@ pub struct Finding {
     pub adapters: Vec<String>,
     /// A glob over driver and version; `*` for any.
     pub driver: String,
-    /// The driver versions that have the bug, such as `>=22.3, <25.1`; all where there is none.
+    /// The driver versions that have the bug, such as `>=22.3, <25.1`; every version if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub versions: Option<String>,
     /// Globs over the ids of the cases that show the bug; `*` also matches `/`.
     pub cases: Vec<String>,
-    /// The expected verdict, where it is not the grade's.
+    /// The expected verdict, if it is not the one of the grade.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
-    /// What the failure shows; another wrong value of the same case is not excused.
+    /// The symptom of the failure; other wrong values of the same case are not excused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symptom: Option<ExpectedSymptom>,
-    /// A glob over the processor of the machine; any where there is none.
+    /// A glob over the machine's processor; any processor if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub processor: Option<String>,
     /// Labels that the run must have, as `key=value`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<String>,
-    /// The grade of the accusation.
+    /// The grade of the evidence.
     pub grade: Grade,
-    /// The document, version and section that the driver breaks; empty only while the finding is unread.
+    /// The document, version and section that the driver breaks; empty only while the grade is `unread`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub clause: String,
-    /// The observation.
+    /// What was observed.
     pub evidence: Evidence,
-    /// The audit of the accusation; absent until somebody other than its author has read it.
+    /// The audit of the finding; absent until somebody other than its author has read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub read: Option<Reading>,
     /// The bug report's address.
@@ -63,8 +63,8 @@ pub struct Finding {
     pub expires: Option<String>,
 }
 
-/// The audit of a finding, by somebody who did not write it: the accusation held against the text that binds the
-/// adapter, and against the permissions of that text.
+/// The audit of a finding by somebody who did not write it. The auditor compares the finding with the
+/// specification that binds the adapter, and with the permissions in that specification.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reading {
@@ -74,14 +74,14 @@ pub struct Reading {
     pub clause: String,
     /// The result.
     pub verdict: ReadingVerdict,
-    /// The must of the text, and the permissions that were looked for and do not excuse the driver.
+    /// The requirement in the text, and the permissions that were considered and do not excuse the driver.
     pub reason: String,
 }
 
 state_enum! {
-    /// The result of an audit. The finding has the grade that the audit left it with.
+    /// The result of an audit. The finding has the grade that the audit gave it.
     ReadingVerdict: array {
-        /// The grade stands.
+        /// The grade is right.
         Upheld = "upheld",
         /// The grade was too strong.
         Lowered = "lowered",
@@ -90,16 +90,16 @@ state_enum! {
     }
 }
 
-/// The evidence of a finding: an array of values that were seen, or a text.
+/// The evidence of a finding: an array of observed values, or a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// Values.
+    /// Observed values.
     Values(Vec<Seen>),
     /// A text.
     Text(String),
 }
 
-/// A value that a driver wrote, and what it may write.
+/// A value that a driver wrote, and the legal values.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seen {
@@ -107,7 +107,7 @@ pub struct Seen {
     pub case: String,
     /// Column and row.
     pub texel: [u32; 2],
-    /// The sample; 0 where there is one.
+    /// The sample; 0 if there is only one.
     #[serde(default)]
     pub sample: u32,
     /// The value that came back.
@@ -161,15 +161,15 @@ pub(crate) const REMEDY: &str =
     "a finding needs title, adapters, driver, cases, grade, clause and evidence; see ci/README.md";
 
 impl Finding {
-    /// The expected verdict.
+    /// Returns the expected verdict: its own, or the one of its grade.
     pub fn expected(&self) -> Verdict {
         self.verdict.unwrap_or_else(|| self.grade.verdict())
     }
 
-    /// Parses the text of a file; `path` serves messages only.
+    /// Parses the text of a file. Only messages use `path`.
     ///
     /// # Errors
-    /// When the text does not parse, or a part of the finding says nothing.
+    /// If the text does not parse, or a required part of the finding is empty.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
         let fail = |line, message| RecordError::Parse {
             path: path.to_owned(),
@@ -193,14 +193,14 @@ impl Finding {
         };
         for (key, empty) in parts {
             if empty {
-                return Err(fail(line_of(key), format!("\"{key}\" must say something")));
+                return Err(fail(line_of(key), format!("\"{key}\" must not be empty")));
             }
         }
         if let Some(reading) = &finding.read {
             check_date("date", &reading.date).map_err(|message| fail(line_of("date"), message))?;
             for (key, text) in [("clause", &reading.clause), ("reason", &reading.reason)] {
                 if text.trim().is_empty() {
-                    let message = format!("\"{key}\" of \"read\" must say something");
+                    let message = format!("\"{key}\" of \"read\" must not be empty");
                     return Err(fail(line_of("read"), message));
                 }
             }
@@ -208,10 +208,10 @@ impl Finding {
         Ok(finding)
     }
 
-    /// The text of a file with this finding.
+    /// Returns the finding as the text of a file.
     ///
     /// # Errors
-    /// When it has no JSON form.
+    /// If it cannot be written as JSON.
     pub fn to_text(&self) -> Result<String, RecordError> {
         let mut text =
             serde_json::to_string_pretty(self).map_err(RecordError::serialize("a finding"))?;
@@ -276,7 +276,7 @@ mod tests {
             ("OpenGL 4.6: 17.3.6.5", " ", 7, "\"clause\""),
             ("\"texel\": [1, 2]", "\"texels\": [1, 2]", 9, "texels"),
             ("The blend constant stays.", "", 2, "\"title\""),
-            ("2027-01-31", "2027-13-01", 11, "no day"),
+            ("2027-01-31", "2027-13-01", 11, "not a day"),
             ("OpenGL 4.6: 17.3.6.5 Blend Color", "", 11, "\"clause\""),
             ("lowered", "fine", 11, "upheld"),
             ("No text says when it is read.", "", 11, "\"reason\""),

@@ -8,7 +8,7 @@ pub const RUN_FILE: &str = "run.jsonl";
 pub const BENCH_FILE: &str = "bench.jsonl";
 /// The file of a run folder that lists the selected ids, one per line, before sharding.
 pub const CASES_FILE: &str = "cases.txt";
-/// The file of a merged run that lists the records that no part has: adapter, space, case.
+/// The file of a merged run that lists the adapter and case of each record that no part has.
 pub const MISSING_FILE: &str = "missing.txt";
 /// The file of a run folder that lists the dead expectations.
 pub const DEAD_FILE: &str = "dead-expectations.json";
@@ -48,7 +48,7 @@ impl FolderKind {
         Self::Hunt,
     ];
 
-    /// The noun: run, bench, search or hunt.
+    /// Returns the noun for messages: run, bench, search or hunt.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Bench => "bench",
@@ -59,7 +59,7 @@ impl FolderKind {
         }
     }
 
-    /// The file that begins with the header.
+    /// Returns the file that begins with the header.
     pub fn file(self) -> &'static str {
         match self {
             Self::Bench => BENCH_FILE,
@@ -70,7 +70,7 @@ impl FolderKind {
         }
     }
 
-    /// The kind of a folder, by the file in it; `None` where it holds neither or is no folder.
+    /// Returns the kind of a folder, by the file in it; `None` if it holds no such file or is not a folder.
     pub fn of(folder: &Path) -> Option<Self> {
         let mut kinds = Self::ALL.into_iter();
         kinds.find(|kind| folder.join(kind.file()).is_file())

@@ -1,9 +1,9 @@
-//! The file of a frame that is not as it should be, beside its legal values.
+//! Files of frames that are not entirely right, with their legal values.
 
 use etalon_frame::{Aspect, ChannelEncoding};
 use serde::{Deserialize, Serialize};
 
-/// A frame, the hull of its legal values, and the description of the case.
+/// A frame, the lowest and highest legal value of each channel, and the description of the case.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameFile {
@@ -34,13 +34,13 @@ pub struct FrameImage {
     pub samples: u32,
     /// The channels' encodings.
     pub channels: Vec<ChannelEncoding>,
-    /// Codes of the lowest legal values; an open sample's are the lowest there are.
+    /// Codes of the lowest legal values; for an open sample, the lowest codes of the encoding.
     pub low: Vec<u32>,
-    /// Codes of the highest legal values; an open sample's are the highest there are.
+    /// Codes of the highest legal values; for an open sample, the highest codes of the encoding.
     pub high: Vec<u32>,
     /// The codes that came back.
     pub actual: Vec<u32>,
-    /// Per sample, index `(y * width + x) * samples + sample`: [`FrameImage::FINE`],
+    /// One value per sample, index `(y * width + x) * samples + sample`: [`FrameImage::FINE`],
     /// [`FrameImage::IMPRECISE`] or [`FrameImage::FAIL`].
     pub wrong: Vec<u8>,
 }
@@ -53,7 +53,7 @@ impl FrameImage {
     /// Outside the legal set.
     pub const FAIL: u8 = 2;
 
-    /// True if the lengths of the lists agree with size, samples and channels.
+    /// Returns true if the lengths of the lists agree with size, samples and channels.
     pub fn is_whole(&self) -> bool {
         let texels = (self.size[0] as usize).checked_mul(self.size[1] as usize);
         let samples = texels.and_then(|t| t.checked_mul(self.samples as usize));

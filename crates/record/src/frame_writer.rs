@@ -1,5 +1,5 @@
-//! Writing the frames and pictures of a run folder. They are files of their own, so that several threads
-//! write them at once and none waits for the records.
+//! Writing the frames and pictures of a run folder. Each is a file, so that several threads can write at
+//! once, and none waits for the records.
 
 use crate::error::RecordError;
 use crate::frame_file::FrameFile;
@@ -17,7 +17,7 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub struct FrameWriter {
     folder: PathBuf,
-    /// The folders that are there.
+    /// The folders that exist.
     made: Mutex<HashSet<PathBuf>>,
 }
 
@@ -42,11 +42,11 @@ impl FrameWriter {
     }
 
     /// Writes a frame file, compressed, and returns its path below the run folder, for
-    /// [`Record::frame`](crate::Record::frame). Call it before the record is appended, so that no record names a file
-    /// that is not there.
+    /// [`Record::frame`](crate::Record::frame). Call it before the record is appended, so that no record
+    /// names a missing file.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
         let relative = frame_path(&frame.adapter, &frame.case);
         let path = self.folder.join(&relative);
@@ -62,7 +62,7 @@ impl FrameWriter {
     /// blue of each texel, row by row from the top. Call it before the record is appended.
     ///
     /// # Errors
-    /// When the file cannot be written, or there are not as many values as the size asks for.
+    /// If the file cannot be written, or if the number of values does not match the size.
     pub fn write_picture(
         &self,
         case: &str,
@@ -79,7 +79,7 @@ impl FrameWriter {
     }
 }
 
-/// Returns bytes as gzip.
+/// Compresses bytes with gzip.
 fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
     packed.write_all(bytes)?;

@@ -1,4 +1,4 @@
-//! The grade of a finding: how its accusation is known.
+//! The grade of a finding: how strong its evidence is.
 
 use crate::verdict::Verdict;
 use etalon_frame::state_enum;
@@ -6,21 +6,21 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// How the accusation of a finding is known.
+    /// How strong the evidence of a finding is.
     Grade: array {
-        /// A must of the API's text.
+        /// The API's specification forbids it.
         Proven = "proven",
-        /// The text is open; a case of the Khronos CTS's mustpass lists is not.
+        /// The specification is open, but a case of the Khronos CTS's mustpass lists is not.
         RequiredByCts = "required-by-cts",
-        /// A contested reading of the text.
+        /// Only a contested reading of the specification forbids it.
         Disputed = "disputed",
-        /// Nobody has read the text for it yet.
+        /// Not yet compared with the specification.
         Unread = "unread",
     }
 }
 
 impl Grade {
-    /// The verdict of a finding that names none.
+    /// Returns the verdict of a finding that names none.
     pub fn verdict(self) -> Verdict {
         match self {
             Self::Proven | Self::Unread => Verdict::Fail,

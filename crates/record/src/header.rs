@@ -6,9 +6,9 @@ use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The format of run folders that this crate writes. It also reads earlier ones: format 3 has
-/// stories as sentences, format 2 no verdicts `required-by-cts`, `disputed` and `blocked`, and limits without version and
-/// properties.
+/// The format of run folders that this crate writes. It also reads earlier ones: format 3 has stories as
+/// sentences; format 2 lacks the verdicts `required-by-cts`, `disputed` and `blocked`, and its limits lack
+/// version and properties.
 pub const FORMAT: u32 = 4;
 
 /// The cases, adapters, machine and time of a run.
@@ -19,7 +19,7 @@ pub struct Header {
     pub format: u32,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The machine.
@@ -30,17 +30,17 @@ pub struct Header {
     pub command: Vec<String>,
     /// The number of selected cases; a complete run has one record per case and adapter.
     pub cases: u64,
-    /// The settings that they were drawn with.
+    /// The settings that the cases were drawn with.
     #[serde(default)]
     pub settings: Settings,
     /// The adapters that the cases ran on.
     pub adapters: Vec<AdapterRecord>,
-    /// The adapters that were looked for and cannot be used.
+    /// The adapters that were looked for and could not be used.
     pub absent: Vec<AbsentAdapter>,
 }
 
 impl Header {
-    /// A header of these adapters, with so many cases and nothing else yet.
+    /// Returns a header with these adapters and this number of cases, and nothing else yet.
     pub fn new(adapters: Vec<AdapterRecord>, cases: u64) -> Self {
         Self {
             format: FORMAT,
@@ -56,25 +56,25 @@ impl Header {
         }
     }
 
-    /// The number of records of a complete run.
+    /// Returns the number of records of a complete run.
     pub fn expected_records(&self) -> u64 {
         self.cases.saturating_mul(self.adapters.len() as u64)
     }
 
-    /// The adapter of this name.
+    /// Returns the adapter with this name.
     pub fn adapter(&self, name: &str) -> Option<&AdapterRecord> {
         self.adapters.iter().find(|a| a.name == name)
     }
 }
 
-/// The settings of a run. They must be the same when it is resumed or merged with others.
+/// The settings of a run. A run can be resumed, or merged with others, only if they have the same settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
     /// The digest of [`CASES_FILE`](crate::CASES_FILE), the ids that were selected before sharding.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub selection: String,
-    /// The part of the selection that this run draws; all of it where there is none.
+    /// The part of the selection that this run draws; all of it if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
     /// The profile: `quick` or `full`.
@@ -83,10 +83,10 @@ pub struct Settings {
     /// The number of cases of the full profile that the selection leaves out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out: Option<u64>,
-    /// The seed of the cases' order; the order of the case files where there is none.
+    /// The seed of the cases' order; if absent, the order of the case files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shuffle: Option<u64>,
-    /// The number of times that each case is drawn, each time in another process; once where there is none.
+    /// The number of times that each case is drawn, each time in another process; once if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub repeat: Option<u32>,
     /// The contents of the drivers' shader caches on disk.
@@ -98,7 +98,7 @@ pub struct Settings {
     /// Seconds that one case may take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
-    /// MiB of memory that one worker may hold.
+    /// Memory that one worker may use, in MiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<u64>,
 }

@@ -26,21 +26,21 @@ pub struct MutantInfo {
     pub source: String,
     /// The area whose cases alone must catch it.
     pub area: String,
-    /// The reason why it is legal, with the clause; `None` where it must be caught.
+    /// The reason why it is legal, with the clause; `None` if it must be caught.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub legal: Option<String>,
 }
 
 state_enum! {
-    /// The outcome of a planted bug.
+    /// The outcome of a hunt for one planted bug.
     Catch {
-        /// Some case failed.
+        /// A case failed.
         Caught = "caught",
-        /// Some case was imprecise, none failed.
+        /// A case was imprecise, and none failed.
         Noticed = "noticed",
         /// Every case passed.
         Survived = "survived",
-        /// It could not be drawn: a bug of the mutant, not a planted one.
+        /// The cases could not be drawn, because the mutant itself is faulty.
         Broken = "broken",
     }
 }
@@ -51,7 +51,7 @@ state_enum! {
 pub struct AreaTally {
     /// The area.
     pub area: String,
-    /// Cases whose every texel lies in the yardstick, or of which nothing is asserted.
+    /// Cases whose texels are all in the yardstick, or about which nothing is asserted.
     pub pass: u64,
     /// Cases with a legal texel outside the yardstick.
     pub imprecise: u64,
@@ -61,15 +61,15 @@ pub struct AreaTally {
     pub broken: u64,
 }
 
-/// The first case that failed, or that was imprecise where none failed.
+/// The first case that failed, or the first imprecise one if none failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sighting {
     /// The case.
     pub case: String,
-    /// Fail or Imprecise; InternalError if it could not be drawn.
+    /// `Fail` or `Imprecise`; `InternalError` if it could not be drawn.
     pub verdict: Verdict,
-    /// Its first texel outside.
+    /// Its first texel outside the legal set or the yardstick.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texel: Option<WrongTexel>,
     /// The error if it could not be drawn; empty otherwise.
@@ -93,7 +93,7 @@ pub struct MutantRecord {
 }
 
 impl MutantRecord {
-    /// True if the bug's own area alone gives the outcome.
+    /// Returns true if the cases of the bug's own area are enough for the outcome.
     pub fn by_own_area(&self) -> bool {
         let own = self.areas.iter().find(|a| a.area == self.mutant.area);
         own.is_some_and(|area| match self.outcome {
@@ -103,7 +103,7 @@ impl MutantRecord {
         })
     }
 
-    /// Adds the outcome of the same bug with further cases.
+    /// Adds the result of the same bug with further cases.
     pub fn add(&mut self, other: Self) {
         for tally in other.areas {
             match self.areas.iter_mut().find(|a| a.area == tally.area) {
@@ -128,14 +128,14 @@ impl MutantRecord {
         }
     }
 
-    /// The error in the outcome: a bug was not caught and nothing proves it legal, or a legal one failed.
-    /// `None` if there is no error.
+    /// Returns what is wrong with the outcome: a bug was not caught and nothing proves it legal, or a legal
+    /// one failed.
     pub fn complaint(&self) -> Option<&'static str> {
         match (self.outcome, &self.mutant.legal) {
             (Catch::Broken, _) => Some("it could not be drawn"),
             (Catch::Survived, None) => Some("nothing noticed it, and nothing proves it legal"),
             (Catch::Noticed, None) => Some("no case failed, and nothing proves it legal"),
-            (Catch::Caught, Some(_)) => Some("it failed although it is held to be legal"),
+            (Catch::Caught, Some(_)) => Some("a case failed although it is marked as legal"),
             (Catch::Caught, None) | (Catch::Noticed | Catch::Survived, Some(_)) => None,
         }
     }
@@ -149,7 +149,7 @@ pub struct Hunt {
     pub format: u32,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The machine.
@@ -162,19 +162,20 @@ pub struct Hunt {
     pub seconds: f64,
     /// The number of cases.
     pub cases: u64,
-    /// True if every case was drawn with every bug; otherwise a bug's area ends at its first Fail.
+    /// True if every case was drawn with every bug; otherwise drawing stopped in each area at the first
+    /// `Fail`.
     pub full: bool,
     /// The result of each bug, in the registry's order.
     pub mutants: Vec<MutantRecord>,
 }
 
 impl Hunt {
-    /// The number of bugs with this outcome.
+    /// Returns the number of bugs with this outcome.
     pub fn count(&self, outcome: Catch) -> usize {
         self.mutants.iter().filter(|m| m.outcome == outcome).count()
     }
 
-    /// The bugs with an error in their outcome.
+    /// Returns the bugs whose outcome is wrong, and why.
     pub fn complaints(&self) -> impl Iterator<Item = (&MutantRecord, &'static str)> {
         let each = |m: &'_ MutantRecord| m.complaint();
         self.mutants
@@ -182,10 +183,10 @@ impl Hunt {
             .filter_map(move |m| each(m).map(|why| (m, why)))
     }
 
-    /// Writes `mutants.json` into a folder, which is made when it does not exist.
+    /// Writes `mutants.json` into a folder, and creates the folder if it does not exist.
     ///
     /// # Errors
-    /// When the folder cannot be written to.
+    /// If the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
         begin(folder, HUNT_FILE, &json_line("a hunt", self)?)?;
         Ok(folder.join(HUNT_FILE))

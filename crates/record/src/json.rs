@@ -1,10 +1,10 @@
-//! JSON as this crate writes it and reports its errors.
+//! Writing JSON, and reporting its errors.
 
 use crate::error::RecordError;
 use etalon_frame::shortened;
 use serde::Serialize;
 
-/// A value as one line.
+/// Returns a value as one line of JSON.
 pub(crate) fn json_line(
     what: &'static str,
     value: &impl Serialize,
@@ -14,7 +14,7 @@ pub(crate) fn json_line(
     Ok(line)
 }
 
-/// The message of an error without the position at its end, which the caller states itself.
+/// Returns the message of an error without the position at its end, which the caller states itself.
 pub(crate) fn without_position(error: &serde_json::Error) -> String {
     let text = error.to_string();
     shortened(match text.rfind(" at line ") {

@@ -1,7 +1,7 @@
 //! Reading of `run.jsonl` and `bench.jsonl`: a header with a format number, then one value per line.
 //!
 //! A process that is killed leaves a prefix, so a last line that is not whole JSON is dropped and noted.
-//! Any other line must parse: damage in the middle was not done by a kill.
+//! Any other line must parse: being killed does not damage lines in the middle.
 
 use crate::error::RecordError;
 use crate::json::without_position;
@@ -15,35 +15,35 @@ use std::path::Path;
 /// The limits and messages of one kind of file.
 pub(crate) struct JsonLines<'a> {
     pub(crate) path: &'a Path,
-    /// The newest format that is read; so are all before it.
+    /// The newest format that is read; earlier ones are read too.
     pub(crate) format: u32,
-    /// The most bytes of the header that are read; a longer one does not parse.
+    /// The most bytes of a header that are read; a longer one does not parse.
     pub(crate) max_header: u64,
-    /// The most bytes of every other line.
+    /// The most bytes of any other line that are read.
     pub(crate) max_line: u64,
     /// The remedy for a damaged line.
     pub(crate) remedy: &'static str,
 }
 
-/// The remedy for a damaged header: no line can be read without it.
+/// The remedy for a damaged header: without it, no line can be read.
 const HEADER_REMEDY: &str = "the file cannot be read without its header; take it from a copy, or record again into another folder";
 
 /// The end of the readable part of a file.
 pub(crate) struct Extent {
-    /// Bytes of the header and the whole lines.
+    /// The length of the header and the whole lines, in bytes.
     pub(crate) bytes: u64,
     /// True if the last line was cut off.
     pub(crate) truncated: bool,
 }
 
-/// Begins a file in a folder, which is made when it does not exist. The file is renamed into place, so that none ever
-/// has half a header.
+/// Begins a file in a folder, and creates the folder if it does not exist. The file is renamed into place,
+/// so that it never has half a header.
 pub(crate) fn begin(folder: &Path, name: &str, header: &[u8]) -> Result<File, RecordError> {
     fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
     put(folder, name, [Ok(header)])
 }
 
-/// Writes the lines of a file beside the one of its name, and renames it into place.
+/// Writes the lines to a temporary file, and renames it into place.
 pub(crate) fn put<L: AsRef<[u8]>>(
     folder: &Path,
     name: &str,
@@ -65,7 +65,7 @@ pub(crate) fn put<L: AsRef<[u8]>>(
         .map_err(|error| RecordError::io("write", &path)(error.into_error()))
 }
 
-/// Opens a file to append lines to `whole` bytes of whole ones; what follows them is cut off.
+/// Opens a file to append lines after its first `whole` bytes; cuts off what follows them.
 pub(crate) fn reopen(path: &Path, whole: u64) -> Result<File, RecordError> {
     let mut file = File::options()
         .read(true)
@@ -81,7 +81,7 @@ fn cut(file: &mut File, whole: u64) -> std::io::Result<()> {
     file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
     let mut last = [0];
     file.read_exact(&mut last)?;
-    // A line may lack no more than its newline.
+    // The last line can lack its newline.
     if last != *b"\n" {
         file.write_all(b"\n")?;
     }
@@ -94,8 +94,8 @@ struct Format {
 }
 
 impl JsonLines<'_> {
-    /// Reads the lines of a file. `begin` makes the result of the header, and `take` adds a line to it or says why the
-    /// line cannot follow those before it.
+    /// Reads the lines of a file. `begin` makes the result from the header. `take` adds a line to it, or
+    /// returns why the line cannot follow the lines before it.
     pub(crate) fn read<H: DeserializeOwned, L: DeserializeOwned, T>(
         &self,
         file: impl Read,
@@ -104,7 +104,7 @@ impl JsonLines<'_> {
     ) -> Result<(T, Extent), RecordError> {
         let mut lines = BufReader::new(file);
         let mut line = Vec::new();
-        // A file of one endless line may not take the memory.
+        // A file that is one endless line must not exhaust memory.
         let mut next = |line: &mut Vec<u8>, most: u64| {
             line.clear();
             (&mut lines)
@@ -117,7 +117,7 @@ impl JsonLines<'_> {
         let mut result = begin(self.header(&line)?);
         let mut number = 2;
         let mut bytes = line.len() as u64;
-        // Lines that an editor leaves at the end hold nothing; whoever appends cuts them off.
+        // Blank lines at the end, which some editors leave, are ignored and cut off before appending.
         let mut blank: Option<usize> = None;
         // A damaged line is an error as soon as another line follows it.
         let mut damaged: Option<RecordError> = None;
@@ -144,7 +144,7 @@ impl JsonLines<'_> {
                 }
                 Err(e) => {
                     let error = self.error(number, without_position(&e));
-                    // Whole JSON of the wrong shape was not cut off: another hand wrote it.
+                    // Whole JSON of the wrong shape was not cut off: another program wrote it.
                     if e.classify() == Category::Data {
                         return Err(error);
                     }
@@ -165,7 +165,7 @@ impl JsonLines<'_> {
             remedy: HEADER_REMEDY,
         };
         let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
-        // The format goes first, since another one may have other fields.
+        // The format is read first, since other formats can have other fields.
         let Format { format } = serde_json::from_slice(line).map_err(wrong)?;
         if format == 0 || format > self.format {
             return Err(RecordError::Format {

@@ -1,10 +1,10 @@
 //! Run, record and verdict: the wire format of run folders, bench folders and expectations.
 //!
-//! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and
-//! adapter, and below `frames/` one [`FrameFile`] per frame that is not as it should be. [`RunWriter`]
-//! writes such a folder, [`Run`] reads it; reports are made from it alone. [`Expectations`] name
-//! the verdicts that are known and explained. A [`Hunt`] holds the results of planted bugs. A bench
-//! folder holds `bench.jsonl`, the raw frame times that [`BenchWriter`] writes and [`Bench`] reads.
+//! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and adapter,
+//! and below `frames/` one [`FrameFile`] per frame that is not entirely right. [`RunWriter`] writes such a
+//! folder and [`Run`] reads it; reports are made from it alone. [`Expectations`] name the verdicts that are
+//! known and explained. A [`Hunt`] holds the results of planted bugs. A bench folder holds `bench.jsonl`,
+//! the raw frame times that [`BenchWriter`] writes and [`Bench`] reads.
 
 #![cfg_attr(
     test,

@@ -1,8 +1,8 @@
-//! The lists of deqp-runner: failures by exact name, flaky and skipped cases by regular expressions.
+//! The lists of deqp-runner: failures by exact name, and flaky and skipped cases by regular expressions.
 //!
-//! A list of failures has a line `name,status` (or a name alone) per case; the other two a regular
-//! expression per line, which may match anywhere in a name. `results.csv`, which deqp-runner writes and
-//! people make their lists from, has lines `name,status,seconds`. In all of them `#` begins a comment.
+//! A list of failures has a line `name,status`, or just a name, per case. The other two have a regular
+//! expression per line, which can match anywhere in a name. deqp-runner also writes `results.csv`, from
+//! which people make their lists, with lines `name,status,seconds`. In all of them `#` begins a comment.
 
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Entry, Expectations};
@@ -26,7 +26,7 @@ pub struct Lists {
     pub skips: String,
 }
 
-/// A line of a list that cannot be read.
+/// An error in a line of a list.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{list}:{line}: {message}")]
 pub struct ListError {
@@ -34,7 +34,7 @@ pub struct ListError {
     pub list: String,
     /// The line, from 1.
     pub line: usize,
-    /// The error and its remedy.
+    /// The error, with its remedy.
     pub message: String,
 }
 
@@ -43,11 +43,11 @@ pub struct ListError {
 pub struct Imported {
     /// One entry per case.
     pub entries: Vec<Entry>,
-    /// Lines that name no case there is: list and line.
+    /// Lines that match no existing case: list and line.
     pub unmatched: Vec<(String, String)>,
 }
 
-/// The fields of every imported entry beside case and verdict.
+/// The fields of every imported entry except case and verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct About {
     /// A glob over adapter names.
@@ -62,14 +62,14 @@ pub struct About {
     pub evidence: String,
     /// The bug report's address.
     pub link: Option<String>,
-    /// The last day on which the entries count.
+    /// The last day on which the entries apply.
     pub expires: Option<String>,
 }
 
 /// The kind of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ListKind {
-    /// Failures, or results with their passes: exact names with a status.
+    /// Failures, or all results: exact names with a status.
     Fails,
     /// Flaky cases, by regular expressions.
     Flakes,
@@ -78,10 +78,10 @@ pub enum ListKind {
 }
 
 impl Imported {
-    /// Adds a list, whose name serves messages. `ids` are all existing cases.
+    /// Adds a list. Only messages use `name`. `ids` are all existing cases.
     ///
     /// # Errors
-    /// When a status or a regular expression cannot be read.
+    /// If a status or a regular expression cannot be read.
     pub fn add(
         &mut self,
         kind: ListKind,
@@ -145,7 +145,7 @@ fn regex(text: &str) -> Result<Regex, regex::Error> {
     RegexBuilder::new(text).size_limit(REGEX_BYTES).build()
 }
 
-/// The verdict that a status of deqp-runner expects; `None` where it expects nothing bad.
+/// Returns the verdict that a status of deqp-runner expects; `None` if it expects nothing bad.
 fn known_status(status: &str) -> Result<Option<Verdict>, String> {
     Ok(Some(match status.trim() {
         "Fail" | "ExpectedFail" => Verdict::Fail,
@@ -155,14 +155,14 @@ fn known_status(status: &str) -> Result<Option<Verdict>, String> {
         "Pass" | "Skip" | "Warn" | "Missing" | "UnexpectedPass" | "UnexpectedImprovement" => {
             return Ok(None);
         }
-        // Better than the list said, and perhaps still bad: the result stands in parentheses.
+        // Better than the list said, but perhaps still bad. The result is in parentheses.
         other if other.starts_with("UnexpectedImprovement(") => {
             let result = other.trim_start_matches("UnexpectedImprovement(");
             return known_status(result.trim_end_matches(')'));
         }
         other => {
             return Err(format!(
-                "`{other}` is no status of deqp-runner; those with a verdict are Fail, Crash, Timeout, \
+                "`{other}` is not a status of deqp-runner; these have a verdict: Fail, Crash, Timeout, \
                  Flake, ExpectedFail and KnownFlake"
             ));
         }
@@ -188,8 +188,8 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
 }
 
 impl Expectations {
-    /// The expectations about these cases on one adapter, as lists of deqp-runner. Verdicts without a
-    /// status of their own become `Fail`.
+    /// Returns the expectations about these cases on one adapter, as lists of deqp-runner. Verdicts that
+    /// have no status there become `Fail`.
     pub fn lists(&self, adapter: &AdapterRecord, ids: &[String]) -> Lists {
         let mut lists = Lists::default();
         for id in ids {

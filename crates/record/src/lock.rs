@@ -7,24 +7,24 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The file that is locked; it is empty and stays behind.
+/// The file that is locked. It is empty, and is never removed.
 pub(crate) const LOCK_FILE: &str = ".lock";
 
-/// The time for which a held lock is tried again.
+/// How long to retry if another process has the lock.
 const RETRY_TIME: Duration = Duration::from_secs(1);
 
-/// An exclusive lock on a folder, held until it is dropped or its process ends in any way.
+/// An exclusive lock on a folder. It is released when dropped, or when its process ends in any way.
 #[derive(Debug)]
 pub struct FolderLock {
     _file: File,
 }
 
 impl FolderLock {
-    /// Locks a folder, which is made when it does not exist. On a file system without locks this always
+    /// Locks a folder, and creates it if it does not exist. On a file system without locks this always
     /// succeeds.
     ///
     /// # Errors
-    /// When another process holds it, or the folder cannot be written to.
+    /// If another process has the lock, or the folder cannot be written to.
     pub fn acquire(folder: &Path) -> Result<Self, RecordError> {
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         let path = folder.join(LOCK_FILE);
@@ -37,8 +37,8 @@ impl FolderLock {
         let begun = Instant::now();
         loop {
             match file.try_lock() {
-                // A killed process may leave a child that has not yet executed another program, and holds
-                // the lock until then.
+                // A killed process can leave a forked child that has not yet executed another program, and
+                // has the lock until then.
                 Err(TryLockError::WouldBlock) if begun.elapsed() < RETRY_TIME => {
                     thread::sleep(RETRY_TIME / 20);
                 }

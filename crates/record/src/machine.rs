@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A machine, without anything that names its owner.
+/// A machine, without anything that identifies its owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Machine {

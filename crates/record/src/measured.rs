@@ -1,4 +1,4 @@
-//! The measurements of a method case: the distance of its picture from the truth, and its costs.
+//! The measurements of a method case: the distance of its picture from the truth, and its cost.
 
 use etalon_frame::Distance;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub struct Measured {
     pub parameter: Option<Parameter>,
     /// Distance from the truth.
     pub distance: Distance,
-    /// Frame times; `None` where the picture is wrong by the rules, and so is not timed.
+    /// Frame times; `None` if the picture is wrong by the rules, and therefore not timed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<Times>,
     /// Render passes.
@@ -48,21 +48,21 @@ pub struct Parameter {
     pub value: f64,
 }
 
-/// Medians of a case's frame times in seconds, while nothing else was drawn or judged.
+/// Medians of a case's frame times in seconds, measured while nothing else was drawn or judged.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Times {
     /// The number of timed frames, after the warm-up.
     pub samples: u32,
-    /// Until the device was done.
+    /// Time until the device was done.
     pub wall: f64,
-    /// Until the last call that submits work returned.
+    /// Time until the last call that submits work returned.
     pub cpu: f64,
-    /// Between GPU timestamps, where there are any.
+    /// Time between GPU timestamps, if the device has them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<f64>,
-    /// Two of the wall times between which the median lies with 95 % confidence; the shortest and the longest
-    /// where there are fewer than six frames.
+    /// The 95 % confidence interval of the median wall time, between two of the samples; with fewer than
+    /// six frames, the shortest and the longest time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
 }

@@ -1,4 +1,4 @@
-//! One run of several: shards of a selection, or adapters that ran elsewhere.
+//! Merging several runs into one: shards of a selection, or adapters that ran elsewhere.
 
 use crate::dead::Dead;
 use crate::error::RecordError;
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 pub struct Merge {
     header: Header,
     ids: Vec<String>,
-    /// By place of the adapter in the header and of the case in the list: the record, and its folder.
+    /// Records and their folders, by the index of the adapter in the header and of the case in `ids`.
     records: HashMap<(usize, usize), (Record, PathBuf)>,
     merged: Merged,
     /// The dead expectations that every part names.
@@ -41,9 +41,9 @@ pub struct Merged {
     pub missing: Vec<(String, String)>,
     /// Folders that hold no run.
     pub empty: Vec<PathBuf>,
-    /// Records that several parts have with the same verdict; one is kept.
+    /// Records that several parts have with the same verdict; one of each is kept.
     pub twice: u64,
-    /// Adapter and case of each record on which parts disagree; it becomes Flaky.
+    /// Adapter and case of each record on which parts disagree; it becomes `Flaky`.
     pub disagreeing: Vec<(String, String)>,
 }
 
@@ -51,8 +51,8 @@ impl Merge {
     /// Reads run folders and checks that they are parts of one run. Nothing is written.
     ///
     /// # Errors
-    /// When a run is damaged, its selection is not known, or two are not parts of one run: another
-    /// selection, other settings, another version of the suite or of a driver.
+    /// If a run is damaged, if its selection is not known, or if two are not parts of one run because their
+    /// selection, settings, version of the suite or driver differ.
     pub fn read(folders: &[PathBuf]) -> Result<Self, RecordError> {
         let mut merged = Merged::default();
         let mut parts: Vec<(&PathBuf, Run)> = Vec::new();
@@ -73,7 +73,7 @@ impl Merge {
         let mut dead = Dead::read(first)?;
         for (folder, _) in &parts {
             let also = Dead::read(folder)?;
-            // What a part never matched, another may have.
+            // Another part can match what this part never matched.
             dead.retain(|entry| also.contains(entry));
         }
         let mut merge = Self {
@@ -123,17 +123,16 @@ impl Merge {
         Ok(())
     }
 
-    /// The header of the whole, whose command and start the caller may replace.
+    /// Returns the header of the merged run; the caller can replace its command and start.
     pub fn header_mut(&mut self) -> &mut Header {
         &mut self.header
     }
 
-    /// Writes the whole as a run folder: records by adapter and case in the list's order, their frames and
-    /// pictures, and the names of those that are missing. `reports` are removed from a run that it
-    /// replaces.
+    /// Writes the merged run as a run folder: records by adapter and then case, their frames and pictures,
+    /// and a list of the missing records. `reports` are removed from a run that it replaces.
     ///
     /// # Errors
-    /// When a file cannot be read or written, or a record names one outside its folder.
+    /// If a file cannot be read or written, or if a record names a file outside its folder.
     pub fn write(mut self, out: &Path, reports: ReportFiles) -> Result<Merged, RecordError> {
         let mut writer = RunWriter::replace(out, &self.header, reports)?;
         writer.write_cases(self.ids.iter().map(String::as_str))?;
@@ -173,7 +172,7 @@ fn places<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<&'a str, usize
     names.enumerate().map(|(i, n)| (n.as_str(), i)).collect()
 }
 
-/// The list of cases that all parts were selected from.
+/// Returns the list of cases that all parts were selected from.
 fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
     let mut list = None;
     for (folder, run) in parts {
@@ -197,10 +196,10 @@ fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
     })
 }
 
-/// The header of the whole.
+/// Returns the header of the merged run.
 fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError> {
     let mut whole: Option<Header> = None;
-    // Where each adapter was seen first.
+    // The folder in which each adapter was first seen.
     let mut seen: HashMap<String, &Path> = HashMap::new();
     for (folder, run) in parts {
         let header = &run.header;
@@ -271,10 +270,11 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
     Ok(whole)
 }
 
-/// The most globs that are named of each side.
+/// The most globs that are named per side.
 const GLOBS: usize = 4;
 
-/// The globs of the case files in which two selections differ; `None` if they are the same, or a list is missing.
+/// Returns the globs of the case files in which two selections differ; `None` if they are the same, or if a
+/// list is missing.
 fn selections(
     first: &Path,
     of_one: &Settings,
@@ -293,7 +293,7 @@ fn selections(
         let mut globs: BTreeMap<String, usize> = BTreeMap::new();
         for id in ids.difference(others) {
             let record = Record::new(id.as_str(), "", Verdict::Pass);
-            // Of an area that the other lacks as a whole, the area says it.
+            // If the other selection lacks a whole area, the area is named instead of its files.
             let area = format!("{}/", record.area());
             let whole = !others.iter().any(|other| other.starts_with(&area));
             let glob = if whole {
@@ -324,7 +324,7 @@ fn selections(
     (!sides.is_empty()).then(|| sides.join("; "))
 }
 
-/// The record of a case that came out differently in two parts.
+/// Merges two records of a case that disagree.
 fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
     let told = format!(
         "{} in one part, {} in another",
@@ -347,7 +347,7 @@ fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, P
     worse
 }
 
-/// Copies a file that a record names; the report notes one that does not exist.
+/// Copies a file that a record names. A missing file is left for the report to note.
 fn copy(from: &Path, to: &Path, file: &str) -> Result<(), RecordError> {
     let relative = below(file)?;
     let (from, to) = (from.join(&relative), to.join(&relative));

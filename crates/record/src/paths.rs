@@ -5,7 +5,10 @@ use crate::folder::{FRAMES, PICTURES};
 use crate::hash::fnv;
 use std::path::{Component, PathBuf};
 
-/// The path of a file that a record names, which must not leave the run folder.
+/// Returns the path of a file that a record names.
+///
+/// # Errors
+/// If the path leaves the run folder.
 pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     let path = PathBuf::from(file);
     let plain = |c: Component<'_>| matches!(c, Component::Normal(_));
@@ -18,21 +21,21 @@ pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     }
 }
 
-/// `frames/<adapter>/<area>/<rest of the case>.json.gz`, with `,` between the parts of the rest and every
-/// character that a file system may treat specially replaced. A folder per part would cost a file system
-/// more than the frames.
+/// Returns `frames/<adapter>/<area>/<rest of the case>.json.gz`. The parts of the rest are joined by `,`,
+/// and characters that a file system could treat specially are replaced. A folder per part would cost more
+/// than the frames.
 pub(crate) fn frame_path(adapter: &str, case: &str) -> String {
     let (area, path) = case.split_once('/').unwrap_or(("", case));
     let (adapter, area) = (safe(adapter), safe(area));
     format!("{FRAMES}/{adapter}/{area}/{}.json.gz", safe(path))
 }
 
-/// `pictures/<case>.png`, likewise.
+/// Returns `pictures/<case>.png`, with the same replacements.
 pub(crate) fn picture_path(case: &str) -> String {
     format!("{}.png", path_below(PICTURES, case))
 }
 
-/// `<folder>/<case>`, with every character that a file system may treat specially replaced.
+/// Returns `<folder>/<case>`, with characters replaced that a file system could treat specially.
 fn path_below(folder: &str, case: &str) -> String {
     let mut path = folder.to_owned();
     for part in case.split('/') {
@@ -42,8 +45,8 @@ fn path_below(folder: &str, case: &str) -> String {
     path
 }
 
-/// One safe path component. `:` becomes `_` and `/` becomes `,`; a component that changes otherwise also
-/// gets a hash of what it was, so that two of them do not become one.
+/// Makes one safe path component. `:` becomes `_`, and `/` becomes `,`. A component that changes in any
+/// other way also gets a hash of the original, so that two components never become equal.
 fn safe(part: &str) -> String {
     const LONGEST: usize = 160;
     let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);

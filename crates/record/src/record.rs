@@ -27,14 +27,14 @@ pub struct Record {
     pub adapter: String,
     /// The raw verdict, independent of expectations.
     pub verdict: Verdict,
-    /// Set when the verdict agrees with an entry of the expectations.
+    /// The expectation that the verdict agrees with, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<Expected>,
-    /// The case of a finding that is the same when both are reduced on the adapter, if it is expected for that reason alone:
-    /// the finding names other cases.
+    /// If the record is expected only because its reduced scene is the same as that of a finding's case:
+    /// that case. The finding itself names other cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
-    /// The bad verdict that the expectations name here, when the raw one is better.
+    /// The bad verdict that the expectations name, if the raw one is better.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub improves: Option<Verdict>,
     /// True if the case is a selftest that must fail.
@@ -43,11 +43,11 @@ pub struct Record {
     /// The missing requirement, the error, or the end of the lost process's standard error.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
-    /// The number of samples by result; all zero when no frame came back.
+    /// The number of samples by result; all zero if no frame came back.
     pub texels: TexelCounts,
     /// The asserted share and sharpness, per aspect.
     pub assertions: Vec<Assertion>,
-    /// The distance of the frame from the ideal, per aspect; empty when no frame came back.
+    /// The distance of the frame from the ideal, per aspect; empty if no frame came back.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub accuracy: Vec<Accuracy>,
     /// Every counter with its legal range.
@@ -56,21 +56,21 @@ pub struct Record {
     /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong: Vec<WrongTexel>,
-    /// The story of the first wrong sample in the reference.
+    /// What the reference did at the first wrong sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub story: Option<Story>,
     /// The frame file's path below the run folder, with `/` between its parts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
-    /// The time that it took.
+    /// The time that drawing and judging took.
     pub seconds: Seconds,
     /// The measurements of a method case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
-    /// The kind of the backend's error, if it failed. Formats before 4 have none.
+    /// The kind of the backend's error, if it failed. Formats before 4 lack it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorKind>,
-    /// The end of the process that drew the case, if it was lost.
+    /// How the process that drew the case ended, if it was lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub process: Option<ProcessEnd>,
     /// Messages of validation layers and debug output, at most [`MAX_VALIDATION`].
@@ -79,16 +79,16 @@ pub struct Record {
     /// The verdicts of all repetitions in fresh processes, without that of the first drawing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub repeats: Vec<Verdict>,
-    /// The cases that must be drawn before in the same process, in this order, for this verdict. Drawn
-    /// alone, the case has a better one.
+    /// The cases that must be drawn earlier in the same process, in this order, for this verdict. Drawn
+    /// alone, the case has a better verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
-    /// The round trips that failed, for which a Blocked case was not drawn.
+    /// The failed round trips that prevented drawing a `Blocked` case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub blocked_by: Vec<String>,
 }
 
-/// The way in which a process was lost.
+/// How a process was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossKind {
@@ -98,17 +98,17 @@ pub enum LossKind {
     Timeout,
     /// It exceeded its memory limit.
     Memory,
-    /// Its output was no message of the protocol.
+    /// Its output was not a message of the protocol.
     Garbage,
     /// It could not be started again.
     NotStarted,
 }
 
-/// The end of a process that was lost.
+/// How a process that was lost ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessEnd {
-    /// The way in which it was lost.
+    /// How it was lost.
     pub kind: LossKind,
     /// The signal that ended it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,12 +119,12 @@ pub struct ProcessEnd {
     /// The end of its standard error.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub stderr: String,
-    /// Seconds from the time that it could begin the case until the loss was noticed.
+    /// Seconds from when it could begin the case until the loss was noticed.
     pub seconds: f64,
 }
 
 impl Record {
-    /// A record of a verdict and nothing else yet.
+    /// Returns a record with a verdict and nothing else yet.
     pub fn new(case: impl Into<String>, adapter: impl Into<String>, verdict: Verdict) -> Self {
         Self {
             case: case.into(),
@@ -153,7 +153,7 @@ impl Record {
         }
     }
 
-    /// Notes what the expectations say of the verdict.
+    /// Sets what the expectations say about the verdict.
     pub fn expect(&mut self, expectations: &Expectations, adapter: &AdapterRecord) {
         (self.expected, self.improves) =
             match expectations.look_up_record(adapter, &self.case, self.shown()) {
@@ -179,7 +179,7 @@ impl Record {
             };
     }
 
-    /// What an expectation may ask of it.
+    /// Returns the parts that expectations compare.
     pub fn shown(&self) -> Shown<'_> {
         Shown {
             verdict: self.verdict,
@@ -196,8 +196,8 @@ impl Record {
         };
     }
 
-    /// True if the record counts against the run: a bad verdict that no expectation names, or a selftest
-    /// that had to fail and did not.
+    /// Returns true if the record counts against the run: a bad verdict that no expectation names, or a
+    /// selftest that had to fail and did not.
     pub fn unexpected(&self) -> bool {
         if self.expected.is_some() {
             return false;
@@ -210,24 +210,24 @@ impl Record {
         }
     }
 
-    /// True if the verdict is better than expected.
+    /// Returns true if the verdict is better than expected.
     pub fn improvement(&self) -> bool {
         self.improves.is_some() && !self.unexpected()
     }
 
-    /// True if the frame that came back was held against something.
+    /// Returns true if anything about the frame was checked.
     pub fn asserts(&self) -> bool {
         let judged = self.verdict.is_judged() && self.verdict != Verdict::Open;
         let channels = self.assertions.iter().any(|a| a.asserted > 0);
         judged || channels || self.counters.iter().any(CounterOutcome::is_asserted)
     }
 
-    /// The case's area: the first part of its id.
+    /// Returns the case's area: the first part of its id.
     pub fn area(&self) -> &str {
         self.case.split('/').next().unwrap_or_default()
     }
 
-    /// The id without its axis values: what all cases of one case file share.
+    /// Returns the id without its axis values, which is the same for all cases of one case file.
     pub fn case_file(&self) -> &str {
         let mut end = 0;
         for part in self.case.split('/') {
@@ -236,7 +236,7 @@ impl Record {
             }
             end += part.len() + 1;
         }
-        // An id that begins with an axis value has no such part; then the whole id stands for it.
+        // An id that begins with an axis value has no such part, so the whole id is returned.
         match end {
             0 => &self.case,
             _ => &self.case[..end - 1],
@@ -244,7 +244,7 @@ impl Record {
     }
 }
 
-/// An entry of the expectations that a record agrees with.
+/// The expectation that a record agrees with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
@@ -262,8 +262,8 @@ pub struct Seconds {
     pub judge: f64,
 }
 
-/// The assertions of legal set and yardstick about one aspect. A *channel* here is one channel
-/// of one sample.
+/// How much the legal set and the yardstick assert about one aspect. A *channel* here is one channel of one
+/// sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Assertion {
@@ -275,18 +275,18 @@ pub struct Assertion {
     pub asserted: u64,
     /// Channels with exactly one legal code.
     pub exact: u64,
-    /// Legal codes, summed over the asserted channels.
+    /// The number of legal codes, summed over the asserted channels.
     pub codes: u64,
     /// Channels with exactly one code inside the yardstick.
     pub yardstick_exact: u64,
-    /// Codes inside the yardstick, summed over the channels that it asserts.
+    /// The number of codes inside the yardstick, summed over the channels that it asserts.
     pub yardstick_codes: u64,
     /// Channels that the yardstick asserts something about.
     pub yardstick_asserted: u64,
 }
 
 impl Assertion {
-    /// The figures of a legal set and its yardstick.
+    /// Combines the statistics of a legal set and its yardstick.
     pub fn new(aspect: Aspect, legal: AspectStatistics, yardstick: AspectStatistics) -> Self {
         Self {
             aspect,
@@ -313,22 +313,22 @@ impl Assertion {
             .saturating_add(other.yardstick_asserted);
     }
 
-    /// The asserted share of all channels, 0 to 1; 0 where there are none.
+    /// Returns the asserted share of all channels, 0 to 1; 0 without channels.
     pub fn share(&self) -> f64 {
         ratio(self.asserted, self.channels).unwrap_or(0.0)
     }
 
-    /// The mean number of legal codes per asserted channel; 1 is the sharpest.
+    /// Returns the mean number of legal codes per asserted channel; 1 is the sharpest.
     pub fn sharpness(&self) -> Option<f64> {
         ratio(self.codes, self.asserted)
     }
 
-    /// The mean number of codes inside the yardstick per channel that it asserts.
+    /// Returns the mean number of codes inside the yardstick per channel that it asserts.
     pub fn yardstick_sharpness(&self) -> Option<f64> {
         ratio(self.yardstick_codes, self.yardstick_asserted)
     }
 
-    /// The share of all channels that the yardstick asserts, 0 to 1.
+    /// Returns the share of all channels that the yardstick asserts, 0 to 1.
     pub fn yardstick_share(&self) -> f64 {
         ratio(self.yardstick_asserted, self.channels).unwrap_or(0.0)
     }

@@ -1,7 +1,7 @@
 //! The files that reports add to a run or bench folder.
 //!
-//! Their names are the reporter's: whoever begins a run or bench hands them in, so that a folder which is
-//! replaced keeps no report of the run before.
+//! The crate that reports knows their names. Whoever begins a run or bench passes them in, so that a folder
+//! that is replaced keeps no report of the earlier run.
 
 use crate::error::RecordError;
 use std::fs;
@@ -24,10 +24,10 @@ impl ReportFiles {
         folders: &[],
     };
 
-    /// Removes them; what does not exist needs no removing. Other files in the folders stay.
+    /// Removes the reports that exist. Other files in the folders stay.
     ///
     /// # Errors
-    /// When one cannot be removed.
+    /// If one cannot be removed.
     pub fn remove(self, folder: &Path) -> Result<(), RecordError> {
         for (name, extension) in self.folders {
             removed(remove_below(&folder.join(name), extension), folder, name)?;
@@ -39,8 +39,8 @@ impl ReportFiles {
     }
 }
 
-/// Removes the files of an extension below a folder, and the folders that are empty then. A link stays, with what it
-/// leads to.
+/// Removes the files with an extension below a folder, and folders that become empty. Links and their
+/// targets stay.
 fn remove_below(folder: &Path, extension: &str) -> io::Result<()> {
     if !fs::symlink_metadata(folder)?.is_dir() {
         return Ok(());

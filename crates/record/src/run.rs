@@ -26,9 +26,9 @@ pub struct Run {
 
 /// The signature of a PNG file.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-/// The most bytes of a header's line: some thousand adapters.
+/// The most bytes of a header's line, which is enough for some thousand adapters.
 const MAX_HEADER: u64 = 16 << 20;
-/// The most bytes of a frame file that are read; what is longer does not parse.
+/// The most bytes of a frame file that are read; a longer one does not parse.
 const MAX_FRAME: u64 = 512 << 20;
 /// The remedy for a damaged line.
 const REMEDY: &str = "remove the line, or record the run again";
@@ -48,12 +48,12 @@ impl Run {
     /// any other line must parse.
     ///
     /// # Errors
-    /// When there is no run, it is in another format, or a line is damaged.
+    /// If there is no run, if its format is unknown, or if a line is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         Ok(Self::read_prefix(folder)?.0)
     }
 
-    /// [`Run::read`], with the number of bytes that the header and the whole records take.
+    /// Like [`Run::read`], and also returns the length of the header and the whole records in bytes.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(RUN_FILE);
         let file = File::open(&path).map_err(|e| match e.kind() {
@@ -75,12 +75,13 @@ impl Run {
         Ok((run, extent.bytes))
     }
 
-    /// Reads the lines of a `run.jsonl` from anywhere, without holding more than one record: `begin` makes the result
-    /// of the header, and `take` adds a record to it or says why the record cannot be. The second value is true if
-    /// the last line was cut off; it is dropped. Errors name `path`.
+    /// Reads the lines of a `run.jsonl` from any source, and keeps at most one record in memory. `begin`
+    /// makes the result from the header; `take` adds a record to it, or returns why the record is
+    /// impossible. The second value is true if the last line was cut off; that line is dropped. Errors name
+    /// `path`.
     ///
     /// # Errors
-    /// As [`Run::read`], and when `take` refuses a record.
+    /// As [`Run::read`], and if `take` refuses a record.
     pub fn fold<T>(
         path: &Path,
         text: impl Read,
@@ -91,17 +92,17 @@ impl Run {
         Ok((result, extent.truncated))
     }
 
-    /// The number of records that a complete run has and this one lacks.
+    /// Returns the number of records that this run lacks to be complete.
     pub fn missing(&self) -> u64 {
         self.header
             .expected_records()
             .saturating_sub(self.records.len() as u64)
     }
 
-    /// Reads a frame file by the path that a record names. Runs of earlier versions hold it uncompressed.
+    /// Reads a frame file by the path in a record. Earlier versions wrote frames uncompressed.
     ///
     /// # Errors
-    /// When the path leaves the folder, or the file cannot be read or does not parse.
+    /// If the path leaves the folder, or if the file cannot be read or does not parse.
     pub fn read_frame(folder: &Path, frame: &str) -> Result<FrameFile, RecordError> {
         let path = folder.join(below(frame)?);
         let mut bytes = Vec::new();
@@ -124,11 +125,11 @@ impl Run {
         })
     }
 
-    /// Reads a picture by the path that a record names; `None` where it is no PNG file or longer than
-    /// `most` bytes.
+    /// Reads a picture by the path in a record; `None` if it is not a PNG file or is longer than `most`
+    /// bytes.
     ///
     /// # Errors
-    /// When the path leaves the folder, or the file cannot be read.
+    /// If the path leaves the folder, or the file cannot be read.
     pub fn read_picture(
         folder: &Path,
         picture: &str,

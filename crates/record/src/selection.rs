@@ -1,6 +1,6 @@
 //! The selection of a run: the ids of its cases, their digest and their shards.
 //!
-//! The digest lets runs that hold only a part of the records prove that they are parts of one run.
+//! The digest lets runs that have only some of the records prove that they are parts of one run.
 
 use crate::error::RecordError;
 use crate::folder::CASES_FILE;
@@ -15,18 +15,19 @@ use std::path::Path;
 /// The most bytes of a list of cases.
 const MAX_BYTES: u64 = 256 << 20;
 
-/// The digest of a selection, for [`Settings::selection`](crate::Settings::selection): the number of ids
-/// and a hash of them in sorted order.
+/// Returns the digest of a selection, for [`Settings::selection`](crate::Settings::selection): the number
+/// of ids and a hash of them in sorted order.
 pub fn selection_digest<'a>(ids: impl IntoIterator<Item = &'a str>) -> String {
     let sorted: BTreeSet<&str> = ids.into_iter().collect();
     let bytes = sorted.iter().flat_map(|id| id.bytes().chain([b'\n']));
     format!("{}-{:016x}", sorted.len(), fnv(bytes))
 }
 
-/// The shard, from 1, of `count` that an id belongs to. It depends on the id alone, so that a new case moves
-/// no other.
+/// Returns the number, from 1, of the shard out of `count` that an id belongs to. It depends only on the
+/// id, so that a new case never moves another.
 pub fn shard_of(id: &str, count: u32) -> u32 {
-    // FNV mixes the last bytes badly, and ids differ at their ends: MurmurHash3's finaliser mixes them.
+    // FNV mixes the last bytes badly, and ids differ at their ends, so MurmurHash3's finaliser mixes them
+    // again.
     let mut hash = fnv(id.bytes());
     for factor in [0xff51_afd7_ed55_8ccd, 0xc4ce_b9fe_1a85_ec53] {
         hash = (hash ^ (hash >> 33)).wrapping_mul(factor);
@@ -35,10 +36,10 @@ pub fn shard_of(id: &str, count: u32) -> u32 {
     ((high * u64::from(count.max(1))) >> 32) as u32 + 1
 }
 
-/// The ids in a run folder's list of cases; `None` where it has none.
+/// Returns the ids in a run folder's list of cases; `None` if the folder has no list.
 ///
 /// # Errors
-/// When the list cannot be read, or is not the one that the header's digest names.
+/// If the list cannot be read, or does not match the header's digest.
 pub fn read_cases(folder: &Path, header: &Header) -> Result<Option<Vec<String>>, RecordError> {
     let path = folder.join(CASES_FILE);
     let mut text = String::new();
@@ -101,7 +102,7 @@ mod tests {
             }
         }
         assert_eq!(shard_of("depth/a", 0), 1);
-        // Released ids may not move.
+        // Released ids must not move.
         assert_eq!(
             [2, 5, 9].map(|n| shard_of("depth/compare/compare=less", n)),
             [1, 3, 5]

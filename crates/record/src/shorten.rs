@@ -4,7 +4,7 @@ use crate::error::RecordError;
 use crate::json::json_line;
 use crate::record::{MAX_LINE, MAX_WRONG_TEXELS, Record};
 
-/// The record's line, shortened until it has at most [`MAX_LINE`] bytes.
+/// Returns the record's line, shortened to at most [`MAX_LINE`] bytes.
 pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
     let write = |record: &Record| json_line("a record", record);
     let mut line = write(record)?;
@@ -51,7 +51,7 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
     Ok(line)
 }
 
-/// Removes the first quarter of a message: the cause of a crash usually stands at the end.
+/// Removes the first quarter of a message: the cause of a crash is usually at the end.
 fn cut(message: &mut String) {
     let mut from = message.len() / 4 + 1;
     while from < message.len() && !message.is_char_boundary(from) {

@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The outcome of one case on one adapter.
     Verdict: array {
-        /// Every texel lies inside the yardstick, and something was asserted.
+        /// Every texel is inside the yardstick, and something was asserted.
         Pass = "pass",
-        /// Every texel is legal, and some lie outside the yardstick: a quality finding, no failure.
+        /// Every texel is legal, and some are outside the yardstick: a quality finding, not a failure.
         Imprecise = "imprecise",
-        /// A texel lies outside what the API's text allows.
+        /// A texel is outside the values that the API's specification allows.
         Fail = "fail",
-        /// The text is open, but a case of the Khronos CTS's mustpass lists forbids a texel.
+        /// The specification is open, but a case of the Khronos CTS's mustpass lists forbids a texel.
         RequiredByCts = "required-by-cts",
-        /// Only a contested reading of the text forbids a texel.
+        /// Only a contested reading of the specification forbids a texel.
         Disputed = "disputed",
         /// Nothing could be asserted.
         Open = "open",
-        /// Numbers without judgement.
+        /// Numbers without a judgement.
         Measured = "measured",
         /// The adapter lacks something that the scene needs.
         NotSupported = "not-supported",
-        /// Not drawn: what the adapter offers failed a round trip that the case leans on.
+        /// Not drawn, because a round trip failed that the case depends on.
         Blocked = "blocked",
         /// The expectations forbid drawing the case on this adapter.
         Skipped = "skipped",
@@ -31,19 +31,19 @@ state_enum! {
         Flaky = "flaky",
         /// The process that drew the case died.
         Crash = "crash",
-        /// The case took longer than it may.
+        /// The case took longer than its time limit.
         Timeout = "timeout",
-        /// The API reported the device lost.
+        /// The API reported that the device was lost.
         DeviceLost = "device-lost",
         /// The driver refused an allocation or an object.
         ResourceError = "resource-error",
-        /// The suite's own logic failed; says nothing about the driver.
+        /// The suite's own logic failed; this says nothing about the driver.
         InternalError = "internal-error",
     }
 }
 
 impl Verdict {
-    /// True if the verdict counts against a run unless it was expected.
+    /// Returns true if the verdict counts against a run unless it was expected.
     pub fn is_bad(self) -> bool {
         match self {
             Self::Pass | Self::Imprecise | Self::Measured | Self::NotSupported | Self::Skipped => {
@@ -63,12 +63,13 @@ impl Verdict {
         }
     }
 
-    /// True if a texel lies outside of what the rules allow, on whatever grade of evidence.
+    /// Returns true if a texel is outside the values that the rules allow, whatever the grade of the
+    /// evidence.
     pub fn is_violation(self) -> bool {
         matches!(self, Self::Fail | Self::RequiredByCts | Self::Disputed)
     }
 
-    /// True if a frame came back and was compared with its legal set.
+    /// Returns true if a frame came back and was compared with its legal set.
     pub fn is_judged(self) -> bool {
         matches!(
             self,
@@ -82,8 +83,8 @@ impl Verdict {
         )
     }
 
-    /// The badness of the verdict, for picking the worst of several of one case: larger is worse. A Fail, as
-    /// a proof, is worst.
+    /// Returns how bad the verdict is, for choosing the worst of several verdicts of one case. Larger is
+    /// worse; `Fail` is the worst, because it is a proof.
     pub fn severity(self) -> u8 {
         match self {
             Self::Skipped => 0,

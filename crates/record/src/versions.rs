@@ -1,7 +1,7 @@
-//! `versions.jsonl`: the verdicts of cases over the releases of one driver.
+//! `versions.jsonl`: the verdicts of cases across the releases of one driver.
 //!
-//! Not every case is drawn with every release: what lies between two releases of one standing is taken to have it, which
-//! is checked in the middle of each such span.
+//! Not every case is drawn with every release. A release that was not drawn takes the standing of its
+//! neighbours if both have the same, and a release in the middle of each such span is drawn to check this.
 
 use crate::error::RecordError;
 use crate::folder::VERSIONS_FILE;
@@ -27,7 +27,7 @@ pub struct VersionsHeader {
     pub format: u32,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The machine.
@@ -36,7 +36,7 @@ pub struct VersionsHeader {
     pub started: String,
     /// The command line, program first.
     pub command: Vec<String>,
-    /// The line.
+    /// The line of releases: `swiftshader`.
     pub line: String,
     /// Its releases, oldest first.
     pub releases: Vec<ReleaseRecord>,
@@ -50,31 +50,31 @@ pub struct ReleaseRecord {
     pub version: String,
     /// The adapter's name.
     pub adapter: String,
-    /// Driver and version as the driver tells them.
+    /// Driver and version as the driver reports them.
     pub driver: String,
 }
 
-/// One case over the releases.
+/// The verdicts of one case across the releases.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseVersions {
     /// The case's id.
     pub case: String,
-    /// The finding that speaks of it on some release.
+    /// The finding that names the case on some release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub finding: Option<String>,
-    /// The verdict by release; `None` where it was not drawn.
+    /// The verdict by release; `None` if the case was not drawn.
     pub verdicts: Vec<Option<Verdict>>,
 }
 
-/// The meaning of a verdict for a release.
+/// What a verdict means for a release.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Standing {
-    /// The case is drawn right.
+    /// The case is drawn correctly.
     Good,
-    /// It is drawn wrong, or not at all by the driver's fault.
+    /// It is drawn wrong, or the driver fails to draw it.
     Bad,
-    /// It is drawn right at some times.
+    /// It is drawn correctly only some of the time.
     Flaky,
     /// It is not drawn, or nothing is asserted.
     Unknown,
@@ -102,8 +102,8 @@ impl From<Verdict> for Standing {
 }
 
 impl CaseVersions {
-    /// Returns the standing by release: of one that was not drawn, that of its neighbours if both have the same, else
-    /// `None`.
+    /// Returns the standing by release. A release that was not drawn has that of its neighbours if both
+    /// agree, and otherwise `None`.
     pub fn standings(&self) -> Vec<Option<Standing>> {
         let drawn: Vec<Option<Standing>> =
             self.verdicts.iter().map(|v| v.map(Into::into)).collect();
@@ -116,7 +116,7 @@ impl CaseVersions {
         each.collect()
     }
 
-    /// Returns the spans of releases, first and last, in which the case is bad.
+    /// Returns the spans of releases, as first and last index, in which the case is bad.
     pub fn bad(&self) -> Vec<[usize; 2]> {
         let mut spans: Vec<[usize; 2]> = Vec::new();
         for (i, standing) in self.standings().into_iter().enumerate() {
@@ -131,8 +131,9 @@ impl CaseVersions {
         spans
     }
 
-    /// Returns, in the words of a finding's `versions`, the releases from the first bad one to before the good one that
-    /// follows the last; `None` if the case is bad in none or in all, or good again between.
+    /// Returns the affected releases as a finding's `versions` states them: from the first bad release up
+    /// to the good one after the last. `None` if the case is bad in none or in all, or is good again in
+    /// between.
     pub fn range(&self, releases: &[ReleaseRecord]) -> Option<String> {
         let bad = self.bad();
         let [[first, last]] = bad[..] else {
@@ -148,7 +149,7 @@ impl CaseVersions {
     }
 }
 
-/// The cases over the releases of one driver.
+/// The verdicts of cases across the releases of one driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Versions {
     /// The header.
@@ -158,10 +159,10 @@ pub struct Versions {
 }
 
 impl Versions {
-    /// Replaces the file in a folder, which is made when it does not exist.
+    /// Replaces the file in a folder, and creates the folder if it does not exist.
     ///
     /// # Errors
-    /// When the folder cannot be written to.
+    /// If the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         let path = folder.join(VERSIONS_FILE);
@@ -178,17 +179,17 @@ impl Versions {
     /// Reads the file in a folder.
     ///
     /// # Errors
-    /// When there is none, or it is damaged.
+    /// If the file does not exist or is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let path = folder.join(VERSIONS_FILE);
         let file = File::open(&path).map_err(RecordError::io("open", &path))?;
         Self::parse(&path, file)
     }
 
-    /// Reads the lines of such a file from anywhere. Errors name `path`.
+    /// Reads the lines of such a file from any source. Errors name `path`.
     ///
     /// # Errors
-    /// When it is damaged.
+    /// If it is damaged.
     pub fn parse(path: &Path, text: impl Read) -> Result<Self, RecordError> {
         let lines = JsonLines {
             path,

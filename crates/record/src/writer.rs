@@ -27,10 +27,10 @@ pub struct RunWriter {
     synced: Instant,
 }
 
-/// The interval between two syncs: the most of a run that a power cut takes.
+/// The interval between two syncs, which is the most of a run that a power cut can lose.
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// The files of a run beside its reports and records. The records go last: while they are there, the rest is known to
-/// belong to a run.
+/// The files of a run other than its reports and records. The records are removed last: as long as they
+/// exist, the other files are known to belong to a run.
 pub(crate) const BESIDE: ReportFiles = ReportFiles {
     // Earlier versions wrote frames uncompressed.
     folders: &[(FRAMES, "gz"), (FRAMES, "json"), (PICTURES, "png")],
@@ -38,10 +38,10 @@ pub(crate) const BESIDE: ReportFiles = ReportFiles {
 };
 
 impl Run {
-    /// Puts the run in the place of the one that a folder holds: whoever reads it sees the one or the other.
+    /// Replaces the run in a folder. A concurrent reader sees the old run or the new one, never a mixture.
     ///
     /// # Errors
-    /// When the file cannot be written, or a record cannot be shortened enough.
+    /// If the file cannot be written, or if a record cannot be shortened enough.
     pub fn replace_in(&self, folder: &Path) -> Result<(), RecordError> {
         let header = json_line("the header", &self.header);
         let lines = std::iter::once(header).chain(self.records.iter().map(fit));
@@ -50,19 +50,19 @@ impl Run {
 }
 
 impl RunWriter {
-    /// Begins a run in a folder, which is made when it does not exist. A run that the folder already
-    /// holds is replaced, and its reports stay; any other content is refused.
+    /// Begins a run in a folder, and creates the folder if it does not exist. Replaces a run that the
+    /// folder already holds, but keeps its reports; refuses any other content.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds something else than a run.
+    /// If the folder cannot be written to, or holds anything other than a run.
     pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
         Self::replace(folder, header, ReportFiles::NONE)
     }
 
-    /// [`RunWriter::create`], which also removes the reports of the run before.
+    /// Like [`RunWriter::create`], but also removes the reports of the earlier run.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds something else than a run.
+    /// If the folder cannot be written to, or holds anything other than a run.
     pub fn replace(
         folder: &Path,
         header: &Header,
@@ -85,11 +85,11 @@ impl RunWriter {
         Ok(Self::new(folder, folder.join(RUN_FILE), file))
     }
 
-    /// Resumes the run that a folder holds, and returns what it holds. A last record that was cut off is
-    /// removed.
+    /// Resumes the run in a folder, and returns what was recorded so far. Removes a last record that was
+    /// cut off.
     ///
     /// # Errors
-    /// When there is no run, it is damaged, or it is another run than that of the header.
+    /// If the folder holds no run, a damaged one, or a run that does not match the header.
     pub fn resume(folder: &Path, header: &Header) -> Result<(Self, Run), RecordError> {
         let (mut run, whole) = Run::read_prefix(folder)?;
         if let Some(reason) = resume_conflict(&run.header, header) {
@@ -113,11 +113,11 @@ impl RunWriter {
         }
     }
 
-    /// Writes the list of ids selected before sharding, in the order of the case files. It must be the
-    /// selection that the header's digest names.
+    /// Writes the list of ids selected before sharding, in the order of the case files. The list must match
+    /// the header's digest.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write_cases<'a>(
         &self,
         ids: impl IntoIterator<Item = &'a str>,
@@ -125,11 +125,11 @@ impl RunWriter {
         write_cases(&self.folder, ids)
     }
 
-    /// Appends one record in a single write. A record longer than [`MAX_LINE`](crate::MAX_LINE) is shortened: wrong
-    /// texels first, then the story, then the message.
+    /// Appends one record in a single write. A record longer than [`MAX_LINE`](crate::MAX_LINE) is
+    /// shortened: first its wrong texels, then the story, then the message.
     ///
     /// # Errors
-    /// When the file cannot be written, or the record cannot be shortened enough.
+    /// If the file cannot be written, or the record cannot be shortened enough.
     pub fn append(&mut self, record: &Record) -> Result<(), RecordError> {
         let line = fit(record)?;
         self.file
@@ -141,22 +141,22 @@ impl RunWriter {
         Ok(())
     }
 
-    /// Syncs everything that was appended to the disk; [`RunWriter::append`] does so about once a second.
+    /// Syncs everything that was appended to the disk; [`RunWriter::append`] does this about once a second.
     ///
     /// # Errors
-    /// When the system cannot.
+    /// If the system cannot.
     pub fn sync(&mut self) -> Result<(), RecordError> {
         self.synced = Instant::now();
         let synced = self.file.sync_data();
         synced.map_err(RecordError::io("write", &self.path))
     }
 
-    /// Returns what writes frames and pictures into the folder.
+    /// Returns a writer of frames and pictures for the folder.
     pub fn frames(&self) -> FrameWriter {
         FrameWriter::new(&self.folder)
     }
 
-    /// The run folder.
+    /// Returns the run folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

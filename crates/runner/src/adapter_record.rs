@@ -1,4 +1,4 @@
-//! The record of an adapter, from what its worker reports.
+//! Making the record of an adapter from its worker's report.
 
 use crate::worker::Worker;
 use etalon_record::AdapterRecord;

@@ -1,8 +1,9 @@
-//! Batches: cases that need no record, drawn on several workers of one adapter and judged as they come.
+//! Batches: cases that need no record, drawn on several workers of one adapter and judged as their frames
+//! arrive.
 //!
-//! A run writes a record of every case and starts again where it was stopped; here most cases pass and are
-//! forgotten, so a case costs its drawing and its judgement alone. Each worker draws the next case that nobody
-//! has, and the records stand in the order of the cases, so that they do not tell how many workers there were.
+//! A run writes a record of every case and can resume. In a batch, most cases pass and are forgotten, so a
+//! case costs only its drawing and its judgement. Each worker draws the next case that no other worker has
+//! taken. The records are in the order of the cases, so that they do not depend on the number of workers.
 
 use crate::drawing::Due;
 use crate::launch::{Launch, StartError};
@@ -31,8 +32,8 @@ pub struct Batches {
 }
 
 impl Batches {
-    /// So many workers of an adapter, of which one is running; the others are started when they are needed. A case
-    /// may take as long as `timeout`.
+    /// Creates `jobs` workers of an adapter. `worker` is already running; the others are started when
+    /// they are needed. Each case may take as long as `timeout`.
     pub fn new(launch: Launch, worker: Worker, jobs: usize, timeout: Duration) -> Self {
         let limits = worker.hello.limits.clone();
         let mut workers = vec![Some(worker)];
@@ -45,11 +46,11 @@ impl Batches {
         }
     }
 
-    /// Draws and judges cases. Returns their records in order; `None` for those that were not reached when
-    /// `stop` was set.
+    /// Draws and judges cases. Returns their records in order, with `None` for cases that were not reached
+    /// before `stop` was set.
     ///
     /// # Errors
-    /// When a worker cannot be started.
+    /// If a worker cannot be started.
     pub fn draw(
         &mut self,
         cases: &[&Case],
@@ -70,7 +71,7 @@ impl Batches {
         let count = self.workers.len();
         let workers = Mutex::new(self.workers.iter_mut());
         let ended = threads::share(count, || {
-            // Without a thread of its own, a worker has its turn when no case is left.
+            // Without its own thread, a worker gets its turn when no case is left.
             while share.is_left()
                 && let Some(worker) = { lock(&workers).next() }
             {
@@ -96,7 +97,7 @@ struct Share<'a> {
 }
 
 impl Share<'_> {
-    /// True if a case is left to draw.
+    /// Returns true if there are cases left to draw.
     fn is_left(&self) -> bool {
         self.next.load(Ordering::Relaxed) < self.cases.len()
     }
@@ -134,7 +135,7 @@ impl Share<'_> {
             let (record, ends) = outcome(process, case, self.limits, drawing.frames);
             if ends {
                 worker = Worker::start(self.launch)?;
-                // What was asked behind it was lost with it.
+                // Requests after the lost one were lost with it.
                 for (number, since) in &mut asked {
                     let case = self.cases[*number];
                     worker.process.request_case(*number as u32, case);

@@ -1,9 +1,9 @@
 //! Benches: pictures are judged first, then rounds of frame times interleave over cases and adapters.
 //!
-//! Every round starts new workers, since the memory layout of a process moves its times by several per
-//! cent: measured in one process, that shift would look like a property of the driver. Within a round,
-//! each case is timed on one adapter after the other, so that drift of the machine affects all alike. All
-//! adapters' workers are running during a round, and one works at a time.
+//! Every round starts new workers, because the memory layout of a process changes its times by several per
+//! cent; measured in only one process, that shift would look like a property of the driver. Within a round,
+//! each case is timed on one adapter after another, so that drift of the machine affects all of them. All
+//! adapters' workers run during a round, but only one works at a time.
 
 mod clock;
 mod round;
@@ -29,25 +29,24 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// The cases and adapters of a bench, and the folder it is written to.
+/// The cases and adapters of a bench, and the folder that it is written to.
 pub struct BenchPlan<'a> {
     /// The cases, each once.
     pub cases: &'a [Case],
-    /// Each adapter's launch command, and the worker that is already running, which draws the pictures that
-    /// are judged.
+    /// Each adapter's launch command, and its running worker, which draws the pictures that are judged.
     pub adapters: Vec<(Launch, Worker)>,
-    /// The time that the timed frames of a case take together on an adapter in each round, about; the warm-up
-    /// may take as long again.
+    /// The approximate total time of a case's timed frames on an adapter in each round; the warm-up may
+    /// take the same time again.
     pub budget: Duration,
-    /// The time that a worker has for each answer.
+    /// The time limit for each answer of a worker.
     pub timeout: Duration,
     /// The known bad verdicts.
     pub expectations: &'a Expectations,
-    /// True if the bench in the folder is continued: what it lacks is measured.
+    /// True to continue the bench in the folder, by measuring what it lacks.
     pub resume: bool,
     /// The bench folder.
     pub folder: &'a Path,
-    /// The reports that are removed from a bench which is replaced.
+    /// The reports that are removed if a bench is replaced.
     pub reports: ReportFiles,
     /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,
@@ -60,9 +59,9 @@ pub enum BenchEvent {
     Judged {
         /// The picture, with its verdict.
         picture: Picture,
-        /// True if that counts against the bench.
+        /// True if the verdict counts against the bench.
         unexpected: bool,
-        /// The rounds that the bench has of it already.
+        /// The number of rounds that the bench already has.
         known: u32,
     },
     /// A round of a case on an adapter is complete.
@@ -102,7 +101,7 @@ pub struct BenchSummary {
 /// Why a bench could not be completed.
 #[derive(Debug, Error)]
 pub enum BenchError {
-    /// The bench folder cannot be begun; nothing was timed.
+    /// The bench folder could not be started; nothing was timed.
     #[error(transparent)]
     Folder(RecordError),
     /// The bench folder can no longer be written to; the lines written before are readable.
@@ -110,15 +109,15 @@ pub enum BenchError {
     Write(RecordError),
 }
 
-/// A description of this version's ruler, for [`BenchHeader::ruler`].
+/// Returns a description of this version's ruler, for [`BenchHeader::ruler`].
 pub fn ruler() -> &'static str {
     ruler::RULER
 }
 
-/// Judges every case's picture on every adapter and times those that are right.
+/// Judges every case's picture on every adapter, and times the pictures that are right.
 ///
 /// # Errors
-/// When the bench folder cannot be written to.
+/// If the bench folder cannot be written to.
 pub fn bench(
     plan: BenchPlan<'_>,
     events: &mut dyn FnMut(BenchEvent),
@@ -184,20 +183,20 @@ struct Adapter {
 }
 
 impl Adapter {
-    /// True if its rounds took as long as they may.
+    /// Returns true if its rounds have used up their time.
     fn is_spent(&self, limit: Option<Duration>) -> bool {
         limit.is_some_and(|limit| self.spent >= limit)
     }
 }
 
-/// A case on an adapter whose picture is right: its numbers, and the fingerprint of the picture.
+/// A case on an adapter with a right picture: its numbers, and the fingerprint of the picture.
 struct Pair {
     case: usize,
     adapter: usize,
     picture: u64,
-    /// The rounds that it has already, and what is known of it.
+    /// The rounds that it already has, and what else is known.
     record: BenchRecord,
-    /// The name of its cell of the matrix.
+    /// The name of its cell in the performance matrix.
     cell: Option<String>,
 }
 
@@ -216,7 +215,7 @@ struct Bench<'a, 'e> {
     summary: BenchSummary,
     /// The rounds of the bench that is continued, by case and adapter.
     before: HashMap<(String, String), BenchRecord>,
-    /// The time of the last round before, in seconds.
+    /// The time of the last earlier round, in seconds.
     offset: f64,
     start: Instant,
     timeout: Duration,
@@ -227,7 +226,7 @@ struct Bench<'a, 'e> {
 }
 
 impl Bench<'_, '_> {
-    /// Judges all pictures. Returns those that may be timed, in the order of timing.
+    /// Judges all pictures. Returns the pairs that may be timed, in the order of timing.
     fn judge(&mut self) -> Result<Vec<Pair>, RecordError> {
         let judge = Judge::default();
         let mut pairs = Vec::new();
@@ -288,12 +287,12 @@ impl Bench<'_, '_> {
         Ok(pairs)
     }
 
-    /// True if a case on an adapter is not complete.
+    /// Returns true if a case on an adapter is not complete.
     fn lacks_rounds(&self, known: &BenchRecord) -> bool {
         known.is_open() && known.rounds.len() < self.rounds as usize
     }
 
-    /// Counts a case on an adapter of which nothing is missing.
+    /// Counts a case on an adapter that is already complete.
     fn skip(&mut self, known: &BenchRecord) {
         self.summary.pictures += 1;
         self.summary.timed += u64::from(known.picture.may_be_timed());
@@ -306,7 +305,7 @@ impl Bench<'_, '_> {
         });
     }
 
-    /// Ends a case whose picture was right before the bench was stopped and is not any more.
+    /// Ends a case whose picture was right before the bench was stopped but no longer is.
     fn end(&mut self, judged: &Picture, had: u32) -> Result<(), RecordError> {
         let ended = Ended {
             case: judged.case.clone(),
@@ -358,8 +357,8 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// Removes the pairs that need no further round: all of an adapter whose time is spent, and those whose
-    /// intervals are narrow enough.
+    /// Removes the pairs that need no further round: all pairs of an adapter whose time is spent, and pairs
+    /// whose intervals are narrow enough.
     fn finish(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         let within = self.within.filter(|_| number as usize >= MIN_ROUNDS);
         let enough: Vec<Option<Enough>> = pairs
@@ -400,7 +399,7 @@ impl Bench<'_, '_> {
         Ok(())
     }
 
-    /// Times one round of all cases that still have rounds, and removes those that fail.
+    /// Times one round of all cases that still have rounds, and removes cases that fail.
     fn round(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         for adapter in &mut self.adapters {
             adapter.supervisor.stop();
@@ -410,14 +409,14 @@ impl Bench<'_, '_> {
                 .iter()
                 .any(|p| p.adapter == index && p.rounds() <= number)
             {
-                // A start that fails is reported by the adapter's first case.
+                // If the start fails, the adapter's first case reports it.
                 let _ = self.adapters[index].supervisor.worker();
             }
         }
         let mut kept = Vec::new();
         let mut before = ruler::measure();
         for mut pair in pairs.drain(..) {
-            // The first round is whole, so that every case has one.
+            // The first round is always complete, so that every case has a round.
             let spent = number > 0 && self.adapters[pair.adapter].is_spent(self.limit);
             if number < pair.rounds() || spent {
                 kept.push(pair);
@@ -465,7 +464,8 @@ impl Bench<'_, '_> {
                         case: case.id.clone(),
                         adapter: name.clone(),
                     });
-                    // Of atomics in shaders no order is promised, so that a pool may fill otherwise.
+                    // The order of atomics in shaders is not specified, so a pool can be filled differently
+                    // each time.
                     let repeats = case.scene.pool.is_none();
                     (repeats && measured.picture != pair.picture)
                         .then(|| changed_picture(&adapter.record.limits))
@@ -500,7 +500,8 @@ impl Bench<'_, '_> {
     }
 }
 
-/// True if the interval of a pair lies within a share: of a cell that of its rate, else that of its wall time.
+/// Returns true if the interval of a pair is within a share of its value: the rate of its cell, or
+/// otherwise its wall time.
 fn is_narrow(pair: &Pair, pairs: &[Pair], software: bool, share: f64) -> bool {
     if let Some(cell) = &pair.cell {
         let other = pairs.iter().find(|other| {
@@ -527,7 +528,7 @@ fn middle(times: &[f64]) -> f64 {
     quantile(&sorted, 0.5).unwrap_or(f64::NAN)
 }
 
-/// The record's message and the position of the first wrong sample.
+/// Returns the record's message and the position of the first wrong sample.
 fn message(record: &Record) -> String {
     let first = record.wrong.first().map(|wrong: &WrongTexel| {
         let count = record.texels.wrong + record.texels.imprecise;

@@ -1,4 +1,4 @@
-//! Drawing in a worker: the requests for frames, and their answers.
+//! Drawing in a worker: requesting frames, and receiving the answers.
 
 use crate::loss::{Failure, Loss};
 use crate::process::{Wait, WorkerProcess};
@@ -25,7 +25,7 @@ pub(crate) struct Drawing {
     pub(crate) messages: Vec<String>,
 }
 
-/// The answers that are due to the requests of some frames.
+/// The number of answers to the requests of some frames.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Due {
     answers: usize,
@@ -39,7 +39,7 @@ impl Due {
         frames: 1,
     };
 
-    /// The frames of a case.
+    /// Returns the answers for the frames of a case.
     pub(crate) fn of(case: &Case) -> Self {
         let mut drawing = Self {
             answers: 0,
@@ -53,10 +53,10 @@ impl Due {
     }
 }
 
-/// Returns the frames of a case that a backend of this process draws.
+/// Returns the frames of a case, drawn by a backend in this process.
 ///
 /// # Errors
-/// When the backend fails.
+/// If the backend fails.
 pub fn draw_frames(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, BackendError> {
     let mut frames = Vec::new();
     for (scene, readings) in case.preparations() {
@@ -72,7 +72,7 @@ pub fn draw_frames(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, Bac
 }
 
 impl Drawing {
-    /// The drawing of a case whose worker could not be asked.
+    /// Returns the drawing of a case whose worker could not be asked.
     pub(crate) fn failed(failure: Failure) -> Self {
         Self {
             frames: Err(failure),
@@ -84,8 +84,8 @@ impl Drawing {
 }
 
 impl WorkerProcess {
-    /// Sends a request and waits for the answer, while nothing else is in flight. Returns it with the time
-    /// that the worker spent.
+    /// Sends a request and waits for the answer, while no other request is in flight. Returns the answer
+    /// and the time that the worker spent.
     pub(crate) fn ask(
         &mut self,
         request: Request<'_>,
@@ -106,7 +106,7 @@ impl WorkerProcess {
         }
     }
 
-    /// Draws frames of a prepared scene, while nothing else is in flight.
+    /// Draws frames of a prepared scene, while no other request is in flight.
     pub(crate) fn submit(
         &mut self,
         slot: u32,
@@ -133,12 +133,13 @@ impl WorkerProcess {
         self.request(requests);
     }
 
-    /// Requests frames of one prepared scene, each behind so many submissions.
+    /// Requests frames of one prepared scene; each entry of `readings` is the number of submissions before
+    /// a frame is read back.
     pub(crate) fn request_frames(&mut self, slot: u32, scene: &Scene, readings: Vec<u32>) {
         self.request(requests(slot, scene, readings));
     }
 
-    /// Receives the frames that were requested of a slot at the time `asked`.
+    /// Receives the frames of a slot that were requested at the time `asked`.
     pub(crate) fn receive_frames(
         &mut self,
         slot: u32,
@@ -146,7 +147,7 @@ impl WorkerProcess {
         asked: Instant,
         wait: Wait<'_>,
     ) -> Drawing {
-        // The worker came to this request when it was done with the one before.
+        // The worker began this request when it had finished the previous one.
         let begun = asked.max(self.answered());
         let until = begun + wait.timeout;
         let mut drawing = Drawing::failed(Failure::Lost(Loss::Died));
@@ -192,7 +193,8 @@ impl WorkerProcess {
     }
 }
 
-/// The requests for frames of one prepared scene, each behind so many submissions.
+/// Returns the requests for frames of one prepared scene; each entry of `readings` is the number of
+/// submissions before a read-back.
 fn requests(slot: u32, scene: &Scene, readings: Vec<u32>) -> impl Iterator<Item = Request<'_>> {
     let scene = Cow::Borrowed(scene);
     let frame = move |times| [Request::Submit { slot, times }, Request::ReadBack { slot }];
@@ -202,7 +204,7 @@ fn requests(slot: u32, scene: &Scene, readings: Vec<u32>) -> impl Iterator<Item 
         .chain([Request::Drop { slot }])
 }
 
-/// The loss of a worker whose answer does not fit the request.
+/// Returns the loss of a worker whose answer does not fit the request.
 pub(crate) fn wrong_answer() -> Loss {
     Loss::Garbage("an answer to another request".to_owned())
 }

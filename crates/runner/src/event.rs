@@ -6,7 +6,7 @@ use std::time::Duration;
 /// An event of a run, reported as it happens.
 #[derive(Clone, Debug)]
 pub enum Event {
-    /// An adapter's first case is about to be drawn.
+    /// The first case of an adapter is about to be drawn.
     AdapterStarted {
         /// The adapter.
         adapter: String,

@@ -14,8 +14,8 @@ pub(crate) struct ExitReport {
 }
 
 impl ExitReport {
-    /// The report on a worker lost in this way. `status` is the exit status of its process if that ended by
-    /// itself; that of a launcher says nothing about the worker.
+    /// Returns the report on a worker that was lost in this way. `status` is the exit status of its
+    /// process, if the process ended by itself; a launcher's status says nothing about the worker.
     pub(crate) fn new(
         loss: Loss,
         status: Option<ExitStatus>,

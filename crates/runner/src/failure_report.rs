@@ -20,7 +20,7 @@ pub(crate) struct FailureReport {
 }
 
 impl FailureReport {
-    /// The report on a failed request to a worker; `None` where there was no worker to ask.
+    /// Returns the report on a failed request. `worker` is `None` if there was no worker to ask.
     pub(crate) fn new(failure: Failure, worker: Option<&mut WorkerProcess>) -> Self {
         let verdict = failure.verdict();
         match failure {
@@ -48,7 +48,7 @@ impl FailureReport {
         }
     }
 
-    /// The record of the case that was being drawn.
+    /// Returns the record of the case that was being drawn.
     pub(crate) fn record(self, case: &str, adapter: &str) -> Record {
         let mut record = Record::new(case, adapter, self.verdict);
         record.message = self.message;

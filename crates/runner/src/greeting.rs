@@ -1,14 +1,14 @@
-//! The greeting: one line of text before the first message, so that a parent tells a worker of its own
-//! version from one of another, and both from a shell or a launcher that prints.
+//! The greeting: a line of text before the first message. A parent uses it to recognize a worker of its own
+//! version, as opposed to another version, or to a shell or a launcher that prints something.
 
 use crate::loss::Loss;
 use std::io::{self, BufRead, Read, Write};
 
 /// The first words of each greeting.
 const WORDS: &str = "etalon worker ";
-/// The version of the messages behind it; a change of any of them needs another one.
+/// The version of the messages after it. Any change of the messages needs a new version.
 const PROTOCOL: u32 = 1;
-/// The longest line in bytes that is read or quoted.
+/// The longest line, in bytes, that is read or quoted.
 const MOST: u64 = 200;
 
 /// Returns the greeting of a worker of this version.
@@ -16,15 +16,15 @@ fn own() -> String {
     format!("{WORDS}{}, protocol {PROTOCOL}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Sends the greeting, which leaves with the message behind it.
+/// Sends the greeting, which is flushed with the message after it.
 pub(crate) fn send(to: &mut impl Write) -> io::Result<()> {
     to.write_all(format!("{}\n", own()).as_bytes())
 }
 
-/// Reads the greeting of a worker; false at the end of a stream without any.
+/// Reads the greeting of a worker; returns false if the stream ends without one.
 ///
 /// # Errors
-/// When it is that of another version, or something else that was printed.
+/// If the greeting is from another version, or if something else was printed.
 pub(crate) fn check(from: &mut impl BufRead, launched: bool) -> Result<bool, Loss> {
     let mut line = Vec::new();
     let read = from.take(MOST).read_until(b'\n', &mut line);
@@ -39,7 +39,7 @@ pub(crate) fn check(from: &mut impl BufRead, launched: bool) -> Result<bool, Los
     }
     if text.starts_with(WORDS) {
         return Err(Loss::NotStarted(format!(
-            "the program that answers is `{}`, and this one `{}`: start the same program there",
+            "the program that answered is `{}`, but this one is `{}`: start the same program there",
             text.escape_debug(),
             own()
         )));
@@ -80,7 +80,7 @@ mod tests {
         };
         assert!(shell.contains("`Last login: today \\u{1b}[31m`"), "{shell}");
         assert!(shell.contains("must not print"), "{shell}");
-        // Without an end of line, no more is read than may be quoted.
+        // Without an end of line, no more is read than can be quoted.
         assert!(checked(&"x".repeat(1 << 20)).is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
+//! The hunt for planted bugs: every mutant draws every case, in this process, on all cores.
 
 use crate::drawing::draw_frames;
 use etalon_backend::Backend;
@@ -16,17 +16,17 @@ pub struct HuntPlan<'a> {
     pub cases: &'a [Case],
     /// The planted bugs.
     pub mutants: &'a [MutantInfo],
-    /// Draw every case with every bug, instead of ending an area at a bug's first Fail there.
+    /// True to draw every case with every bug; otherwise an area ends at a bug's first `Fail` there.
     pub full: bool,
     /// The number of threads.
     pub jobs: usize,
 }
 
 /// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
-/// plan. `open` returns the backend with the named bug in it; each thread calls `drawn` after each case.
+/// plan. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
 ///
-/// Every thread holds its own share of the bugs and draws the cases in order, so that state which a bug
-/// carries from one case to the next is the same every time.
+/// Every thread has its own share of the bugs and draws the cases in order, so that state that a bug
+/// carries from one case to the next is always the same.
 pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
@@ -59,8 +59,8 @@ pub fn hunt(
     found.into_iter().map(|(_, record)| record).collect()
 }
 
-/// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
-/// judged once.
+/// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are judged
+/// only once.
 fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
@@ -95,8 +95,9 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
     }
 }
 
-/// True if a case takes as long as hundreds of others: it draws to more than 64 by 64 texels, by many draws
-/// or vertices, or is submitted often. Such cases are held against the bugs of their own area alone.
+/// Returns true if a case takes as long as hundreds of others: it draws to more than 64 by 64 texels, has
+/// many draws or vertices, or is submitted often. Such cases are drawn only with the bugs of their own
+/// area.
 fn is_large(case: &Case) -> bool {
     let texels = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
     let sizes = case.scene.attachments.iter().map(|a| texels(a.size));
@@ -124,7 +125,7 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws a case's scenes once each. A panic is a broken mutant, not the end of the hunt.
+/// Draws a case's scenes once each. A panic makes the mutant broken, but does not end the hunt.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
     match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),
@@ -132,7 +133,7 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
     }
 }
 
-/// One planted bug while it is hunted.
+/// A planted bug that is being hunted.
 struct Mutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
@@ -157,7 +158,7 @@ impl Mutant {
         }
     }
 
-    /// The place of an area's tally.
+    /// Returns the index of an area's tally.
     fn area(&mut self, name: &str) -> usize {
         let areas = &mut self.record.areas;
         if let Some(index) = areas.iter().position(|a| a.area == name) {

@@ -23,22 +23,22 @@ pub struct Launch {
     pub program: PathBuf,
     /// Its arguments.
     pub arguments: Vec<String>,
-    /// Environment variables on top of the parent's; `None` removes one.
+    /// Environment variables that are added to the parent's; `None` removes one.
     pub environment: Vec<(String, Option<String>)>,
     /// The command that starts the program elsewhere; `None` starts it here.
     pub launcher: Option<Launcher>,
-    /// The release of the driver, where the adapter's description says it.
+    /// The release of the driver, if the adapter's description states it.
     pub release: Option<Release>,
-    /// The longest wait for the adapter to open.
+    /// The time limit for opening the adapter.
     pub patience: Duration,
     /// True if only one worker of the adapter can run at a time.
     pub alone: bool,
 }
 
-/// A command prefix behind which a worker runs in another userland, a container or on another machine.
+/// A command prefix that starts a worker in another userland, in a container or on another machine.
 ///
-/// Some prefixes take the worker's words apart (ssh's remote shell), others lose its environment (a
-/// container): what the worker must know goes through its standard input instead.
+/// Some prefixes split the worker's arguments again (ssh's remote shell), and others lose its environment
+/// (a container). The worker therefore receives what it needs through its standard input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Launcher {
     /// The words of the prefix; at least one.
@@ -47,12 +47,12 @@ pub struct Launcher {
     pub open: String,
 }
 
-/// The first message to a worker behind a launcher.
+/// The first message to a worker that a launcher started.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Setup {
     /// The adapter that the worker opens.
     pub open: String,
-    /// The variables that it needs; `None` is one that must not be set.
+    /// The variables that it needs; `None` means that a variable must not be set.
     pub environment: Vec<(String, Option<String>)>,
 }
 
@@ -60,7 +60,7 @@ impl Setup {
     /// Reads the first message of the parent.
     ///
     /// # Errors
-    /// When the input ends before it or is something else.
+    /// If the input ends before the message, or is something else.
     pub fn receive(mut input: impl Read) -> io::Result<Self> {
         receive(&mut input)?.ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
     }
@@ -76,7 +76,8 @@ impl Setup {
 }
 
 impl Launch {
-    /// Returns the worker's command. Its environment is set here too: prefixes that run on this machine pass it on.
+    /// Returns the worker's command. Its environment is set here too, because prefixes that run on this
+    /// machine pass it on.
     pub(crate) fn command(&self) -> Command {
         let mut command = match self.launcher.as_ref().map(|l| l.prefix.as_slice()) {
             Some([first, rest @ ..]) => {
@@ -103,7 +104,7 @@ pub enum StartError {
     /// The worker reports that its adapter is unavailable.
     #[error("{0}")]
     Unavailable(Unavailable),
-    /// No worker greeted behind the launcher, which says nothing about a driver.
+    /// No worker greeted through the launcher, which says nothing about the driver.
     #[error("{0}")]
     Launcher(String),
     /// The worker died, hung or broke the protocol.

@@ -1,9 +1,10 @@
 //! Selection, isolation, drawing and judging of cases, reported as one stream of events.
 //!
-//! Workers only draw: [`serve()`] answers requests in a process of its own. The parent judges: [`run()`]
-//! drives workers of every adapter, compares every frame with its legal set and writes one record per
-//! case and adapter; [`bench()`] times frames; both start and replace workers through one supervisor.
-//! [`Batches`] draws and judges cases of which no record is kept. [`hunt()`] draws cases with planted bugs in this process, and reports which of them are caught.
+//! Workers only draw: [`serve()`] answers requests in its own process. The parent judges: [`run()`] drives
+//! workers of every adapter, compares every frame with its legal set and writes one record per case and
+//! adapter; [`bench()`] times frames. Both start and replace workers through the same supervisor.
+//! [`Batches`] draws and judges cases without keeping records. [`hunt()`] draws cases with planted bugs in
+//! this process, and reports which bugs are caught.
 
 mod adapter_record;
 mod batch;

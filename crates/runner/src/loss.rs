@@ -1,11 +1,11 @@
-//! The ways in which a request to a worker fails, and the verdict that follows from each.
+//! How a request to a worker can fail, and the resulting verdict.
 
 use etalon_backend::BackendError;
 use etalon_frame::ErrorKind;
 use etalon_record::Verdict;
 use std::time::Duration;
 
-/// Why a request to a worker brought no result.
+/// Why a request to a worker gave no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
     /// The backend's error; the worker still answers.
@@ -14,25 +14,25 @@ pub(crate) enum Failure {
     Lost(Loss),
 }
 
-/// The way in which a worker was lost.
+/// How a worker was lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Loss {
     /// It did not answer within this time.
     Timeout(Duration),
-    /// It held `held` MiB of memory, more than its limit.
+    /// It used `held` MiB of memory, more than its limit.
     Memory { held: u64, limit: u64 },
-    /// Its output is no message, or no answer to the request.
+    /// Its output is not a message, or does not answer the request.
     Garbage(String),
     /// Its end of the pipe is closed.
     Died,
-    /// It could not be started; the message says why.
+    /// It could not be started; the message states the reason.
     NotStarted(String),
     /// The run is being stopped, and the answer is no longer needed.
     Cancelled,
 }
 
 impl Failure {
-    /// The verdict of the case that was being drawn.
+    /// Returns the verdict of the case that was being drawn.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
             Self::Backend(error) => match error {
@@ -53,7 +53,7 @@ impl Failure {
         }
     }
 
-    /// True if the worker must not be used again. After a panic, too, its state is unknown.
+    /// Returns true if the worker must not be used again. After a panic, its state is unknown.
     pub(crate) fn ends_worker(&self) -> bool {
         match self {
             Self::Backend(error) => matches!(

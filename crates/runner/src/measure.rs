@@ -1,4 +1,4 @@
-//! The measurements of a method case: the distance of its picture from the truth, and its costs.
+//! The measurements of a method case: the distance of its picture from the truth, and its cost.
 
 use crate::drawing::Due;
 use crate::loss::{Failure, Loss};
@@ -16,10 +16,10 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Frames that are drawn after the first and before any is timed: drivers compile and allocate at the
-/// first, and some once more at the second. A frame as long as the budget needs none of it.
+/// Frames that are drawn after the first and before the first timed one. Drivers compile and allocate at
+/// the first frame, and some again at the second. A frame as long as the budget needs no warm-up.
 const WARM_UP: u32 = 2;
-/// The time that the timed frames of a case take together, as far as their number allows.
+/// The total time of a case's timed frames, within the limits on their number.
 const BUDGET: Duration = Duration::from_millis(40);
 /// The fewest and the most frames that are timed.
 const FRAMES: [u32; 2] = [3, 31];
@@ -35,7 +35,7 @@ pub(crate) struct Truths {
 type Known = (Truth, Arc<OnceLock<Arc<TruthPicture>>>);
 
 impl Truths {
-    /// The exact picture of a method. Methods that should show the same picture share it.
+    /// Returns the exact picture of a method. Methods that should show the same picture share it.
     pub(crate) fn get(&self, method: &Method) -> Arc<TruthPicture> {
         let entry = {
             let mut scenes = self.scenes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -55,8 +55,8 @@ impl Truths {
     }
 }
 
-/// The distance of a case's picture from the truth, and the costs that need no device. `None` where the
-/// frame has no picture to compare.
+/// Returns the distance of a case's picture from the truth, and the costs that need no device. `None` if
+/// the frame has no picture to compare.
 pub(crate) fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Option<Measured> {
     let method = case.method.as_ref()?;
     let distance = distance(truth, frame.images.first()?)?;
@@ -81,8 +81,8 @@ pub(crate) fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Opti
 }
 
 impl WorkerProcess {
-    /// Times frames of a scene, and counts its fragments where the adapter has statistics. They are
-    /// counted in a frame of their own, since counting costs time. Nothing may be in flight.
+    /// Times frames of a scene, and counts its fragments if the adapter has statistics. Fragments are
+    /// counted in a separate frame, since counting costs time. No other request may be in flight.
     pub(crate) fn time(
         &mut self,
         slot: u32,
@@ -105,13 +105,13 @@ impl WorkerProcess {
                 let count = frames.first().and_then(|f| f.counters.first().copied());
                 Ok((times, count))
             }
-            // The picture was drawn and timed: a count that fails takes nothing from that.
+            // The picture was drawn and timed, so a failed count does not matter.
             Err(Failure::Backend(_)) => Ok((times, None)),
             Err(Failure::Lost(loss)) => Err(loss),
         }
     }
 
-    /// Times frames of a scene; `None` where the backend reports an error.
+    /// Times frames of a scene; `None` if the backend reports an error.
     fn time_frames(
         &mut self,
         slot: u32,
@@ -152,7 +152,7 @@ impl WorkerProcess {
     }
 }
 
-/// The medians of some frame times.
+/// Returns the medians of some frame times.
 fn medians(times: &[FrameTime]) -> Option<Times> {
     let median = |mut values: Vec<Duration>| -> Option<f64> {
         values.sort_unstable();
@@ -167,12 +167,13 @@ fn medians(times: &[FrameTime]) -> Option<Times> {
     })
 }
 
-/// The two order statistics closest to each other between which the median lies with 95 % confidence, whatever
-/// the distribution (the binomial test of signs); the ends of fewer than six times, which reach no such level.
+/// Returns the two closest order statistics between which the median is with 95 % confidence, whatever the
+/// distribution (the binomial sign test). Fewer than six times cannot reach that confidence; for these,
+/// returns the ends.
 fn interval(mut times: Vec<Duration>) -> Option<[f64; 2]> {
     times.sort_unstable();
     let last = times.len().checked_sub(1)?;
-    // The probability that at most `low` of the times lie below the median.
+    // The probability that at most `low` of the times are below the median.
     let (mut low, mut tail, mut term) = (0, 0.0, 0.5_f64.powi(times.len() as i32));
     while low < last / 2 {
         tail += term;
@@ -217,7 +218,8 @@ mod tests {
         assert_eq!(measured(0), None);
         assert_eq!(measured(1), Some([1, 1]));
         assert_eq!(measured(5), Some([1, 5]), "93.75 % at most");
-        // Tables of the sign test: 6 to 8 times lose none at either end, 9 to 11 one, 12 to 14 two, 31 nine.
+        // Tables of the sign test: 6 to 8 times lose none at either end, 9 to 11 lose one, 12 to 14 two, 31
+        // nine.
         assert_eq!(measured(6), Some([1, 6]));
         assert_eq!(measured(8), Some([1, 8]));
         assert_eq!(measured(9), Some([2, 8]));

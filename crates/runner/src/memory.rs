@@ -1,7 +1,7 @@
-//! The memory that a process holds, and a limit on it.
+//! Measuring and limiting the memory that a process uses.
 //!
-//! The parent polls instead of setting `RLIMIT_AS`, since drivers reserve address space that they never
-//! touch.
+//! The parent polls instead of setting `RLIMIT_AS`, because drivers reserve address space that they never
+//! use.
 
 use crate::sync::lock;
 use std::fs;
@@ -15,21 +15,21 @@ use std::time::Duration;
 /// The interval between two readings of a worker's memory.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// A limit on the memory of a process, which is killed when it holds more.
+/// A memory limit on a process, which is killed if it exceeds the limit.
 #[derive(Debug)]
 pub(crate) struct MemoryLimit {
     /// The limit in MiB.
     limit: u64,
-    /// MiB held when the process was killed; 0 before that.
+    /// The MiB used when the process was killed; 0 before.
     held: Arc<AtomicU64>,
 }
 
 impl MemoryLimit {
-    /// Watches a process until `ended` is set. Where the system does not report what a process holds,
-    /// nothing happens.
+    /// Watches a process until `ended` is set. Does nothing if the system does not report the process's
+    /// memory.
     ///
     /// # Errors
-    /// When the system refuses a thread.
+    /// If the system refuses a thread.
     pub(crate) fn watch(
         child: Arc<Mutex<Child>>,
         limit: u64,
@@ -43,7 +43,7 @@ impl MemoryLimit {
                 let Some(now) = held_by(id) else { return };
                 if now > limit {
                     exceeded.store(now, Ordering::Relaxed);
-                    // It may have ended by itself; then there is nothing to kill.
+                    // The process may have ended already; then there is nothing to kill.
                     let _ = lock(&child).kill();
                     return;
                 }
@@ -53,14 +53,15 @@ impl MemoryLimit {
         Ok(Self { limit, held })
     }
 
-    /// The MiB held and the limit, if the process was killed for it.
+    /// Returns the memory used and the limit in MiB, if the process was killed for exceeding it.
     pub(crate) fn exceeded(&self) -> Option<(u64, u64)> {
         let held = self.held.load(Ordering::Relaxed);
         (held > 0).then_some((held, self.limit))
     }
 }
 
-/// The MiB of memory that a process holds, resident and swapped; `None` where the system does not tell.
+/// Returns the MiB of memory that a process uses, resident and swapped; `None` if the system does not
+/// report it.
 fn held_by(process: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let field = |name: &str| -> Option<u64> {

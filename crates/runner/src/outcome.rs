@@ -8,8 +8,8 @@ use etalon_frame::{Frame, Limits};
 use etalon_judge::Judge;
 use etalon_record::Record;
 
-/// Returns the record of a drawing, and whether its worker must not be used again. Frames are judged by themselves:
-/// their legal sets are of no use to another case.
+/// Returns the record of a drawing, and whether its worker must not be used again. The judge is not shared,
+/// because the legal sets of one case are of no use to another.
 pub(crate) fn outcome(
     process: &mut WorkerProcess,
     case: &Case,

@@ -1,7 +1,7 @@
 //! A worker's process and its pipes.
 //!
-//! Each pipe has a thread of its own, so that a worker which stops reading or writing never stops the
-//! parent: the parent waits with a limit, and kills.
+//! Each pipe has its own thread, so that a worker that stops reading or writing never blocks the parent:
+//! the parent waits with a time limit, then kills the worker.
 
 use crate::exit_report::ExitReport;
 use crate::greeting;
@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// The time that a worker may take to exit after its pipe broke.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
-/// The time that the end of a worker's standard error may take to arrive.
+/// The time that the rest of a worker's standard error may take to arrive.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// The time that a worker which is no longer needed may take to exit.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
@@ -39,7 +39,7 @@ pub(crate) struct Wait<'a> {
 }
 
 impl Wait<'_> {
-    /// A timeout alone.
+    /// Returns a limit with only a timeout.
     pub(crate) fn of(timeout: Duration) -> Self {
         Self {
             timeout,
@@ -48,34 +48,34 @@ impl Wait<'_> {
     }
 }
 
-/// The settings of glibc's allocator in workers; another C library ignores them. A driver frees the images
-/// of a case before it asks for those of the next: memory that went back to the system in between is
-/// mapped, cleared and faulted in again for every case.
+/// The settings of glibc's allocator in workers; other C libraries ignore them. A driver frees the images
+/// of a case before it allocates those of the next. Memory that was returned to the system in between must
+/// be mapped, cleared and faulted in again for every case.
 const MALLOC: (&str, &str) = (
     "GLIBC_TUNABLES",
     "glibc.malloc.trim_threshold=268435456:glibc.malloc.mmap_threshold=33554432:glibc.malloc.top_pad=16777216",
 );
 
-/// An answer, or the end of all answers, and the time at which it came.
+/// An answer, or the end of all answers, with the time of its arrival.
 type Answer = (Instant, Result<Response, Loss>);
 
 /// A worker's process and its pipes.
 pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
-    /// True if the process is a launcher, of which signals and memory tell nothing about the worker.
+    /// True if the process is a launcher, whose signals and memory say nothing about the worker.
     launched: bool,
     /// Set when a worker has greeted.
     greeted: Arc<AtomicBool>,
-    /// To the thread that writes requests.
+    /// Sends requests to the thread that writes them.
     requests: Option<Sender<Vec<u8>>>,
     responses: Receiver<Vec<Answer>>,
-    /// Answers that came and were not asked for yet.
+    /// Answers that have arrived but were not asked for yet.
     came: VecDeque<Answer>,
     stderr: StderrTail,
     memory: Option<MemoryLimit>,
     /// The time of the last answer, or of the start.
     answered: Instant,
-    /// Set when the process has ended, or is to.
+    /// Set when the process has ended, or must end.
     ended: Arc<AtomicBool>,
 }
 
@@ -86,7 +86,7 @@ impl WorkerProcess {
         if std::env::var_os(MALLOC.0).is_none() && !chosen(MALLOC.0) {
             command.env(MALLOC.0, MALLOC.1);
         }
-        // Ctrl-C is meant for the parent, which then ends its workers in good order.
+        // Ctrl-C is meant for the parent, which then ends its workers in an orderly way.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command
@@ -107,7 +107,7 @@ impl WorkerProcess {
                 environment: launch.environment.clone(),
             };
             let bytes = encode(&setup).map_err(|e| StartError::Broken(e.to_string()))?;
-            // A broken pipe shows when the greeting is awaited.
+            // A broken pipe is noticed when the greeting is awaited.
             let _ = requests.send(bytes);
         }
         let writing = thread::Builder::new().spawn(move || write_all(input, &to_write));
@@ -122,7 +122,7 @@ impl WorkerProcess {
                 Ok(true) => greets.store(true, Ordering::Relaxed),
                 Ok(false) => return,
                 Err(loss) => {
-                    // A parent that has stopped waiting has no use for it.
+                    // If the parent has stopped waiting, the loss does not matter.
                     let _ = sender.send(vec![(Instant::now(), Err(loss))]);
                     return;
                 }
@@ -132,7 +132,7 @@ impl WorkerProcess {
                 let ended = !matches!(message, Some(Ok(_)));
                 let message = message.map(|m| m.map_err(|e| Loss::Garbage(e.to_string())));
                 answers.extend(message.map(|message| (Instant::now(), message)));
-                // What came together is handed over together.
+                // Answers that arrived together are passed on together.
                 let drained = ended || output.buffer().is_empty();
                 let unwanted = drained && sender.send(std::mem::take(&mut answers)).is_err();
                 if ended || unwanted {
@@ -142,7 +142,7 @@ impl WorkerProcess {
         });
         let stderr = StderrTail::of(errors);
         let stderr = writing.and(reading).and(stderr).map_err(|e| {
-            // It may have ended by itself; then there is nothing to kill.
+            // The process may have ended already; then there is nothing to kill.
             let _ = child.kill();
             let _ = child.wait();
             no_thread(&e)
@@ -161,10 +161,10 @@ impl WorkerProcess {
         })
     }
 
-    /// Kills the worker as soon as it holds more than `limit` MiB of memory, unless a launcher hides it.
+    /// Kills the worker when it uses more than `limit` MiB of memory, unless a launcher hides it.
     ///
     /// # Errors
-    /// When the system refuses the thread that watches it.
+    /// If the system refuses the thread that watches it.
     pub(crate) fn limit_memory(&mut self, limit: u64) -> Result<(), StartError> {
         if !self.launched {
             let (child, ended) = (Arc::clone(&self.child), Arc::clone(&self.ended));
@@ -174,17 +174,17 @@ impl WorkerProcess {
         Ok(())
     }
 
-    /// True if a worker has greeted.
+    /// Returns true if a worker has greeted.
     pub(crate) fn has_greeted(&self) -> bool {
         self.greeted.load(Ordering::Relaxed)
     }
 
-    /// The time of the last answer, or of the start.
+    /// Returns the time of the last answer, or of the start.
     pub(crate) fn answered(&self) -> Instant {
         self.answered
     }
 
-    /// Sends requests in one piece. A broken pipe shows when the answer is awaited.
+    /// Sends requests in a single write. A broken pipe is noticed when the answer is awaited.
     pub(crate) fn request<'s>(&mut self, requests: impl IntoIterator<Item = Request<'s>>) {
         let mut requests = requests.into_iter();
         let bytes = requests.try_fold(Vec::new(), |bytes, request| encode_behind(bytes, &request));
@@ -197,7 +197,7 @@ impl WorkerProcess {
         }
     }
 
-    /// The next answer, if it comes before `until`.
+    /// Returns the next answer, if it arrives before `until`.
     pub(crate) fn response_until(
         &mut self,
         until: Instant,
@@ -226,12 +226,12 @@ impl WorkerProcess {
         }
     }
 
-    /// The next answer.
+    /// Returns the next answer.
     pub(crate) fn response(&mut self, timeout: Duration) -> Result<Response, Loss> {
         self.response_until(Instant::now() + timeout, Wait::of(timeout))
     }
 
-    /// The memory limit if that is why the worker was killed, else the loss as it shows.
+    /// Returns the memory limit if the worker was killed for exceeding it, otherwise the observed loss.
     fn cause(&self, shown: Loss) -> Loss {
         match self.memory.as_ref().and_then(MemoryLimit::exceeded) {
             Some((held, limit)) => Loss::Memory { held, limit },
@@ -274,7 +274,7 @@ impl WorkerProcess {
     fn kill(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
         let mut child = lock(&self.child);
-        // It may have ended by itself; then there is nothing to kill.
+        // The process may have ended already; then there is nothing to kill.
         let _ = child.kill();
         let _ = child.wait();
     }
@@ -302,14 +302,14 @@ fn cannot_start(launch: &Launch, error: &Error) -> StartError {
     }
 }
 
-/// Returns the error for a worker that cannot be served, since the system refuses a thread.
+/// Returns the error for a worker that cannot be used because the system refuses a thread.
 fn no_thread(error: &Error) -> StartError {
     StartError::Broken(format!(
         "no thread can be started for the worker: {error}; raise the limit of processes"
     ))
 }
 
-/// Writes requests until there are no more or the worker does not take them.
+/// Writes requests until there are no more, or until the worker no longer reads them.
 fn write_all(mut input: ChildStdin, requests: &Receiver<Vec<u8>>) {
     while let Ok(bytes) = requests.recv() {
         if input

@@ -9,10 +9,10 @@ use std::borrow::Cow;
 use std::io::{self, Read, Write};
 use std::time::Duration;
 
-/// The longest message in bytes; anything longer is garbage.
+/// The longest message in bytes; a longer one is garbage.
 const MAX_MESSAGE: u32 = 1 << 30;
 
-/// A request of the parent. `slot` is the parent's number for a prepared scene.
+/// A request from the parent. `slot` is the parent's number for a prepared scene.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Request<'s> {
     /// Prepare a scene.
@@ -21,16 +21,16 @@ pub(crate) enum Request<'s> {
     Submit { slot: u32, times: u32 },
     /// Read a drawn scene back.
     ReadBack { slot: u32 },
-    /// Forget a scene.
+    /// Forget a prepared scene.
     Drop { slot: u32 },
-    /// Tell the calls of the first scene.
+    /// Return the calls of the first scene.
     Recording { slot: u32 },
 }
 
-/// An answer of the worker, one per request and in their order.
+/// An answer from the worker: one per request, in the same order.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Response {
-    /// The first message: the adapter, or why there is none.
+    /// The first message: the adapter, or why it is not available.
     Hello(Result<Box<Hello>, Unavailable>),
     /// The answer to a request.
     Done {
@@ -64,7 +64,7 @@ pub struct Hello {
 }
 
 impl Request<'_> {
-    /// The scene that the request is about.
+    /// Returns the slot of the scene that the request is about.
     pub(crate) fn slot(&self) -> u32 {
         match self {
             Self::Prepare { slot, .. }
@@ -76,12 +76,12 @@ impl Request<'_> {
     }
 }
 
-/// The bytes of a message in a pipe.
+/// Returns the bytes of a message in a pipe.
 pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
     encode_behind(Vec::new(), message)
 }
 
-/// Returns the bytes of messages with those of a further one behind them.
+/// Appends the bytes of a message to those of earlier messages.
 pub(crate) fn encode_behind<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io::Result<Vec<u8>> {
     const LENGTH: usize = size_of::<u32>();
     let start = bytes.len() + LENGTH;
@@ -101,7 +101,7 @@ pub(crate) fn send<T: Serialize>(to: &mut impl Write, message: &T) -> io::Result
     to.flush()
 }
 
-/// The next message; `None` at the end of the stream between two messages.
+/// Returns the next message; `None` if the stream ends between two messages.
 pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<Option<T>> {
     let mut length = [0; 4];
     match from.read(&mut length[..1])? {
@@ -112,7 +112,7 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
     if length > MAX_MESSAGE {
         return Err(io::Error::other("not a message of the protocol"));
     }
-    // Grown while reading, so that a lying length cannot take much memory first.
+    // The buffer grows while reading, so that a false length cannot allocate much memory.
     let mut bytes = Vec::with_capacity((length as usize).min(1 << 20));
     from.take(u64::from(length)).read_to_end(&mut bytes)?;
     if bytes.len() < length as usize {
@@ -196,7 +196,7 @@ mod tests {
             bytes[width] = wrong;
             assert!(receive::<Image>(&mut bytes.as_slice()).is_err(), "{wrong}");
         }
-        // The length of the codes stands before their width; the last code loses a byte.
+        // The length of the codes comes before their width; the last code loses a byte.
         let mut cut = bytes;
         cut[width - 1] -= 1;
         cut[0] -= 1;

@@ -1,8 +1,8 @@
 //! A run: every selected case on every adapter, one record each.
 //!
-//! Each adapter has a queue of cases; `--jobs` threads take them from it, each with a worker of its own.
-//! Workers draw ahead while the threads judge. The first thread of an adapter draws the round trips that the
-//! cases lean on, and the others wait for what they show.
+//! Each adapter has a queue of cases. `--jobs` threads take cases from the queues, each with its own
+//! worker. Workers draw ahead while the threads judge. The first thread of an adapter draws the round trips
+//! that the cases depend on, and the others wait for the results.
 
 mod adapter_queue;
 mod adapter_run;

@@ -1,4 +1,4 @@
-//! Selection of cases by globs.
+//! Selecting cases by globs.
 
 use etalon_case::{CaseRef, Library, Profile};
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
@@ -14,7 +14,7 @@ pub struct Selection<'a> {
 /// Why a selection failed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SelectError {
-    /// A glob that cannot be read.
+    /// A glob does not parse.
     #[error("`{glob}` is not a glob: {message}")]
     Glob {
         /// The glob.
@@ -24,31 +24,32 @@ pub enum SelectError {
     },
 }
 
-/// Globs over ids or names in which `*` also matches `/`; one without special characters also names
-/// everything below it: `depth` is `depth/*`. None at all match everything.
+/// Globs over ids or names, in which `*` also matches `/`. A glob without special characters also matches
+/// everything below it: `depth` includes `depth/*`. An empty list matches everything.
 #[derive(Clone, Debug)]
 pub struct Globs(Option<GlobSet>);
 
 impl Globs {
-    /// Reads globs.
+    /// Parses globs.
     ///
     /// # Errors
-    /// When one cannot be read.
+    /// If a glob does not parse.
     pub fn new(globs: &[String]) -> Result<Self, SelectError> {
         let set = glob_set(globs)?;
         Ok(Self((!globs.is_empty()).then_some(set)))
     }
 
-    /// True if any of them matches.
+    /// Returns true if any of the globs matches.
     pub fn matches(&self, name: &str) -> bool {
         self.0.as_ref().is_none_or(|set| set.is_match(name))
     }
 }
 
-/// The cases of a profile whose ids match any of the globs; all where there are none. See [`Globs`].
+/// Returns the cases of a profile whose ids match any of the globs; all cases if the list is empty. See
+/// [`Globs`].
 ///
 /// # Errors
-/// When a glob cannot be read.
+/// If a glob does not parse.
 pub fn select<'a>(
     library: &'a Library,
     profile: Profile,

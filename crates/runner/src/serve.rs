@@ -1,4 +1,4 @@
-//! The worker's side of the protocol: requests are answered until the parent closes the pipe.
+//! The worker's side of the protocol: it answers requests until the parent closes the pipe.
 
 use crate::greeting;
 use crate::protocol::{Hello, Payload, Request, Response, encode, receive, send};
@@ -11,14 +11,14 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The time that a worker may take to end by itself after its parent has gone.
+/// The time that a worker may take to exit by itself after its parent has gone.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// Opens a backend and answers requests until `input` ends. A driver that hangs does not outlive the
-/// parent: some seconds after the end of `input` the process exits in any case.
+/// Opens a backend and answers requests until `input` ends. A hanging driver does not outlive the parent:
+/// some seconds after the end of `input`, the process exits in any case.
 ///
 /// # Errors
-/// When the pipe to the parent breaks.
+/// If the pipe to the parent breaks.
 pub fn serve(
     open: impl FnOnce() -> Result<Box<dyn Backend>, Unavailable>,
     input: impl Read + Send + 'static,
@@ -43,8 +43,8 @@ pub fn serve(
         let slot = request.slot();
         let is_last = matches!(request, Request::Drop { .. } | Request::Recording { .. });
         let start = Instant::now();
-        // A panic is the suite's own bug and no crash of the driver. The parent starts another
-        // worker after it, so that no half-done state is used again.
+        // A panic is the suite's own bug, not a crash of the driver. The parent starts another worker after
+        // it, so that no inconsistent state is used again.
         let outcome = catch_unwind(AssertUnwindSafe(|| {
             answer(backend.as_ref(), &mut slots, request)
         }))
@@ -55,8 +55,8 @@ pub fn serve(
             elapsed: start.elapsed(),
             messages: backend.messages(),
         };
-        // The answers of a scene leave together, since each wakes the parent: what the parent need not know
-        // at once waits for the last.
+        // The answers of a scene are flushed together, because each flush wakes the parent. Answers that
+        // the parent does not need at once wait for the last one.
         let tells = !matches!(&response, Response::Done { outcome: Ok(_), messages, .. } if messages.is_empty());
         output.write_all(&encode(&response)?)?;
         next = requests.try_recv().ok();
@@ -70,7 +70,7 @@ pub fn serve(
     Ok(())
 }
 
-/// Passes requests on until there are no more, then makes sure that the process ends.
+/// Passes requests on until there are no more, then makes sure that the process exits.
 fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
     loop {
         let message = receive::<Request<'_>>(&mut input).transpose();
@@ -85,7 +85,7 @@ fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
     std::process::exit(0);
 }
 
-/// The error of a panic.
+/// Returns the error that reports a panic.
 fn panicked(panic: &(dyn Any + Send)) -> BackendError {
     let text = panic
         .downcast_ref::<&str>()

@@ -1,4 +1,4 @@
-//! The end of what a process writes to standard error.
+//! The last part of a process's standard error.
 
 use crate::sync::lock;
 use std::collections::VecDeque;
@@ -7,10 +7,10 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The bytes that are kept.
+/// The number of bytes that are kept.
 const CAPACITY: usize = 4096;
 
-/// The end of a stream, which a thread of its own reads so that the writer never blocks.
+/// The last part of a stream. A separate thread reads the stream, so that the writer never blocks.
 #[derive(Debug)]
 pub(crate) struct StderrTail(Arc<Shared>);
 
@@ -31,7 +31,7 @@ impl StderrTail {
     /// Reads a stream until its end.
     ///
     /// # Errors
-    /// When the system refuses a thread.
+    /// If the system refuses a thread.
     pub(crate) fn of(mut stream: impl Read + Send + 'static) -> io::Result<Self> {
         let tail = Self(Arc::default());
         let shared = Arc::clone(&tail.0);
@@ -52,8 +52,8 @@ impl StderrTail {
         Ok(tail)
     }
 
-    /// Returns the end of the stream; after a time, the end of what was read. A child of the process may hold the
-    /// stream open.
+    /// Returns the end of the stream or, after a time limit, the end of what was read so far: a child of
+    /// the process can keep the stream open.
     pub(crate) fn text(&self, limit: Duration) -> String {
         let kept = lock(&self.0.kept);
         let kept = self.0.end.wait_timeout_while(kept, limit, |k| !k.ended);

@@ -1,7 +1,8 @@
-//! The supervision of one worker: it is started when needed, started again after a loss, and each
-//! failure becomes a report. Runs and benches use the same supervisor.
+//! Supervising one worker: it is started when needed, started again after a loss, and each failure becomes
+//! a report. Runs and benches use the same supervisor.
 //!
-//! A start that fails is repeated at once and not later: requests in flight must all reach the same
+//! A failed start is repeated at once, not later: all requests in flight must go to the same worker,
+//! because otherwise their answers could be confused.
 //! worker, or their answers would be taken for each other's.
 
 use crate::failure_report::FailureReport;
@@ -12,25 +13,25 @@ use crate::sync::lock;
 use crate::worker::Worker;
 use std::sync::{Arc, Mutex};
 
-/// The number of failed starts in a row after which an adapter's worker is not started again.
+/// The number of consecutive failed starts after which an adapter's worker is not started again.
 const MAX_FAILED_STARTS: u32 = 3;
 
-/// The failed starts of one adapter's workers. All supervisors of the adapter share it, so that a driver
-/// which no longer starts is not tried once per supervisor.
+/// The failed starts of one adapter's workers. All supervisors of the adapter share this, so that a driver
+/// that no longer starts is not tried again by each supervisor.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FailedStarts(Arc<Mutex<InARow>>);
 
 #[derive(Debug, Default)]
 struct InARow {
     count: u32,
-    /// The error of the last one.
+    /// The error of the last failed start.
     message: String,
 }
 
 /// Starts one worker at a time and watches over it.
 pub(crate) struct Supervisor {
     launch: Launch,
-    /// MiB of memory that the worker may hold.
+    /// Memory that the worker may use, in MiB.
     memory: Option<u64>,
     failed_starts: FailedStarts,
     worker: Option<WorkerProcess>,
@@ -51,8 +52,8 @@ fn limited(mut process: WorkerProcess, memory: Option<u64>) -> Result<WorkerProc
 }
 
 impl Supervisor {
-    /// A supervisor of workers started by `launch`, the first of which may be running already. One whose memory cannot
-    /// be watched is ended.
+    /// Creates a supervisor of workers that `launch` starts; the first one can already be running. A worker
+    /// whose memory cannot be watched is ended.
     pub(crate) fn new(
         launch: Launch,
         memory: Option<u64>,
@@ -73,7 +74,7 @@ impl Supervisor {
         self.worker = running.and_then(|worker| limited(worker.process, self.memory).ok());
     }
 
-    /// The worker, started if there is none.
+    /// Returns the worker, and starts one if none is running.
     pub(crate) fn worker(&mut self) -> Result<&mut WorkerProcess, Loss> {
         while self.worker.is_none() && lock(&self.failed_starts.0).count < MAX_FAILED_STARTS {
             let started = start(&self.launch, self.memory);
@@ -93,7 +94,7 @@ impl Supervisor {
         self.running()
     }
 
-    /// The worker that is running.
+    /// Returns the running worker.
     pub(crate) fn running(&mut self) -> Result<&mut WorkerProcess, Loss> {
         match &mut self.worker {
             Some(process) => Ok(process),
@@ -103,12 +104,12 @@ impl Supervisor {
         }
     }
 
-    /// True if a worker is running.
+    /// Returns true if a worker is running.
     pub(crate) fn is_running(&self) -> bool {
         self.worker.is_some()
     }
 
-    /// A number that changes whenever a new worker is started.
+    /// Returns a number that changes whenever a new worker is started.
     pub(crate) fn generation(&self) -> u32 {
         self.generation
     }

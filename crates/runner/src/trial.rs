@@ -1,7 +1,8 @@
-//! Trials: cases that are drawn one after the other on a warm worker, until one of them is what is looked for.
+//! Trials: cases that are drawn one after another on a warm worker, until one of them is accepted.
 //!
-//! Requests run ahead of the answers, so that the driver draws while frames are judged. As every case behind
-//! the one that is found was drawn in vain, few run ahead at first, and more with each case that is not it.
+//! Requests run ahead of the answers, so that the driver draws while frames are judged. Every case that was
+//! requested after the accepted one is wasted, so only a few requests run ahead at first, and more with
+//! each rejected case.
 
 use crate::drawing::Due;
 use crate::launch::{Launch, StartError};
@@ -16,7 +17,7 @@ use std::time::{Duration, Instant};
 /// The most requests in flight.
 const MOST_AHEAD: usize = 4;
 
-/// A worker, started again behind each case that ends it.
+/// A worker that is started again after each case that ends it.
 pub struct Trials {
     launch: Launch,
     worker: Worker,
@@ -27,7 +28,7 @@ pub struct Trials {
 }
 
 impl Trials {
-    /// Trials on a running worker.
+    /// Creates trials on a running worker.
     pub fn new(launch: Launch, worker: Worker, timeout: Duration) -> Self {
         Self {
             launch,
@@ -38,10 +39,11 @@ impl Trials {
         }
     }
 
-    /// Draws and judges the cases that `next` gives until `found` says yes to the record of one, and returns that one.
+    /// Draws and judges the cases that `next` returns until `found` accepts one with its record, and
+    /// returns that case.
     ///
     /// # Errors
-    /// When a worker that was lost cannot be started again.
+    /// If a lost worker cannot be started again.
     pub fn first<C>(
         &mut self,
         next: &mut dyn FnMut() -> Option<C>,
@@ -78,7 +80,7 @@ impl Trials {
             }
             if ends {
                 self.worker = Worker::start(&self.launch)?;
-                // What was asked behind it was lost with it.
+                // Requests after the lost one were lost with it.
                 if result.is_some() {
                     return Ok(result);
                 }

@@ -1,12 +1,13 @@
-//! The search for the releases between which a case changes.
+//! Searching for the releases between which a case changes.
 //!
-//! Halving finds one change. Whether there is only one is checked once in the middle of each span that is taken to be the
-//! same; what contradicts, changes twice or is flaky is drawn with every release.
+//! Halving finds one change. To check that there is only one, a release is drawn in the middle of each span
+//! that seems to be uniform. Cases that contradict this, change twice or are flaky are drawn with every
+//! release.
 
 use etalon_record::Standing;
 
-/// Returns the releases that a case is to be drawn with next, from what is known by release, oldest first; none when the
-/// search is over.
+/// Returns the releases with which a case must be drawn next, given the known standings by release, oldest
+/// first; empty when the search is over.
 pub fn releases_to_draw(known: &[Option<Standing>]) -> Vec<usize> {
     let missing = || (0..known.len()).filter(|i| known[*i].is_none());
     let Some(newest) = known.len().checked_sub(1) else {
@@ -49,7 +50,8 @@ pub fn releases_to_draw(known: &[Option<Standing>]) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// Searches until nothing is asked for, and returns what is then known and how many were drawn.
+    /// Searches until nothing more is needed, and returns what is then known and how many releases were
+    /// drawn.
     fn search(truth: &str) -> (String, usize) {
         let mut known: Vec<Option<Standing>> = vec![None; truth.len()];
         let standing = |c: char| match c {
@@ -106,7 +108,7 @@ mod tests {
         for truth in ["gggbbbggg", "bbgggbbbb", "ggyggbbbb", "ggggygggg"] {
             assert_eq!(search(truth).0, truth);
         }
-        // A short relapse beside the checks is the price of not drawing everything.
+        // A short relapse between the checks is missed; this is the price of not drawing every release.
         assert_eq!(search("gbggggggg").1, 3);
     }
 }

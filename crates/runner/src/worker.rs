@@ -18,7 +18,7 @@ use thiserror::Error;
 pub struct Worker {
     /// The adapter as the worker describes it.
     pub hello: Hello,
-    /// The release of its driver, where its description says it.
+    /// The release of its driver, if the adapter's description states it.
     pub release: Option<Release>,
     pub(crate) process: WorkerProcess,
 }
@@ -27,7 +27,7 @@ impl Worker {
     /// Starts a worker and waits until its adapter is open.
     ///
     /// # Errors
-    /// When the program cannot be started, says that its adapter is unavailable, or does not answer.
+    /// If the program cannot be started, reports that its adapter is unavailable, or does not answer.
     pub fn start(launch: &Launch) -> Result<Self, StartError> {
         let mut process = WorkerProcess::spawn(launch)?;
         match process.response(launch.patience) {
@@ -41,7 +41,7 @@ impl Worker {
                 "the worker's first message is not a greeting".to_owned(),
             )),
             Err(loss) => {
-                // The driver is opened behind the greeting.
+                // The driver is opened after the greeting.
                 let of_launcher = launch.launcher.is_some() && !process.has_greeted();
                 let message = process.exit_report(loss).message;
                 Err(if of_launcher {
@@ -55,8 +55,8 @@ impl Worker {
         }
     }
 
-    /// Draws and judges a case, which may take as long as `timeout`. Returns its record, and whether the worker must
-    /// not be used again.
+    /// Draws and judges a case, which may take as long as `timeout`. Returns its record, and whether the
+    /// worker must not be used again.
     pub fn record(&mut self, case: &Case, timeout: Duration) -> (Record, bool) {
         let drawing = self.process.draw_case(0, case, Wait::of(timeout));
         outcome(&mut self.process, case, &self.hello.limits, drawing.frames)
@@ -73,9 +73,9 @@ impl Worker {
 }
 
 impl Worker {
-    /// Draws one scene of a case that was not drawn by this worker before, whose adapter was opened to record. Returns
-    /// the frame, the messages of validation layers and debug output, and the calls; `None` if the backend records
-    /// none.
+    /// Draws one scene that this worker has not drawn before, with an adapter that was opened to record.
+    /// Returns the frame, the messages of validation layers and debug output, and the calls, which are
+    /// `None` if the backend does not record.
     ///
     /// # Errors
     /// As [`Worker::draw`].
@@ -115,7 +115,7 @@ pub struct Recorded {
     pub frame: Frame,
     /// Messages of validation layers and debug output.
     pub messages: Vec<String>,
-    /// The calls.
+    /// The recorded calls.
     pub recording: Option<Recording>,
 }
 

@@ -1,4 +1,4 @@
-//! Recorded calls as C: statements, and the constants, functions, variables and data that they need.
+//! Recorded calls as C: statements, with the constants, functions, variables and data that they need.
 
 use crate::c;
 use crate::declarations::{Body, Declarations, Words};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 pub(super) struct Printer {
     pub(super) declarations: Declarations,
     constants: BTreeMap<String, u32>,
-    /// The variable of an object, by kind, number and program: numbers are used again.
+    /// The variable of an object, by kind, number and program. Numbers can be reused.
     objects: HashMap<(String, u64, u64), String>,
     program: u64,
 }
@@ -96,7 +96,7 @@ impl Printer {
         })
     }
 
-    /// Returns the program in which a call names uniforms.
+    /// Returns the program whose uniforms a call names.
     fn program_of(&self, call: &Call) -> u64 {
         match call.arguments.first() {
             Some(Argument::Object(kind, program)) if kind == "program" => *program,
@@ -104,7 +104,7 @@ impl Printer {
         }
     }
 
-    /// Returns a new variable for an object.
+    /// Declares a new variable for an object and returns its name.
     fn define(&mut self, kind: &str, number: u64, program: u64, type_name: &'static str) -> String {
         let variable = self.declarations.variable(type_name, kind);
         let key = key(kind, number, program);
@@ -173,7 +173,7 @@ impl Printer {
     }
 }
 
-/// Returns the key of an object. Only uniforms belong to a program.
+/// Returns the key of an object. Only uniform locations and blocks belong to a program.
 fn key(kind: &str, number: u64, program: u64) -> (String, u64, u64) {
     let of_program = ["location", "block"].contains(&kind);
     (
@@ -183,15 +183,15 @@ fn key(kind: &str, number: u64, program: u64) -> (String, u64, u64) {
     )
 }
 
-/// Words as floats.
+/// Prints words as floats.
 const FLOATS: Words = ("GLfloat", finite);
 
-/// Returns a word as a float, if it is a finite one.
+/// Returns a word as a float, if it is finite.
 fn finite(word: u32) -> Option<String> {
     f32::from_bits(word).is_finite().then(|| c::float(word))
 }
 
-/// True if the bytes of a call are floats: vertices, and blocks of uniforms.
+/// Returns true if the bytes of a call are floats: vertices or uniform blocks.
 fn holds_floats(call: &Call) -> bool {
     let targets = ["GL_ARRAY_BUFFER", "GL_UNIFORM_BUFFER"];
     matches!(call.arguments.first(), Some(Argument::Constant(c)) if targets.contains(&c.name.as_str()))

@@ -1,4 +1,4 @@
-//! OpenGL and OpenGL ES: one C file that loads EGL and needs no header of the API.
+//! OpenGL and OpenGL ES: one C file that loads EGL and needs no headers of the API.
 
 mod calls;
 mod trim;
@@ -15,7 +15,7 @@ use trim::trimmed;
 
 pub use trim::Trim;
 
-/// The context of EGL that a program makes.
+/// The EGL context that a program creates.
 pub(crate) struct Context<'a> {
     /// True for OpenGL ES.
     pub(crate) es: bool,
@@ -23,7 +23,7 @@ pub(crate) struct Context<'a> {
     pub(crate) version: [u32; 2],
     /// The EGL library, if it is not the system's.
     pub(crate) library: Option<&'a str>,
-    /// The index of the EGL device; `None` for the platform without a surface.
+    /// The index of the EGL device; `None` for the surfaceless platform.
     pub(crate) device: Option<u32>,
 }
 
@@ -104,7 +104,7 @@ typedef intptr_t GLsizeiptr;
 
 "#;
 
-/// The check that follows each call.
+/// The error check after each call.
 const HELPERS: &str = r#"
 static GLenum (*glGetError)(void);
 static const unsigned char *(*glGetString)(GLenum);
@@ -125,7 +125,7 @@ static void check(const char *call, int line)
 #define CALL(call) ((call), check(#call, __LINE__))
 "#;
 
-/// Checks of shaders and programs.
+/// The checks of shaders and programs.
 const BUILT: &str = r#"
 /* Ends the program if a shader has not compiled or a program has not linked. */
 static void built(void (*get)(GLuint, GLenum, GLint *), void (*get_log)(GLuint, GLint, GLint *, char *), GLuint object,
@@ -146,9 +146,9 @@ static void built(void (*get)(GLuint, GLenum, GLint *), void (*get_log)(GLuint, 
     built(glGetProgramiv, glGetProgramInfoLog, program, 0x8B82, "the program does not link", line)
 "#;
 
-/// The copy of a mapped buffer.
+/// The function that copies a mapped buffer.
 const COPY: &str = r#"
-/* Copies what is mapped. */
+/* Copies a mapped buffer. */
 static void copy(unsigned char *to, const void *from, size_t size, int line)
 {
     check("glMapBufferRange", line);
@@ -158,7 +158,7 @@ static void copy(unsigned char *to, const void *from, size_t size, int line)
 }
 "#;
 
-/// The check of a framebuffer.
+/// The function that checks a framebuffer.
 const COMPLETE: &str = r#"
 /* Ends the program if the driver does not support a framebuffer. */
 static void complete(GLenum status, int line)
@@ -170,7 +170,7 @@ static void complete(GLenum status, int line)
 }
 "#;
 
-/// A context without a surface, and the functions in it.
+/// The functions that create a context without a surface and load its functions.
 const CONTEXT: &str = r#"
 static void *(*eglGetProcAddress)(const char *);
 static void load(void);

@@ -1,30 +1,30 @@
-//! State that no call sees, taken out of recorded calls.
+//! Removing state that no call reads from recorded calls.
 //!
-//! The backend sets all state before each pass, and parameters of what is off to values that would be seen. A
-//! reader wants neither. What is taken out changes no result by the specification (OpenGL 4.6, 21: state has the
-//! initial values of its tables, and is read when a command draws, clears or copies), but a driver's bug may hang on
-//! it: a trimmed program must be run before it is believed.
+//! The backend sets all state before each pass, and sets parameters of disabled capabilities to values that
+//! would be visible. A reader needs neither. By the specification, removing them changes no result (OpenGL
+//! 4.6, 21: state has the initial values of its tables, and is read when a command draws, clears or
+//! copies). But a driver's bug can depend on it, so a trimmed program must be run before it is trusted.
 
 use etalon_backend::{Argument, Call};
 use std::collections::BTreeMap;
 
-/// The state that is taken out of a program.
+/// The state that is removed from a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trim {
-    /// Nothing: each call that was made.
+    /// Nothing: the program makes every recorded call.
     Nothing,
-    /// State that is set to the value that it has, or set anew before it is read.
+    /// State that is set to its current value, or set again before it is read.
     Redundant,
-    /// Also the parameters of capabilities that are off.
+    /// Also the parameters of disabled capabilities.
     Idle,
 }
 
 impl Trim {
-    /// From the shortest program to the whole one.
+    /// Every variant, from the shortest program to the complete one.
     pub const ALL: [Self; 3] = [Self::Idle, Self::Redundant, Self::Nothing];
 }
 
-/// Returns the calls that are left, in their order.
+/// Returns the remaining calls, in their order.
 pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
     if trim == Trim::Nothing {
         return calls.iter().collect();
@@ -81,24 +81,24 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
 enum Key {
     /// A capability, on or off.
     Capability(u32),
-    /// The state of a family of functions, or what their first argument names of it.
+    /// State that a family of functions sets, by the target if their first argument is one.
     State(&'static str, Option<u64>),
 }
 
-/// A call that does nothing but set state: the function and its arguments.
+/// A call that only sets state: the function and its arguments.
 type Value = (String, Vec<u64>);
 
 /// The known value of a piece of state.
 struct Slot {
     guards: &'static [u32],
-    /// The calls that made it what the last action saw.
+    /// The calls that set the value at the last action.
     active: Vec<Value>,
-    /// The calls since, by their place.
+    /// The calls since then, with their indices.
     pending: Vec<(usize, Value)>,
 }
 
 impl Slot {
-    /// True if a capability is on, with the calls since the last action.
+    /// Returns true if a capability is on, including the calls since the last action.
     fn is_on(&self) -> bool {
         let replaced = self.pending.first().is_some_and(|(_, v)| is_whole(v));
         let before = self.active.iter().filter(|_| !replaced);
@@ -106,7 +106,8 @@ impl Slot {
         since.any(|(function, _)| function.starts_with("glEnable"))
     }
 
-    /// Makes the pending calls active. Returns the places of those that change anything.
+    /// Makes the pending calls active. Returns the indices of the calls that must be kept; empty if they
+    /// change nothing.
     fn flush(&mut self) -> Vec<usize> {
         let pending = std::mem::take(&mut self.pending);
         let values: Vec<Value> = pending.iter().map(|(_, value)| value.clone()).collect();
@@ -129,11 +130,11 @@ impl Slot {
 struct Setter {
     key: Key,
     value: Value,
-    /// True if nothing of what was set before is left.
+    /// True if the call replaces the whole state that was set before.
     whole: bool,
     /// The call that would set the initial value.
     initial: Option<Value>,
-    /// The capabilities without which it is not read; empty if it always is.
+    /// The capabilities that enable reading the state; empty if it is always read.
     guards: &'static [u32],
 }
 
@@ -148,18 +149,18 @@ const SAMPLE_MASK: u32 = 0x8E51;
 const SAMPLE_SHADING: u32 = 0x8C36;
 const COLOR_LOGIC_OP: u32 = 0x0BF2;
 const OFFSETS: &[u32] = &[0x8037, 0x2A02, 0x2A01];
-/// The capabilities that are on at the start.
+/// The capabilities that are on initially.
 const ON: [u32; 2] = [0x0BD0, 0x809D];
 
 /// A function that sets state.
 struct Known {
     function: &'static str,
     family: &'static str,
-    /// True if each value of the first argument has state of its own.
+    /// True if each value of the first argument has its own state.
     by_target: bool,
-    /// True if it sets all state of the family.
+    /// True if the function sets all state of the family.
     whole: bool,
-    /// The arguments that set the initial values, behind the target.
+    /// The arguments after the target that set the initial values.
     initial: Option<&'static [u64]>,
     guards: &'static [u32],
 }
@@ -192,7 +193,7 @@ const fn by_target(function: &'static str, initial: Option<&'static [u64]>) -> K
     }
 }
 
-/// One, as the bits of an `f32` and of an `f64`.
+/// The number 1, as the bits of an `f32` and of an `f64`.
 const F1: u64 = 0x3f80_0000;
 const D1: u64 = 0x3ff0_0000_0000_0000;
 
@@ -348,7 +349,7 @@ const KNOWN: [Known; 39] = [
 ];
 
 fn known_of(function: &str) -> Option<&'static Known> {
-    // Functions of extensions are those of later versions.
+    // Functions of extensions set the same state as those of later versions.
     let core = |name: &str| {
         ["OES", "ARB", "ANGLE", "EXT"]
             .iter()
@@ -417,7 +418,7 @@ fn setter(call: &Call) -> Option<Setter> {
     })
 }
 
-/// Returns the family of which a function sets state that is not followed here.
+/// Returns the family whose state a function replaces in a way that is not tracked.
 fn replaced(function: &str) -> Option<&'static str> {
     match function {
         "glScissorArrayv" => Some("scissor"),
@@ -427,7 +428,7 @@ fn replaced(function: &str) -> Option<&'static str> {
     }
 }
 
-/// True if a function reads state: it draws, clears or copies.
+/// Returns true if a function reads state: it draws, clears or copies.
 fn is_action(function: &str) -> bool {
     const PREFIXES: [&str; 7] = [
         "glDraw",
@@ -441,14 +442,14 @@ fn is_action(function: &str) -> bool {
     function != "glDrawBuffers" && PREFIXES.iter().any(|p| function.starts_with(p))
 }
 
-/// Returns an argument's value as a number; `None` of what is none.
+/// Returns an argument's value as a number; `None` if it has none.
 fn number(argument: &Argument) -> Option<u64> {
     Some(match argument {
         Argument::Integer(value) => u64::from(value.cast_unsigned()),
         Argument::Unsigned(value) => u64::from(*value),
         Argument::Boolean(value) => u64::from(*value),
         Argument::Size(value) => value.cast_unsigned(),
-        // Both zeros are one.
+        // Both zeros have the same key.
         Argument::Float(bits) => match f32::from_bits(*bits) {
             0.0 => 0,
             _ => u64::from(*bits),
@@ -485,7 +486,7 @@ mod tests {
         }
     }
 
-    /// Returns what is left, as text.
+    /// Returns the remaining calls, as text.
     fn left(calls: &[(&str, &[u32])], trim: Trim) -> Vec<String> {
         let calls: Vec<Call> = calls
             .iter()

@@ -1,4 +1,4 @@
-//! Recorded calls of Vulkan as C: statements, and the types, functions, variables and data that they need.
+//! Recorded Vulkan calls as C: statements, with the types, functions, variables and data that they need.
 
 use crate::c;
 use crate::declarations::{Body, Declarations, Words};
@@ -13,19 +13,19 @@ pub(super) struct Printer {
     pub(super) declarations: Declarations,
     /// The types of handles.
     handles: BTreeSet<String>,
-    /// The structures, in the order in which each may be declared, with their declarations.
+    /// The structures with their declarations, ordered so that each is declared before its use.
     structures: Vec<(String, String)>,
     /// The variable of an object, by kind and number.
     objects: HashMap<(String, u64), String>,
 }
 
-/// Bytes are printed as words: no call says that they are floats.
+/// Bytes are printed as words, since no call states that they are floats.
 const WORDS: Option<Words> = None;
-/// The handles that are addresses.
+/// The handles that are pointers.
 const DISPATCHABLE: [&str; 4] = ["VkPhysicalDevice", "VkDevice", "VkQueue", "VkCommandBuffer"];
 
 impl Printer {
-    /// Returns a printer that knows the physical device, which every program has.
+    /// Returns a printer that already has the physical device, which every program has.
     pub(super) fn new() -> Self {
         Self {
             declarations: Declarations::default(),
@@ -140,7 +140,7 @@ impl Printer {
         })
     }
 
-    /// Returns a new variable for an object.
+    /// Declares a new variable for an object and returns its name.
     fn define(&mut self, kind: &str, number: u64) -> String {
         let short = kind.trim_start_matches("Vk").trim_end_matches("KHR");
         let mut stem = String::new();
@@ -234,7 +234,7 @@ impl Printer {
         Ok(values.join(", "))
     }
 
-    /// Declares a structure, unless it is declared.
+    /// Declares a structure, unless it is already declared.
     fn declare(&mut self, kind: &str, size: u64, members: &[Member]) -> Result<(), BundleError> {
         if !c::is_identifier(kind) || self.structures.iter().any(|(name, _)| name == kind) {
             return Ok(());
@@ -277,7 +277,7 @@ impl Printer {
             self.declare(&kind, size, &members)?;
         }
         let _ = writeln!(text, "}} {kind};");
-        // A wrong layout does not compile.
+        // The declaration does not compile if the layout is wrong.
         let _ = writeln!(
             text,
             "typedef char size_of_{kind}[sizeof({kind}) == {size} ? 1 : -1];"
@@ -287,7 +287,7 @@ impl Printer {
     }
 }
 
-/// True if a value is what C gives to what is left out.
+/// Returns true if a value is zero, which is C's value of an omitted member.
 fn is_zero(value: &Argument) -> bool {
     match value {
         Argument::Integer(0)
@@ -321,7 +321,7 @@ fn word(constant: &Constant) -> String {
     }
 }
 
-/// Returns the type of an argument. All addresses are alike.
+/// Returns the type of an argument. All pointers have the same type.
 fn kind_of(argument: &Argument) -> String {
     match argument {
         Argument::Integer(_) => "int32_t",

@@ -1,4 +1,4 @@
-//! Vulkan: one C file that loads `libvulkan` and needs no header of the API.
+//! Vulkan: one C file that loads `libvulkan` and needs no headers of the API.
 
 mod calls;
 
@@ -38,8 +38,8 @@ pub(crate) fn program(
     let check = check::check(recording, due)?;
     let mut text = head.beginning(
         BUILD_C,
-        "the index of the device; otherwise it is the one whose name is that below, or the first",
-        "Structures and functions have the names of the specification; the names of values are comments.",
+        "the index of the device; by default, the device with the name below is used, or the first one",
+        "Structures and functions have the names of the specification; names of values are in comments.",
     );
     text.push('\n');
     text.push_str(&printer.types());
@@ -71,7 +71,7 @@ pub(crate) fn program(
     Ok(text)
 }
 
-/// The instance, the device and its memory.
+/// The functions that create the instance and the device, and allocate memory.
 const HELPERS: &str = r#"
 typedef struct {
     uint64_t size, alignment;

@@ -1,4 +1,4 @@
-//! The table of what is allowed.
+//! The table of permitted values.
 
 use super::code::{Code, Structure, list};
 use super::literals::{number, string};
@@ -8,7 +8,7 @@ use crate::table::{self, CheckedChannel, Order, Texel};
 use crate::wrap::wrapped;
 use etalon_backend::Recording;
 
-/// Types and functions of the table, in Rust.
+/// The types and functions for the table, in Rust.
 const RUST: &str = r#"
 /// How the bits of a channel are compared: as a number, a signed number, a float of 16 bits (by its sign and magnitude),
 /// a float of 32 bits, or a byte that a shorter code was widened to.
@@ -53,7 +53,7 @@ fn value_of(memories: &[Vec<u8>], c: &Channel) -> f64 {
     }
 }
 
-/// Returns the number that a place in the order stands for.
+/// Returns the number that a position in the order represents.
 fn shown(c: &Channel, order: f64) -> f64 {
     let size = order.abs();
     let value = match c.order {
@@ -101,7 +101,7 @@ fn tell(memories: &[Vec<u8>], texel: &Texel) -> String {
 }
 "#;
 
-/// The functions of the table, as a script.
+/// The functions for the table, in JavaScript.
 const SCRIPT: &str = r#"
 // How the bits of a channel are compared: as an unsigned or signed number, a float of 16 bits ("half", by its sign and
 // magnitude), a float of 32 bits ("single" by its sign and magnitude, "value" by its value), or a byte that a shorter
@@ -128,7 +128,7 @@ function valueOf(memories, c) {
   }
 }
 
-// Returns the number that a place in the order stands for.
+// Returns the number that a position in the order represents.
 function shown(c, order) {
   const size = Math.abs(order), sign = order < 0 ? -1 : 1;
   if (c.order === "single")
@@ -173,7 +173,7 @@ function tell(memories, texel) {
 }
 "#;
 
-/// Returns the functions that check what was read.
+/// Returns the functions that check the values that were read.
 pub(super) fn check(recording: &Recording, due: &Due) -> Result<Code, BundleError> {
     let texels = table::texels(recording, due)?;
     let mut text = Code::same("");

@@ -1,10 +1,10 @@
-//! Pieces of a program in two languages at once: Rust, and the JavaScript of a page.
+//! Pieces of a program in two languages: Rust, and the JavaScript of a page.
 
 /// A piece of both programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Code {
     pub(super) rust: String,
-    /// `None` where WebGPU has no such thing.
+    /// `None` if WebGPU cannot express it.
     pub(super) script: Option<String>,
 }
 
@@ -16,13 +16,13 @@ impl Code {
         }
     }
 
-    /// Returns what both languages write alike.
+    /// Returns a piece that is the same in both languages.
     pub(super) fn same(text: impl Into<String>) -> Self {
         let text = text.into();
         Self::new(text.clone(), text)
     }
 
-    /// Returns what wgpu has and WebGPU has not.
+    /// Returns a piece that wgpu has and WebGPU lacks.
     pub(super) fn of_wgpu(rust: impl Into<String>) -> Self {
         Self {
             rust: rust.into(),
@@ -30,7 +30,7 @@ impl Code {
         }
     }
 
-    /// Returns a borrowed value, which is the value in a script.
+    /// Returns a borrowed value; in a script, the value itself.
     pub(super) fn borrowed(self) -> Self {
         Self {
             rust: format!("&{}", self.rust),
@@ -38,7 +38,7 @@ impl Code {
         }
     }
 
-    /// Returns a structure that is its members in a script, without their braces.
+    /// Returns a structure; in a script, its members without braces.
     pub(super) fn members(self) -> Self {
         let inner = |text: String| {
             let inner = text
@@ -52,7 +52,7 @@ impl Code {
         }
     }
 
-    /// Returns both changed.
+    /// Applies a change to both languages.
     pub(super) fn map(self, change: impl Fn(&str) -> String) -> Self {
         Self {
             rust: change(&self.rust),
@@ -70,7 +70,7 @@ impl Code {
     }
 }
 
-/// Returns pieces with commas between them.
+/// Returns the pieces, separated by commas.
 pub(super) fn joined(pieces: impl IntoIterator<Item = Code>) -> Code {
     let mut code = Code::same("");
     for piece in pieces {
@@ -89,7 +89,7 @@ pub(super) fn list(values: impl IntoIterator<Item = Code>) -> Code {
         .borrowed()
 }
 
-/// Returns an option, which is the value or `null` in a script.
+/// Returns an option; in a script, the value or `null`.
 pub(super) fn option(value: Option<Code>) -> Code {
     match value {
         Some(value) => Code {
@@ -100,7 +100,7 @@ pub(super) fn option(value: Option<Code>) -> Code {
     }
 }
 
-/// Returns a call of a method of WebGPU, which wgpu has by the same name in its spelling.
+/// Returns a call of a WebGPU method. wgpu has the same method with its own spelling.
 pub(super) fn call(on: &str, method: &str, arguments: impl IntoIterator<Item = Code>) -> Code {
     let arguments = joined(arguments);
     Code {
@@ -119,7 +119,7 @@ pub(super) fn defined(name: &str, value: Code) -> Code {
     }
 }
 
-/// Returns a definition of a variable whose methods change it.
+/// Returns a definition of a variable that its methods change.
 pub(super) fn defined_to_change(name: &str, value: Code) -> Code {
     Code {
         rust: format!("let mut {name} = {}", value.rust),
@@ -127,7 +127,7 @@ pub(super) fn defined_to_change(name: &str, value: Code) -> Code {
     }
 }
 
-/// A structure of wgpu, which is a dictionary of WebGPU.
+/// A structure of wgpu, and the corresponding dictionary of WebGPU.
 pub(super) struct Structure {
     kind: String,
     rust: Vec<String>,
@@ -144,7 +144,7 @@ impl Structure {
         }
     }
 
-    /// Adds a field that only wgpu has, at the value that WebGPU's programs have.
+    /// Adds a field that only wgpu has, with the value that corresponds to WebGPU.
     pub(super) fn of_wgpu(mut self, name: &str, value: &str) -> Self {
         self.rust.push(format!("{name}: {value}"));
         self
@@ -164,7 +164,7 @@ impl Structure {
         )
     }
 
-    /// Adds a field that a script leaves out where it is `None`.
+    /// Adds a field that a script omits if it is `None`.
     pub(super) fn optional(self, name: &str, value: Option<Code>) -> Self {
         match value {
             None => self.of_wgpu(name, "None"),
@@ -172,7 +172,8 @@ impl Structure {
         }
     }
 
-    /// Adds a field that is one or several members of the dictionary, names included; none if that is empty.
+    /// Adds a field that corresponds to several members of the dictionary, names included; to no member
+    /// if that is empty.
     pub(super) fn in_place(mut self, name: &str, value: Code) -> Self {
         self.rust.push(format!("{name}: {}", value.rust));
         match (&mut self.script, value.script) {
@@ -201,7 +202,7 @@ impl Structure {
     }
 }
 
-/// Returns a name of wgpu in WebGPU's spelling.
+/// Converts a name of wgpu to WebGPU's spelling.
 fn camel(name: &str) -> String {
     let mut camel = String::new();
     let mut upper = false;

@@ -1,4 +1,4 @@
-//! Commands: of an encoder, of a render pass, of a render bundle.
+//! Commands of an encoder, a render pass or a render bundle.
 
 use super::code::{Code, Structure, call, defined, defined_to_change, list, option};
 use super::literals::{float, format, number, of, plain};
@@ -9,7 +9,7 @@ use etalon_webgpu::{
 };
 use std::ops::Range;
 
-/// Returns the statements of a submission of one command buffer. `number` tells its encoder from others.
+/// Returns the statements that submit one command buffer. `number` distinguishes its encoder from others.
 pub(super) fn submission<'c>(
     calls: &CallList,
     commands: impl IntoIterator<Item = &'c Command>,
@@ -30,7 +30,7 @@ pub(super) fn submission<'c>(
     statements
 }
 
-/// Returns the statements of a command of an encoder.
+/// Returns the statements of an encoder's command.
 fn encoded(calls: &CallList, encoder: &str, command: &Command) -> Vec<Code> {
     let copy = |method: &str, from: Code, to: Code, [width, height]: [u32; 2]| {
         call(encoder, method, [from, to, extent([width, height, 1])])
@@ -129,7 +129,7 @@ fn pass(encoder: &str, pass: &RenderPass) -> Vec<Code> {
         .end();
     let begun = call(encoder, "begin_render_pass", [descriptor.borrowed()]);
     if pass.commands.is_empty() {
-        // It ends where Rust drops it.
+        // In Rust, the pass ends when it is dropped.
         return vec![Code {
             script: begun.script.map(|begun| format!("{begun}.end()")),
             ..begun
@@ -163,7 +163,7 @@ fn as_depth_stencil(attachment: &DepthStencilAttachment) -> Code {
         .end()
 }
 
-/// Returns the access to an aspect. `None` in Rust is read-only or absent.
+/// Returns the access to an aspect. In Rust, `None` means read-only or absent.
 fn accessed<V>(aspect: &str, access: Access<V>, value: impl FnOnce(V) -> Code) -> Code {
     match access {
         Access::Absent => Code::new("None", ""),
@@ -172,7 +172,8 @@ fn accessed<V>(aspect: &str, access: Access<V>, value: impl FnOnce(V) -> Code) -
     }
 }
 
-/// Returns how an attachment is loaded and stored, as members of its dictionary whose names begin with `prefix`.
+/// Returns how an attachment is loaded and stored, as members of its dictionary whose names begin with
+/// `prefix`.
 fn operations<V>(prefix: &str, filled: Filled<V>, value: impl FnOnce(V) -> Code) -> Code {
     let member = |name: &str| match prefix {
         "" => format!("{}{}", name[..1].to_ascii_lowercase(), &name[1..]),
@@ -202,7 +203,7 @@ fn operations<V>(prefix: &str, filled: Filled<V>, value: impl FnOnce(V) -> Code)
     }
 }
 
-/// Returns a color that clears.
+/// Returns a clear colour.
 fn clear_color(color: [f32; 4]) -> Code {
     let [r, g, b, a] = color.map(|channel| number(channel.into()));
     Structure::of("wgpu::Color")
@@ -289,7 +290,7 @@ pub(super) fn bundle(bundle: &RenderBundle, place: usize) -> Vec<Code> {
     statements
 }
 
-/// Returns a command of a pass or a bundle, made on the variable `on`.
+/// Returns a command of a pass or a bundle, called on the variable `on`.
 fn drawn(on: &str, command: &DrawCommand) -> Code {
     match command {
         DrawCommand::SetPipeline(pipeline) => {
@@ -372,7 +373,7 @@ fn drawn(on: &str, command: &DrawCommand) -> Code {
     }
 }
 
-/// Returns a part of a buffer in Rust, and the arguments that name it in a script.
+/// Returns a part of a buffer in Rust, and the corresponding arguments in a script.
 fn slice(buffer: usize, place: &Range<u64>) -> (String, String) {
     let size = place.end.saturating_sub(place.start);
     (

@@ -3,7 +3,7 @@
 use super::code::Code;
 use etalon_webgpu::Format;
 
-/// Returns a text as a literal. No script ends in one.
+/// Returns a text as a literal, which cannot end a script element.
 pub(super) fn string(text: &str) -> Code {
     let escaped = |c: char| -> [String; 2] {
         match c {
@@ -42,7 +42,7 @@ pub(super) fn source(text: &str) -> Code {
     } else {
         format!("r###\"{text}\"###")
     };
-    // An attribute of wgpu.
+    // WebGPU lacks this attribute of wgpu.
     if text.contains("@early_depth_test") {
         return Code::of_wgpu(rust);
     }
@@ -70,7 +70,7 @@ pub(super) fn number(value: f64) -> Code {
     }
 }
 
-/// Returns bytes as an expression: zeros, floats, words, or bytes.
+/// Returns bytes as an expression: zeros, floats, words, or single bytes.
 pub(super) fn bytes(all: &[u8]) -> Code {
     let size = all.len();
     if all.iter().all(|byte| *byte == 0) {
@@ -102,17 +102,17 @@ pub(super) fn bytes(all: &[u8]) -> Code {
     )
 }
 
-/// Returns what both languages print alike: a whole number, `true` or `false`.
+/// Returns a value that both languages print the same way: an integer, `true` or `false`.
 pub(super) fn plain(value: impl std::fmt::Display) -> Code {
     Code::same(value.to_string())
 }
 
-/// Returns a float of 32 bits where 32 bits are asked for.
+/// Returns a float for a place that expects 32 bits.
 pub(super) fn float(value: f32) -> Code {
     Code::same(format!("{value:?}"))
 }
 
-/// Returns a value of an enumeration by WebGPU's name.
+/// Returns a value of an enumeration, given WebGPU's name.
 pub(super) fn of(kind: &str, name: &str) -> Code {
     Code::new(
         format!("wgpu::{kind}::{}", variant(name)),
@@ -139,7 +139,7 @@ pub(super) fn format(format: Format) -> Code {
     )
 }
 
-/// The flags of a type in wgpu and WebGPU, from bit 0 on; a bit without a name is not used.
+/// The flags of a type in wgpu and WebGPU, from bit 0 on. A bit without a name is unused.
 pub(super) struct Flags {
     rust: &'static str,
     script: &'static str,
@@ -177,7 +177,7 @@ pub(super) const TEXTURE_USAGES: Flags = Flags {
     ],
 };
 
-/// The channels that are written.
+/// The colour channels that are written.
 pub(super) const COLOR_WRITES: Flags = Flags {
     rust: "wgpu::ColorWrites",
     script: "GPUColorWrite",
@@ -185,7 +185,7 @@ pub(super) const COLOR_WRITES: Flags = Flags {
 };
 
 impl Flags {
-    /// Returns the shader stages, of which bit 0 stands for fragments.
+    /// Returns the shader stages; bit 0 is the fragment stage.
     pub(super) const fn of_fragment_stage() -> Self {
         Self {
             rust: "wgpu::ShaderStages",
@@ -215,7 +215,7 @@ impl Flags {
     }
 }
 
-/// Returns a name in WebGPU's spelling as wgpu's variant.
+/// Converts a name in WebGPU's spelling to wgpu's variant.
 fn variant(word: &str) -> String {
     let word = match word.split_once('d') {
         Some((side @ ("1" | "2" | "3"), dimension)) => format!("D{side}{dimension}"),

@@ -1,17 +1,17 @@
-//! The memories that are filled from the mapped buffer.
+//! Memories that are filled from the mapped buffer.
 
 use etalon_backend::{Argument, Call, Recording};
 
 /// A memory that is filled from the mapped buffer.
 pub(super) struct Memory {
-    /// True if the bytes are bits: four to a texel in two images.
+    /// True if the bytes are single bits, four per texel in each of two images.
     bits: bool,
-    /// The parts: offset, distance between rows, bytes of a row, rows.
+    /// The parts: offset, distance between rows, bytes per row, number of rows.
     parts: Vec<[u64; 4]>,
 }
 
 impl Memory {
-    /// Returns an expression for the bytes of the memory. `bytes` is an expression for the mapped ones.
+    /// Returns an expression for the memory's bytes. `bytes` is an expression for the mapped bytes.
     pub(super) fn expression(&self, bytes: &str) -> String {
         let part = |[offset, pitch, row, rows]: &[u64; 4]| {
             format!("rows({bytes}, {offset}, {pitch}, {row}, {rows})")

@@ -1,4 +1,5 @@
-//! wgpu: a package of one file that depends on wgpu, and a page for browsers; of a browser's calls the page alone.
+//! wgpu: a package with one source file that depends on wgpu, and a page for browsers. Calls of a browser
+//! give only the page.
 
 mod check;
 mod code;
@@ -19,8 +20,8 @@ use crate::program::Program;
 use etalon_backend::Recording;
 use program::Api;
 
-/// Returns the program for an API below wgpu and a device, with a page if WebGPU has all that it needs. The API of a
-/// browser is `webgpu`, and its features have WebGPU's names.
+/// Returns the program for a device and the API below wgpu, with a page if WebGPU has everything that it
+/// needs. For a browser, the API is `webgpu` and the features have WebGPU's names.
 pub(crate) fn program(
     head: &Head,
     [api, device]: [&str; 2],

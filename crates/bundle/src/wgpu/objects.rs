@@ -1,4 +1,4 @@
-//! The objects of a list as definitions of variables.
+//! The objects of a list, as definitions of variables.
 
 use super::code::{Code, Structure, call, defined, list, option};
 use super::literals::{
@@ -12,17 +12,17 @@ use etalon_webgpu::{
     TextureView, VertexAttribute, VertexBuffer,
 };
 
-/// Returns the variable of the object of a kind at this place.
+/// Returns the variable of the object with this kind and index.
 pub(super) fn variable(kind: &str, place: usize) -> String {
     format!("{kind}_{}", place + 1)
 }
 
-/// Returns a reference to the object of a kind at this place.
+/// Returns a reference to the object with this kind and index.
 pub(super) fn object(kind: &str, place: usize) -> Code {
     Code::same(variable(kind, place)).borrowed()
 }
 
-/// Returns the definitions of all objects but bundles, buffers with their contents.
+/// Returns the definitions of all objects except bundles. Buffers include their contents.
 pub(super) fn definitions(calls: &CallList) -> Vec<Code> {
     let mut statements = Vec::new();
     let mut define = |kind: &str, place: usize, method: &str, descriptor: Code| {
@@ -109,7 +109,7 @@ pub(super) fn definitions(calls: &CallList) -> Vec<Code> {
     statements
 }
 
-/// Returns the size of a texture or of what is copied.
+/// Returns the size of a texture or of a copied part.
 pub(super) fn extent([width, height, layers]: [u32; 3]) -> Code {
     Structure::of("wgpu::Extent3d")
         .with("width", plain(width))
@@ -197,7 +197,7 @@ fn group_layout(entries: &[LayoutEntry]) -> Code {
         .end()
 }
 
-/// Returns the type of a resource, which is a member of its entry in a script.
+/// Returns the type of a resource; in a script, a member of its entry.
 fn resource_type(resource: LayoutResource) -> Code {
     let buffer = |rust: &str, script: &str, dynamic: bool, size| {
         let ty = Code::new(
@@ -433,7 +433,7 @@ fn primitive(primitive: &Primitive) -> Code {
 
 fn color_target(target: &PipelineTarget) -> Code {
     let component = |component: BlendComponent| {
-        // A constant alpha stands in the equation of alpha alone, where it is the constant.
+        // A constant alpha is only used in the equation of alpha, where it equals the constant.
         let factor = |name: &'static str| {
             let name = match name {
                 "constant-alpha" => "constant",
@@ -510,7 +510,7 @@ fn stencil_face(face: &StencilFace) -> Code {
         .end()
 }
 
-/// Returns a value that is a member of this name in a script.
+/// Returns a value; in a script, a member with this name.
 pub(super) fn named(name: &str, value: Code) -> Code {
     Code {
         script: value.script.map(|value| format!("{name}: {value}")),

@@ -5,7 +5,7 @@ use super::printer::Statements;
 use crate::head::Head;
 use std::fmt::Write;
 
-/// Features of wgpu and WebGPU's names of them.
+/// Features of wgpu with WebGPU's names.
 const FEATURES: [(&str, &str); 8] = [
     ("CLIP_DISTANCES", "clip-distances"),
     ("DEPTH32FLOAT_STENCIL8", "depth32float-stencil8"),
@@ -20,7 +20,7 @@ const FEATURES: [(&str, &str); 8] = [
     ),
 ];
 
-/// Returns wgpu's names of a browser's features, of those that calls may need.
+/// Returns wgpu's names of a browser's features, limited to the features that calls can need.
 pub(super) fn names_of_wgpu(features: &[String]) -> Vec<String> {
     let known = FEATURES
         .iter()
@@ -28,7 +28,7 @@ pub(super) fn names_of_wgpu(features: &[String]) -> Vec<String> {
     known.map(|(rust, _)| (*rust).to_owned()).collect()
 }
 
-/// Returns the page; `None` if the calls use what WebGPU does not have.
+/// Returns the page; `None` if the calls use anything that WebGPU lacks.
 pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Option<String> {
     let body = statements.body.script.as_ref()?;
     let check = check.script.as_ref()?;
@@ -47,9 +47,9 @@ pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Op
     let mapped = &statements.mapped;
     let mut text = format!(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<h1>{title}</h1>\n<p>{sentence}</p>\n\
-         <p>The last line, which becomes the title, says what came back: right, what is wrong, what the browser does not support, or a call \
+         <p>The last line, which is also the title, is the result: right, the wrong value, what the browser does not support, or a call \
          that fails.</p>\n\
-         <pre id=\"result\">running</pre>\n<script>\n\"use strict\";\n// Features that the calls need, and those of the device on which they were recorded.\n\
+         <pre id=\"result\">running</pre>\n<script>\n\"use strict\";\n// Features that the calls need, and features of the device on which they were recorded.\n\
          const needed = [{}], enabled = [{}];\n",
         names(&needed?),
         names(&used),
@@ -66,7 +66,7 @@ pub(super) fn page(head: &Head, statements: &Statements<'_>, check: &Code) -> Op
     Some(text)
 }
 
-/// Returns statements with half of their indentation.
+/// Halves the indentation of statements.
 fn narrower(body: &str) -> String {
     let lines = body.lines().map(|line| {
         let spaces = line.len() - line.trim_start().len();
@@ -75,7 +75,7 @@ fn narrower(body: &str) -> String {
     lines.collect()
 }
 
-/// Returns a text that is none of HTML's elements.
+/// Escapes a text for HTML.
 fn escaped(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars() {
@@ -90,7 +90,7 @@ fn escaped(text: &str) -> String {
     safe
 }
 
-/// The way from the browser to the answer.
+/// The script that opens the device, makes the calls and shows the result.
 const MAIN: &str = r#"
 class Lacks extends Error {}
 
@@ -134,14 +134,14 @@ async function run() {
   try {
     tell(await answer(tell));
   } catch (error) {
-    // A format that the browser does not have is a TypeError that names it.
+    // For a format that it does not support, the browser throws a `TypeError` that names the format.
     const lacks = error instanceof Lacks || error instanceof TypeError && /format|feature/i.test(error.message);
     tell(`${lacks ? "not supported" : "a call fails"}: ${error.message}`);
   }
   document.title = lines[lines.length - 1];
 }
 
-// Returns rows without the bytes between them.
+// Returns the rows without the bytes between them.
 function rows(bytes, offset, pitch, row, rows) {
   const all = new Uint8Array(row * rows);
   for (let y = 0; y < rows; y++)
@@ -149,7 +149,7 @@ function rows(bytes, offset, pitch, row, rows) {
   return all;
 }
 
-// Returns bytes of which each bit is a byte: bits 0 to 3 in one image and bits 4 to 7 in another.
+// Packs bits into bytes: bits 0 to 3 come from one image, and bits 4 to 7 from the other.
 function bits(low, high) {
   return Uint8Array.from({ length: low.length / 4 }, (_, texel) => {
     let all = 0;

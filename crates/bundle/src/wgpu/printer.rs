@@ -22,7 +22,7 @@ pub(super) struct Statements<'a> {
     pub(super) needed: Vec<&'a str>,
 }
 
-/// Features and the words of calls that have need of them.
+/// Features, and text in calls that shows that they need the feature.
 const NEEDED: [(&str, &str); 7] = [
     ("DUAL_SOURCE_BLENDING", "dual_source_blending"),
     ("CLIP_DISTANCES", "clip_distances"),
@@ -44,7 +44,7 @@ pub(super) fn statements<'a>(
         let line = |text: &str| {
             let end = if matches!(text, "{" | "}") { "" } else { ";" };
             let line = format!("    {text}{end}");
-            // The lines of a shader are its own.
+            // Lines of a shader are not wrapped.
             if text.contains("create_shader_module") || text.contains("createShaderModule") {
                 line + "\n"
             } else {

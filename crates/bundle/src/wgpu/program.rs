@@ -7,7 +7,7 @@ use crate::c::comment;
 use crate::head::Head;
 use std::fmt::Write;
 
-/// Returns the package, which depends on wgpu in the version whose calls were recorded.
+/// Returns the manifest of the package, which depends on the wgpu version whose calls were recorded.
 pub(super) fn package(api: Api) -> String {
     let feature = match api {
         Api::Vulkan => "vulkan",
@@ -59,7 +59,7 @@ pub(super) fn program(
         let _ = write!(text, "//! {}\n//!\n", comment(part));
     }
     text.push_str(
-        "//! The first argument, if there is one, is a part of the name of another adapter. Exit status: 1 if the bug is there,\n//! \
+        "//! The optional first argument is a part of the name of another adapter. Exit status: 1 if the bug is there,\n//! \
          0 if not, 77 if the adapter lacks something, 2 if a call fails.\n\n",
     );
     let backend = match api {
@@ -69,7 +69,7 @@ pub(super) fn program(
     let _ = write!(
         text,
         "const BACKENDS: wgpu::Backends = wgpu::Backends::{backend};\nconst ADAPTER: &str = {};\n/// Features that the calls need.\nconst \
-         NEEDED: wgpu::Features = {};\n/// Features that the device had where the calls were recorded.\nconst ENABLED: \
+         NEEDED: wgpu::Features = {};\n/// Features of the device on which the calls were recorded.\nconst ENABLED: \
          wgpu::Features = {};\n",
         string(device).rust,
         union(&statements.needed),
@@ -150,7 +150,7 @@ fn main() {
 }
 "#;
 
-/// Functions that some programs need: a text that stands where they are used, and their source.
+/// Functions that only some programs need: a text that occurs where they are used, and their source.
 const HELPERS: [(&str, &str); 4] = [
     (
         "&floats(&[",
@@ -171,7 +171,7 @@ fn words(values: &[u32]) -> Vec<u8> {
     (
         " rows(&bytes, ",
         r#"
-/// Returns rows without the bytes between them.
+/// Returns the rows without the bytes between them.
 fn rows(bytes: &[u8], offset: usize, pitch: usize, row: usize, rows: usize) -> Vec<u8> {
     (0..rows).flat_map(|y| bytes[offset + y * pitch..][..row].to_vec()).collect()
 }
@@ -180,7 +180,7 @@ fn rows(bytes: &[u8], offset: usize, pitch: usize, row: usize, rows: usize) -> V
     (
         " bits(rows(",
         r#"
-/// Returns bytes of which each bit is a byte: bits 0 to 3 in one image and bits 4 to 7 in another.
+/// Packs bits into bytes: bits 0 to 3 come from one image, and bits 4 to 7 from the other.
 fn bits(low: Vec<u8>, high: Vec<u8>) -> Vec<u8> {
     let nibble = |bytes: &[u8]| (0..4).fold(0, |all, bit| all | u8::from(bytes[bit] != 0) << bit);
     low.chunks(4).zip(high.chunks(4)).map(|(low, high)| nibble(low) | nibble(high) << 4).collect()

@@ -1,4 +1,4 @@
-//! Passes that read what earlier passes left: drawn, resolved to, cleared or uploaded.
+//! Passes that read the results of earlier passes: drawn, resolved, cleared or uploaded.
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, NONE, RED, check_near, color, texels, values};
@@ -7,7 +7,7 @@ use crate::subject::Subject;
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use serde_json::{Value, json};
 
-/// The draws of a chain, by turns: all of 5 by 4 texels, or a part.
+/// The areas of a chain's draws, in turn: all of 5 by 4 texels, or a part.
 const PARTS: [[u32; 4]; 6] = [
     [0, 0, 5, 4],
     [0, 0, 5, 4],
@@ -17,13 +17,13 @@ const PARTS: [[u32; 4]; 6] = [
     [2, 0, 5, 4],
 ];
 
-/// A draw of texels of a texture.
+/// Returns a draw that fetches the texels of a texture.
 fn fetch(texels: [u32; 4], texture: &str) -> Value {
     json!({ "mesh": rect(texels), "shader": "texel_color", "textures": [texture] })
 }
 
-/// By turns each of two attachments is added to the other: the first pass reads an upload and draws
-/// to a clear, all others read what was drawn.
+/// Alternately adds one of two attachments to the other. The first pass reads an upload and draws to a
+/// clear; all others read what was drawn.
 pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
     let grid = [0, 1, 2, 3].map(|y| [0, 1, 2, 3, 4].map(|x| start(x, y)));
@@ -51,7 +51,7 @@ pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
         for (name, which) in [("a", 0), ("b", 1)] {
             frame.color_is(name, |x, y| {
                 let mut sums = [start(x, y), [0; 4]];
-                // A channel that a format lacks reads as 0, alpha as 1, and is not written.
+                // A channel that a format lacks reads as 0, or as 1 for alpha, and is not written.
                 for pass in 0..passes {
                     let [left, top, right, bottom] = part(pass);
                     if (left..right).contains(&x) && (top..bottom).contains(&y) {
@@ -72,7 +72,7 @@ pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// An attachment that is read before it is drawn to holds its clear value.
+/// An attachment that is read before anything is drawn to it has its clear value.
 pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": {
@@ -90,7 +90,7 @@ pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Resolved, read, and both again with more drawn.
+/// Resolves and reads, then draws more and does both again.
 pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
     let many = |texels: [u32; 4], params: Value| {
         json!({ "color": ["many"], "resolve": ["one"], "draws": [
@@ -166,7 +166,7 @@ pub(crate) fn sampled_fragments_are_discarded(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Statistics of all passes add up, and asking for them changes no picture.
+/// The statistics of all passes add up, and requesting them changes no picture.
 pub(crate) fn invocations_of_all_passes_add_up(s: &Subject) -> Checked {
     let drawn = |counters: Value, both: &[&str], second: &[&str]| {
         let pass = |to: &str, texels, from: &str, names: &[&str]| {

@@ -7,8 +7,8 @@ use crate::subject::{Missing, Subject};
 use etalon_frame::{Feature, Frame};
 use serde_json::{Value, json};
 
-/// Draws into colour and a depth of a half. The alpha of the texture `half` is 1 in the first ten
-/// columns.
+/// Draws to a colour attachment, and a depth attachment cleared to a half. The texture `half` has alpha 1
+/// in the first ten columns.
 pub(super) fn counted(s: &Subject, kinds: Value, draws: Vec<Value>) -> Result<Frame, Missing> {
     let half: Vec<_> = (0..16).map(|x| if x < 10 { RED } else { NONE }).collect();
     s.show(json!({
@@ -22,14 +22,14 @@ pub(super) fn counted(s: &Subject, kinds: Value, draws: Vec<Value>) -> Result<Fr
     }))
 }
 
-/// A rectangle of 15 texels, in front of the stored depth or behind it, and its counters.
+/// Returns a rectangle of 15 texels, in front of or behind the stored depth, with its counters.
 fn corner(front: bool, shader: &str, counters: &[&str]) -> Value {
     let z = if front { 0.25 } else { 0.75 };
     json!({ "mesh": { "kind": "rect", "texels": [0, 0, 5, 3], "z": z }, "shader": shader,
             "params": red(), "depth": test("less", false), "counters": counters })
 }
 
-/// The left half lies before the cleared depth, the right half behind it.
+/// Returns a draw whose left half is in front of the cleared depth, and whose right half is behind it.
 pub(super) fn halves(shader: &str, counters: &[&str]) -> Value {
     json!({ "mesh": { "kind": "columns", "values": [0, 0], "z": [0.25, 0.75] }, "shader": shader,
             "params": red(), "depth": test("less", true), "counters": counters })
@@ -39,13 +39,13 @@ fn of(names: &[&str], kind: &str) -> Value {
     names.iter().map(|name| (*name, kind)).collect()
 }
 
-/// Holds `color` to be red where told, and cleared to 0 elsewhere.
+/// Asserts that `color` is red at the given texels, and cleared to 0 elsewhere.
 #[track_caller]
 pub(super) fn check_painted(frame: &Frame, red: impl Fn(u32, u32) -> bool) {
     frame.color_is("color", |x, y| if red(x, y) { RED } else { NONE });
 }
 
-/// Some draws pass, some fail, one is not counted, and one counter is not used.
+/// Some draws pass, some fail, one has no counter, and one counter has no draw.
 pub(crate) fn any_samples_that_pass_are_told(s: &Subject) -> Checked {
     let draws = vec![
         corner(true, "uniform_color", &["a"]),
@@ -60,7 +60,7 @@ pub(crate) fn any_samples_that_pass_are_told(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Over two passes, and with a single texel that passes.
+/// Counts over two passes, and a single texel that passes.
 pub(crate) fn any_samples_of_several_passes_are_told(s: &Subject) -> Checked {
     let draw = |texels: [u32; 4], compare: &str, counters: &[&str]| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "z": 0.5 }, "shader": "flat_color",
@@ -96,10 +96,10 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
         with(corner(true, "uniform_color", &["c"]), scissored),
     ];
     assert_eq!(counted(s, precise(), draws)?.counters, [30, 0, 4]);
-    // The depths of what passes the first draw stop the second.
+    // The depths written by the first draw reject the second one.
     let draws = [&["a"][..], &["b"], &[]].map(|names| halves("uniform_color", names));
     assert_eq!(counted(s, precise(), draws.to_vec())?.counters, [128, 0, 0]);
-    // Nothing need be written.
+    // Samples count even if nothing is written.
     let again = json!({ "mesh": rect([1, 2, 4, 7]), "shader": "uniform_color", "counters": ["a"],
                         "write_mask": "" });
     let draws = vec![halves("uniform_color", &["a"]), again.clone(), again];
@@ -108,7 +108,8 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A query over draws, of which one is rejected, and over passes. What else it encloses may count in Vulkan.
+/// A query over three draws, one of them rejected, and over passes. In Vulkan, other commands within the
+/// query can count too.
 pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
     let draws = || {
         [
@@ -157,7 +158,7 @@ pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Drivers may run the shader for texels beside the primitive, but not where none is rasterized.
+/// Drivers can run the shader for texels next to the primitive, but not if nothing is rasterized.
 pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
     let draw = |name: &str, state: Value| with(corner(true, "uniform_color", &[name]), state);
     let draws = vec![
@@ -175,8 +176,8 @@ pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Statistics need not be exact, but nothing runs that is not rasterized, and what counts itself has
-/// run.
+/// Statistics need not be exact, but nothing runs without being rasterized, and a shader that counts its
+/// own runs has run.
 pub(crate) fn statistics_tell_that_shaders_ran(s: &Subject) -> Checked {
     let draw = |scissor: [u32; 4], name: &str| {
         json!({ "mesh": full(), "shader": "counted_color", "scissor": scissor,
@@ -216,7 +217,7 @@ pub(crate) fn runs_are_counted(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Unless the tests are forced to be early, fragments that they reject run all the same.
+/// Unless early tests are forced, the shader runs for fragments that the tests reject.
 pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
     let draw = |texels: [u32; 4], shader: &str, textures: &[&str], name: &str| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "value": 0.5 }, "shader": shader,
@@ -242,7 +243,7 @@ pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Of a draw that discards: what runs, is invoked and passes are three numbers.
+/// A draw that discards: its shader runs, invocations and passed samples are three numbers.
 pub(crate) fn counters_of_all_kinds_go_together(s: &Subject) -> Checked {
     let drawn = |kinds: Value| {
         let names: Vec<_> = kinds.as_object().unwrap().keys().cloned().collect();
@@ -267,7 +268,7 @@ pub(crate) fn counters_of_all_kinds_go_together(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// All kinds, over two passes, drawn again and again, beside another scene of more draws.
+/// Counts all kinds over two passes, repeatedly, alternating with a scene that has more draws.
 pub(crate) fn counters_start_from_0_at_every_submit(s: &Subject) -> Checked {
     let draw =
         json!({ "mesh": full(), "shader": "counted_color", "counters": ["runs", "passed", "run"] });
@@ -299,7 +300,7 @@ pub(crate) fn counters_start_from_0_at_every_submit(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Storage writes happen although the test then fails, unless the test is forced to come first.
+/// Storage writes happen even if the test then fails, unless the test is forced to come first.
 pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
     for (early, runs) in [("implicit", 256), ("forced", 128)] {
         let draw = |counters: &[&str]| {
@@ -320,7 +321,7 @@ pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A forced test takes the fragment's own depth, not the shader's, and that is stored.
+/// A forced test compares and stores the fragment's own depth, not the shader's.
 pub(crate) fn forced_tests_ignore_the_written_depth(s: &Subject) -> Checked {
     let kinds = || of(&["runs"], "shader-runs");
     let full = json!({
@@ -329,7 +330,7 @@ pub(crate) fn forced_tests_ignore_the_written_depth(s: &Subject) -> Checked {
     let frame = counted(s, kinds(), vec![full])?;
     assert_eq!(frame.counters, [256]);
     frame.depth_is("depth", |_, _| 0.25);
-    // A written depth of 0 would pass where the fragment's own does not.
+    // A written depth of 0 would pass the test that the fragment's own depth fails.
     for (tests, runs, red, stored) in [
         ("implicit", 256, 16, [0.0, 0.0]),
         ("forced", 128, 8, [0.25, 0.5]),

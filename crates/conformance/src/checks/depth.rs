@@ -8,7 +8,7 @@ use etalon_frame::{ChannelEncoding, Frame, ReadPath, TextureFormat};
 use etalon_scene::Scene;
 use serde_json::{Value, json};
 
-/// Every format with depth; all backends must have them all.
+/// Returns every format with depth; all backends must offer all of them.
 fn formats(s: &Subject) -> impl Iterator<Item = TextureFormat> {
     let all = TextureFormat::ALL.iter().copied();
     let formats: Vec<_> = all.filter(|f| f.has_depth()).collect();
@@ -18,7 +18,7 @@ fn formats(s: &Subject) -> impl Iterator<Item = TextureFormat> {
     formats.into_iter()
 }
 
-/// An attachment of a format with depth, whose stencil, if there is one, is 93.
+/// Returns an attachment of a format with depth; its stencil, if any, is cleared to 93.
 fn cleared(format: TextureFormat, depth: f64) -> Value {
     if format.has_stencil() {
         json!({ "format": format, "clear": { "depth": depth, "stencil": 93 } })
@@ -27,7 +27,7 @@ fn cleared(format: TextureFormat, depth: f64) -> Value {
     }
 }
 
-/// Holds `depth` against stored depths: 0 and 1 exactly, others to a step of the format.
+/// Asserts that `depth` has the stored depths: 0 and 1 exactly, others within a step of the format.
 #[track_caller]
 fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, due: impl Fn(u32) -> f64) {
     let (image, support) = (depth(frame, "depth"), &s.limits().formats[&format]);
@@ -49,7 +49,7 @@ fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, due: impl Fn(
             encoding => 1.0 / encoding.max_order() as f64,
         };
         let near = (came - due).abs() <= step;
-        assert!(near, "{format}: {came} at ({x}, {y}), and {due} is due");
+        assert!(near, "{format}: {came} at ({x}, {y}), expected {due}");
     }
 }
 
@@ -64,11 +64,10 @@ pub(crate) fn depths_start_from_their_clear(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The stored depth, the comparison, true if it writes, the depths of four columns, and those that
-/// pass.
+/// The stored depth, the comparison, whether it writes, the depths of four columns, and which of them pass.
 type Comparison = (f64, &'static str, bool, [f64; 4], [bool; 4]);
 
-/// Columns against a quarter and against one.
+/// Columns that are compared with a quarter and with one.
 const FOURTHS: [[f64; 4]; 2] = [[0.0, 0.25, 1.0, 1.0], [0.0, 1.0, 0.25, 0.5]];
 const COMPARISONS: [Comparison; 7] = [
     (0.25, "less", true, FOURTHS[0], [true, false, false, false]),
@@ -92,7 +91,7 @@ const COMPARISONS: [Comparison; 7] = [
     ),
 ];
 
-/// A depth other than the clear's is drawn first. The last draw may not write, and changes nothing.
+/// First draws a depth that differs from the clear's. The last draw must not write, and changes nothing.
 pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
     for format in formats(s) {
         for (stored, compare, write, columns, passes) in COMPARISONS {
@@ -135,7 +134,7 @@ pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Clears and draws alone, and depths that no normalized format has.
+/// Only clears and draws, with depths that no normalized format can represent.
 pub(crate) fn floats_keep_any_depth(s: &Subject) -> Checked {
     let written = [0.1_f32, 0.333_333_3, 1e-7, 0.999_999_9, 0.7];
     let frame = s.show(json!({
@@ -182,7 +181,7 @@ pub(crate) fn depth_and_stencil_may_be_read_only(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Written, tested without a right to write, and written again.
+/// Writes, tests without writing, and writes again.
 pub(crate) fn passes_that_write_take_turns_with_passes_that_do_not(s: &Subject) -> Checked {
     for format in [
         TextureFormat::Depth32FloatStencil8,
@@ -237,7 +236,8 @@ pub(crate) fn passes_that_write_take_turns_with_passes_that_do_not(s: &Subject) 
     Ok(())
 }
 
-/// Stores two columns of vertex depths in `depth32float`, cleared to 1/2, or keeps them.
+/// Returns a scene that stores two columns of vertex depths in `depth32float`, cleared to 1/2, if they
+/// pass.
 fn columns(z: [f64; 2], state: Value) -> Scene {
     let draw = json!({ "mesh": { "kind": "columns", "values": [0, 0], "z": z },
                        "shader": "uniform_color", "params": red(), "depth": test("always", true) });
@@ -255,7 +255,7 @@ fn depths(s: &Subject, z: [f64; 2], state: Value) -> Result<[f64; 2], Missing> {
     Ok(columns)
 }
 
-/// Draws columns, and holds them to be red and of these depths.
+/// Draws columns, and asserts that they are red and have these depths.
 fn stores(s: &Subject, z: [f64; 2], state: Value, due: [f64; 2]) -> Checked {
     let frame = s.draw(&columns(z, state))?;
     frame.is_red(|_, _| true);
@@ -282,7 +282,7 @@ pub(crate) fn a_range_of_depths_may_be_reversed(s: &Subject) -> Checked {
     stores(s, [0.0, 1.0], range([0.75, 0.5]), [0.75, 0.5])
 }
 
-/// Depths on both sides of all ranges.
+/// Depths on both sides of every range.
 const OUTSIDE: [[f64; 2]; 2] = [[-1.0, 2.0], [-0.5, 1.5]];
 
 pub(crate) fn depths_outside_are_clipped(s: &Subject) -> Checked {
@@ -309,8 +309,8 @@ pub(crate) fn depths_are_clamped_to_a_reversed_range(s: &Subject) -> Checked {
     stores(s, [-0.5, 1.5], clamped([0.75, 0.25]), [0.75, 0.25])
 }
 
-/// In 32-bit floats the least step follows the exponent of the largest depth: 2^-24 from 0.5 to 1,
-/// and up to twice that (OpenGL 4.6, 14.6.5).
+/// In 32-bit floats, the smallest step follows the exponent of the largest depth: 2^-24 from 0.5 to 1, and
+/// up to twice that (OpenGL 4.6, 14.6.5).
 pub(crate) fn a_constant_bias_counts_least_steps(s: &Subject) -> Checked {
     let biased = |bias: Value| depths(s, [0.5, 0.75], json!({ "depth_bias": bias }));
     let bias = |constant: i32| biased(json!({ "constant": constant }));
@@ -324,7 +324,7 @@ pub(crate) fn a_constant_bias_counts_least_steps(s: &Subject) -> Checked {
             let steps = steps(plain[column], raised[column]);
             assert!((least..=most).contains(&steps), "{steps} of {count}");
         }
-        // At 0.75 the exponent is the same on both sides.
+        // Around 0.75 the exponent is the same on both sides.
         let steps = steps(lowered[1], plain[1]);
         assert!((least..=most).contains(&steps), "{steps} of -{count}");
     }
@@ -362,7 +362,7 @@ pub(crate) fn a_slope_bias_counts_the_slope(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The depth of the fragment plays no part.
+/// The fragment's own depth is not tested against the bounds.
 pub(crate) fn bounds_reject_by_the_stored_depth(s: &Subject) -> Checked {
     for (bounds, due) in [([0.5, 0.75], [0.0, 1.0]), ([0.625, 1.0], [0.5, 0.5])] {
         let came = depths(s, [0.0, 1.0], json!({ "depth_bounds": bounds }))?;

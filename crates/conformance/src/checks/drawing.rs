@@ -53,7 +53,7 @@ pub(crate) fn a_pass_without_draws_leaves_the_clear_values(s: &Subject) -> Check
     Ok(())
 }
 
-/// Rows of bytes that are no multiple of anything.
+/// Rows whose length in bytes has no useful alignment.
 pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
     for size in [[1, 1], [7, 3], [65, 2], [200, 130]] {
         let frame = s.show(json!({
@@ -73,7 +73,7 @@ pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The left column is wound counter-clockwise, with y up.
+/// With y up, the left column is wound counter-clockwise.
 pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
     for cull in ["none", "front", "back", "front-and-back"] {
         for front_face in ["ccw", "cw"] {
@@ -96,7 +96,7 @@ pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Every second triangle of a strip is turned over.
+/// Every second triangle of a strip has the opposite vertex order.
 pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
     for (positions, expected) in [
         ([[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]], RED),
@@ -111,7 +111,7 @@ pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Draws a colour over another, and returns the one result.
+/// Draws a colour over another, and returns the result, which must be the same in all texels.
 fn drawn_over(
     s: &Subject,
     clear: [f64; 4],
@@ -128,7 +128,7 @@ fn drawn_over(
     Ok(texel)
 }
 
-/// Operation and factors for colour and for alpha, the constant, and the result.
+/// Operation and factors for colour, then for alpha, the constant, and the result.
 type Blend = ([&'static str; 3], [&'static str; 3], [f64; 4], [u32; 4]);
 
 /// Blue at 0.6 over opaque red.
@@ -182,7 +182,7 @@ pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The first pass writes depths of which the second, which may not write any, takes note.
+/// The first pass writes depths. The second one tests against them but must not write any.
 pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": { "color": blue(), "d": { "format": "depth16unorm", "clear": 1 } },
@@ -198,7 +198,7 @@ pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Two attachments by turns, the first with depth and stencil.
+/// Draws to two attachments alternately, the first with depth and stencil.
 pub(crate) fn passes_keep_contents(s: &Subject) -> Checked {
     let columns = [1, 2, 3, 4, 5, 6].map(|x| [x, 2, 3, 4]);
     let frame = s.show(json!({

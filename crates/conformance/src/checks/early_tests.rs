@@ -1,4 +1,4 @@
-//! Tests before the shader, and promises about the depth that it writes.
+//! Tests before the shader, and promises about the depth that the shader writes.
 
 use super::Checked;
 use super::counters::{check_painted, counted};
@@ -7,7 +7,7 @@ use crate::scenes::{blue, red, test, uploaded, with};
 use crate::subject::Subject;
 use serde_json::{Value, json};
 
-/// Columns from the tenth on are discarded; tests before the shader have by then stored their depth.
+/// Discards the columns from the tenth on; forced early tests have already stored their depth.
 fn discards(s: &Subject, shader: &str, kinds: Value, names: Value) -> Checked {
     for (early, behind) in [("implicit", 0.5), ("forced", 0.25)] {
         let draw = json!({
@@ -34,7 +34,7 @@ pub(crate) fn discards_that_count_leave_early_depths_alone(s: &Subject) -> Check
     )
 }
 
-/// Both aspects in one attachment.
+/// Depth and stencil in one attachment.
 pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Checked {
     let texels = [RED, RED, [255, 0, 0, 0], [255, 0, 0, 0]];
     for (tests, early) in [("implicit", false), ("forced", true)] {
@@ -56,7 +56,7 @@ pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Che
     Ok(())
 }
 
-/// Each half writes a depth of its own, against a half.
+/// Each half writes its own depth, and both are tested against a half.
 fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f64, [f64; 2])) -> Checked {
     let counts = shader.starts_with("counted");
     let (kinds, names) = if counts {
@@ -78,7 +78,7 @@ fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f64, [f64; 2])
     Ok(())
 }
 
-/// Depths below and above the fragment's own, and the same.
+/// The condition, the fragment's own depth, and written depths that keep the promise.
 const PROMISES: [(&str, f64, [f64; 2]); 10] = [
     ("implicit", 0.25, [0.25, 0.75]),
     ("greater-equal", 0.25, [0.25, 0.75]),
@@ -107,7 +107,7 @@ pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &Subject) ->
     Ok(())
 }
 
-/// There is no depth to make a promise about, or none that the test lets through but the clear's.
+/// There is no depth attachment, or the test passes only against the cleared depth.
 pub(crate) fn promises_need_no_depth_attachment(s: &Subject) -> Checked {
     for early in ["greater-equal", "less-equal", "unchanged"] {
         let frame = s.show(json!({

@@ -1,4 +1,4 @@
-//! The paths of vertices to the pipeline: indices, offsets and instances, none of which may show.
+//! How vertices reach the pipeline: indices, offsets and instances, which must not change the picture.
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, RED};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 const WHITE: [u32; 4] = [255; 4];
 
-/// Four triangles of a texel each in a row: red, green, white, red.
+/// Returns a row of four triangles of a texel each: red, green, white, red.
 fn row(keys: Value) -> Value {
     let values = json!([[1, 0, 0, 1], [0, 1, 0, 1], [1, 1, 1, 1]]);
     with(
@@ -17,7 +17,7 @@ fn row(keys: Value) -> Value {
     )
 }
 
-/// A draw of [`row`] to one of three rows of texels.
+/// Returns a draw of [`row`] to one of three rows of texels.
 fn draw(at: u32, mesh: Value, keys: Value) -> Value {
     let viewport = json!({ "rect": [0, at, 4, 1], "depth": [0, 1] });
     with(
@@ -26,7 +26,7 @@ fn draw(at: u32, mesh: Value, keys: Value) -> Value {
     )
 }
 
-/// Draws a row by a path between two rows without, and checks that all are the same.
+/// Draws a row by a path between two rows without it, and checks that all three are the same.
 fn is_like_the_others(s: &Subject, mesh: Value, keys: Value) -> Checked {
     let frame = s.show(json!({
         "attachments": { "color": with(blue(), json!({ "size": [4, 3] })) },
@@ -62,13 +62,13 @@ pub(crate) fn draws_start_at_their_first_vertex(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Of 16 bits, the last one is 65,535, which ends no list.
+/// The last 16-bit index is 65,535, which does not restart a list.
 pub(crate) fn the_last_short_index_names_a_vertex(s: &Subject) -> Checked {
     let mesh = row(json!({ "indexed": true, "spare": 65_536 - 12 }));
     is_like_the_others(s, mesh, json!({ "fetch": { "index": "uint16" } }))
 }
 
-/// Two strips of a column each, which would be one over all.
+/// Two strips of a column each, which would join into one without a restart.
 pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
     for base in [0, 5] {
         let frame = s.show(json!({
@@ -91,7 +91,7 @@ pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The last of three instances stays, and each is counted.
+/// The last of three instances remains, and each one is counted.
 fn instances(s: &Subject, mesh: Value, first: u32, fetch: Value) -> Checked {
     let colors = json!([[0, 1, 0, 1], [1, 1, 1, 1], [1, 0, 0, 1]]);
     let count = json!({ "front": { "compare": "always", "pass_op": "increment-clamp" } });

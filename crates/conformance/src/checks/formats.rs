@@ -8,7 +8,7 @@ use etalon_frame::{Api, ChannelEncoding, ReadPath, TextureFormat};
 use etalon_scene::{Contents, Scene};
 use serde_json::{Value, json};
 
-/// The values of eight columns, which every format holds exactly.
+/// The values of eight columns, which every format represents exactly.
 const VALUES: [[f64; 4]; 8] = [
     [1.0, 0.0, 0.0, 0.0],
     [0.0, 1.0, 0.0, 0.0],
@@ -20,7 +20,7 @@ const VALUES: [[f64; 4]; 8] = [
     [0.0, 1.0, 0.0, 1.0],
 ];
 
-/// Colour formats that are offered, with their sample counts as attachments.
+/// Returns the offered colour formats, with their sample counts as attachments.
 fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u32])> {
     let formats = s.limits().formats.iter().filter(|f| f.0.is_color());
     formats.map(|(format, support)| (*format, &support.samples[..]))
@@ -29,7 +29,7 @@ fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u
 pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
     for (format, samples) in colors(s) {
         let channels = format.color_channels();
-        // A format that cannot be drawn to can be cleared all the same.
+        // Even a format that cannot be drawn to can be cleared.
         let counts = if samples.is_empty() { &[1] } else { samples };
         for values in [0, 2, 3, 5, 6, 7].map(|column| VALUES[column]) {
             for samples in counts {
@@ -50,8 +50,8 @@ pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Uploads codes from the whole range of each channel, and shows them in a `rgba32float` attachment
-/// where told. Returns the scene and the codes' orders.
+/// Uploads codes from the whole range of each channel and, if `seen` is true, shows them in a `rgba32float`
+/// attachment. Returns the scene and the codes' orders.
 fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
     let source = json!({ "format": format, "size": [16, 16] });
     let mut scene = scene(if seen {
@@ -82,7 +82,7 @@ pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
         let frame = s.draw(&scene)?;
         let expected = &scene.attachments[0].contents;
         let mut codes = color(&frame, "source").codes.clone();
-        // OpenGL reads through floats (4.6, 18.2.8), in which both codes of -1 are one value.
+        // OpenGL reads through floats (4.6, 18.2.8), in which both codes of -1 have the same value.
         let is_gl = matches!(s.limits().api, Api::OpenGl | Api::OpenGlEs);
         if is_gl && format == TextureFormat::Rgba8Snorm {
             let Contents::Texels(expected) = expected else {
@@ -99,11 +99,11 @@ pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Values of a case file, channel by channel different, and the clear of another attachment.
+/// Values as in a case file, different in each channel, and the clear of another attachment.
 pub(crate) fn values_are_uploaded_as_codes(s: &Subject) -> Checked {
     for (format, _) in colors(s) {
         let channels = format.color_channels();
-        // Floats as values, others as codes, as case files have it.
+        // Float formats take values and other formats take codes, as in case files.
         let texel = |x: u32, c: usize| match channels.get(c) {
             None => (0.0, 0),
             Some(e) if e.is_float() => {
@@ -144,7 +144,7 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
             let seen = values(color(&frame, "seen"), x, y);
             for (c, (seen, expected)) in seen.into_iter().zip(expected).enumerate() {
                 let near = match channels.get(c) {
-                    // A texture unit may be half a code off (Direct3D allows as much), and software
+                    // A texture unit may be half a code off (Direct3D allows this much), and software
                     // drivers make use of it.
                     Some(e @ ChannelEncoding::Srgb8) => {
                         let position = e.position(seen).unwrap();
@@ -162,8 +162,8 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Each channel by itself, so that none may be taken for another. Columns are squares four texels
-/// wide, of which all samples of the inner texels are covered.
+/// Tests each channel by itself, so that channels cannot be confused. Columns are squares four texels wide;
+/// all samples of their inner texels are covered.
 pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
     for (format, counts) in colors(s).filter(|(f, _)| !f.is_integer()) {
         for samples in counts {
@@ -189,7 +189,7 @@ pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Factors that give the larger of source and destination, and sums of zeros and ones.
+/// Uses factors that give the larger of source and destination, and sums of zeros and ones.
 pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
     for (format, support) in &s.limits().formats {
         assert!(format.is_color() || !support.blendable, "{format}");
@@ -217,7 +217,7 @@ pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// sRGB codes are the stored bytes: linear 0.5 is stored as 188, cleared or drawn, sample by sample.
+/// sRGB codes are the stored bytes: linear 0.5 is stored as 188, whether cleared or drawn, in every sample.
 pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
     let half = json!({ "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 });
     let draws = json!([{ "mesh": half, "shader": "flat_color" }]);
@@ -239,7 +239,7 @@ pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Decoded by the fetch, and encoded by the draw.
+/// The fetch decodes, and the draw encodes.
 pub(crate) fn srgb_is_fetched_and_drawn(s: &Subject) -> Checked {
     let steps = [0, 10, 50, 90, 130, 170, 210, 251].repeat(2);
     let columns: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();

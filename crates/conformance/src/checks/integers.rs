@@ -22,7 +22,7 @@ pub(crate) fn integers_are_cleared_and_uploaded(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// All texels, so that the clear plays no part.
+/// Covers all texels, so that the clear does not matter.
 pub(crate) fn integers_are_drawn_over_all(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": { "color": { "format": "rgba8uint", "clear": [1, 1, 1, 1] } },
@@ -52,7 +52,7 @@ pub(crate) fn integers_are_drawn_through_the_write_mask(s: &Subject) -> Checked 
     Ok(())
 }
 
-/// Samples differ, and the one that is taken is one of them; in Vulkan the first, which was asked for.
+/// The samples differ, and the resolve takes one of them; in Vulkan the first one, which the mode requires.
 pub(crate) fn one_sample_of_integers_is_taken(s: &Subject) -> Checked {
     let (cleared, drawn) = ([1, 2, 3, 4], [200, 100, 50, 25]);
     for mask in [1, 2] {

@@ -1,5 +1,5 @@
-//! Layers taken apart and put together: depth peeling from one end and from both, weighted sums,
-//! samples discarded by thresholds.
+//! Separating and combining layers: depth peeling from one end or from both, weighted sums, and samples
+//! discarded by thresholds.
 
 use super::Checked;
 use crate::frames::{Expect, GREEN, NONE, RED, check_near, color, texels, values};
@@ -8,7 +8,7 @@ use crate::subject::Subject;
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
-/// Draws three layers in the wrong order, each covering less than the one behind it.
+/// Draws three layers in the wrong order, each smaller than the one behind it.
 fn layers(state: Value) -> Vec<Value> {
     let layers = [
         ([0.0, 0.0, 1.0, 0.25], [0, 0, 8, 4], 0.75),
@@ -22,18 +22,18 @@ fn layers(state: Value) -> Vec<Value> {
     draws.collect()
 }
 
-/// A float attachment of 8 by 4 texels.
+/// Returns a float attachment of 8 by 4 texels.
 fn float(format: &str, clear: [i32; 4]) -> Value {
     json!({ "format": format, "size": [8, 4], "clear": clear })
 }
 
-/// Holds a texel of floats to be near values.
+/// Asserts that a texel of floats is near these values.
 #[track_caller]
 fn near(frame: &Frame, name: &str, (x, y): (u32, u32), due: [f64; 4], off: f64) {
     check_near(&values(color(frame, name), x, y), &due, off);
 }
 
-/// The last pass has no use for the depth that the shader gives.
+/// The last pass ignores the depth that the shader writes.
 pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
     let names = ["first", "second", "third"];
     let mut attachments = json!({
@@ -73,7 +73,7 @@ pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The nearest and the farthest layer go in the same pass, by maxima of 32-bit floats.
+/// The nearest and the farthest layer are peeled in the same pass, by maxima of 32-bit floats.
 pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
     let max = blend("max", "one", "one");
     let range = json!({ "shader": "depth_range", "blend": max });
@@ -93,13 +93,13 @@ pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
     near(&frame, "next", (1, 1), [-0.5, 0.5, 0.0, 1.0], 1e-6);
     near(&frame, "front", (1, 1), [0.5, 0.0, 0.0, 0.5], 1e-6);
     near(&frame, "back", (1, 1), [0.0, 0.0, 1.0, 0.25], 1e-6);
-    // Where there is but one layer, it is the nearest.
+    // A single layer counts as the nearest.
     near(&frame, "front", (7, 3), [0.0, 0.0, 0.25, 0.25], 1e-6);
     near(&frame, "back", (7, 3), [0.0; 4], 0.0);
     Ok(())
 }
 
-/// Sums and products beside each other, and what both make of the background.
+/// Sums and products in one pass, and how both combine with the background.
 pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
     let layer = |texels: [u32; 4], color: [f64; 4]| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "z": 0.5, "value": color },
@@ -142,7 +142,8 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Two layers at depths of their own, the farther one first: the moments tell the light that reaches each of them.
+/// Two layers at different depths, the farther one first. The moments give the light that reaches each of
+/// them.
 pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
     let float = || json!({ "format": "rgba32float", "size": [4, 4] });
     let layers = |shader: &str, textures: &[&str]| {
@@ -189,7 +190,7 @@ pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A threshold for each of four samples, in a texture that an earlier pass drew.
+/// Each of four samples has its own threshold, in a texture that an earlier pass drew.
 pub(crate) fn samples_are_discarded_by_thresholds(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": {

@@ -4,7 +4,7 @@ use super::Checked;
 use crate::subject::Subject;
 use etalon_frame::{Api, ReadPath, TextureFormat};
 
-/// Vulkan, Required Limits; OpenGL 4.6, tables 23.53 and 23.58; WebGPU, limits.
+/// The required limits: Vulkan, Required Limits; OpenGL 4.6, tables 23.53 and 23.58; WebGPU, limits.
 pub(crate) fn limits_are_at_least_the_required_ones(s: &Subject) -> Checked {
     let limits = s.limits();
     assert!(limits.sub_pixel_bits >= 4);
@@ -32,7 +32,7 @@ pub(crate) fn formats_are_described_without_contradiction(s: &Subject) -> Checke
             support.depth.iter().all(|d| encodings.contains(d)),
             "{format}"
         );
-        // Of OpenGL ES, a depth is not copied.
+        // OpenGL ES cannot copy depths.
         let shader = s.limits().api == Api::OpenGlEs && format.has_depth();
         assert!(support.read == ReadPath::Copy || shader || s.limits().api == Api::WebGpu);
     }

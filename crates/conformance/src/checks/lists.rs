@@ -7,8 +7,8 @@ use crate::subject::Subject;
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
-/// Layers of texels, depth and colour that become nodes in front of a depth of 0.7, and what the lists compose to over
-/// opaque blue.
+/// Returns a scene that adds layers (texels, depth and colour) to lists if they are in front of a depth of
+/// 0.7, and composes the lists over opaque blue.
 fn listed(layers: &[([u32; 4], f64, [f64; 4])], nodes: u32) -> Value {
     let params = json!({ "color": [4, 4, 0, 0] });
     let append: Vec<Value> = layers
@@ -43,7 +43,8 @@ const ALL: [u32; 4] = [0, 0, 4, 4];
 const RED: [f64; 4] = [1.0, 0.0, 0.0, 0.5];
 const GREEN: [f64; 4] = [0.0, 1.0, 0.0, 0.5];
 
-/// The farther one comes first, one lies behind what is opaque, and one covers half of the texels.
+/// The farther layer is drawn first, one layer is behind the stored depth, and one covers half of the
+/// texels.
 pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
     let layers = [
         (ALL, 0.6, RED),
@@ -62,7 +63,7 @@ pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Whichever fragments find room, there are as many as the pool has nodes, in every submission.
+/// Whichever fragments fit, the lists have as many as the pool has nodes, in every submission.
 pub(crate) fn a_full_pool_drops_the_rest(s: &Subject) -> Checked {
     let scene = scene(listed(&[(ALL, 0.3, RED), (ALL, 0.4, RED)], 20));
     let mut prepared = s.prepare(&scene)?;
@@ -72,7 +73,7 @@ pub(crate) fn a_full_pool_drops_the_rest(s: &Subject) -> Checked {
         let mut nodes = 0;
         for at in texels([4, 4]) {
             let [red, green, blue, _] = shown(&frame, at);
-            // Each node leaves a half of the background.
+            // Each node halves the background.
             let count = (-blue.log2()).round();
             check_near(
                 &[red, green, blue],

@@ -1,7 +1,7 @@
 //! The registry of checks, by subject.
 //!
-//! A subject is the unit of a test: to open a driver costs as much as several checks. Each check
-//! still passes, fails and is skipped by its own name.
+//! A test runs all checks of a subject, because opening a driver costs as much as several checks. Each
+//! check still passes, fails or is skipped under its own name.
 
 mod chains;
 mod counters;
@@ -26,7 +26,7 @@ mod uploads;
 
 use crate::subject::{CheckResult, Missing, Subject};
 
-/// A check ends early where the limits deny a scene.
+/// A check ends early if the limits deny a scene.
 type Checked = Result<(), Missing>;
 
 /// One check.
@@ -39,12 +39,12 @@ pub struct Check {
 }
 
 impl Check {
-    /// Draws what the limits let through, and holds it against what is due.
+    /// Draws the scenes that the limits allow, and compares them with the expected values.
     ///
     /// # Panics
-    /// When the backend fails the check.
+    /// If the backend fails the check.
     pub fn run(&self, subject: &Subject<'_>) -> CheckResult {
-        // The subject has noted the scene that was denied.
+        // The subject has recorded the scene that was denied.
         let _ = (self.body)(subject);
         subject.outcome()
     }
@@ -52,8 +52,8 @@ impl Check {
 
 macro_rules! registry {
     ($($module:ident { $($check:ident)+ })+) => {
-        /// Every check, in the order of a whole pass. Draws with two sources come last: wgpu's OpenGL
-        /// leaves their factors behind, and Mesa then drops draws to several targets.
+        /// Every check, in the order of a full run. Draws with two sources come last: wgpu's OpenGL does
+        /// not reset their factors, and Mesa then drops draws to several targets.
         pub const CHECKS: &[Check] = &[$($(Check {
             name: concat!(stringify!($module), "::", stringify!($check)),
             subject: stringify!($module),

@@ -7,12 +7,12 @@ use crate::subject::Subject;
 use etalon_frame::Feature;
 use serde_json::{Value, json};
 
-/// A draw of green over a part.
+/// Returns a draw of green over a part.
 fn green_over(texels: [u32; 4]) -> Value {
     json!({ "mesh": rect(texels), "shader": "uniform_color", "params": green() })
 }
 
-/// A draw of red over everything.
+/// Returns a draw of red over everything.
 fn probe(state: Value) -> Value {
     with(
         json!({ "mesh": full(), "shader": "uniform_color", "params": red() }),
@@ -24,7 +24,7 @@ fn stencil_equal(reference: u8) -> Value {
     json!({ "stencil": { "front": { "compare": "equal" }, "reference": reference } })
 }
 
-/// A load operation that clears removes the drawing of the pass before.
+/// A load operation that clears removes the previous pass's drawing.
 pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
     let load = json!({ "color": [{ "load": { "clear": [1, 0, 0, 1] } }] });
     for draws in [json!([]), json!([green_over([3, 2, 7, 11])])] {
@@ -46,7 +46,7 @@ pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// One attachment of two is cleared, in the first pass that uses either.
+/// The first pass that uses two attachments clears only one of them.
 pub(crate) fn each_attachment_has_its_own_load_operation(s: &Subject) -> Checked {
     let [clear, keep] = [json!({ "load": { "clear": [0, 1, 0, 1] } }), json!({})];
     for first in [true, false] {
@@ -65,7 +65,7 @@ pub(crate) fn each_attachment_has_its_own_load_operation(s: &Subject) -> Checked
     Ok(())
 }
 
-/// Depth and stencil of one attachment, each with a load operation of its own.
+/// Depth and stencil of one attachment, each with its own load operation.
 pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
         for (depth, stencil) in [(true, true), (true, false), (false, true)] {
@@ -101,7 +101,7 @@ pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Contents that were discarded and cleared again are as if they had been stored.
+/// Contents that are discarded and then cleared equal contents that were stored and then cleared.
 pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
     let discard = json!({ "store": "discard" });
     let frame = s.show(json!({
@@ -133,7 +133,7 @@ pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A discarded attachment whose average is kept, and a depth that nobody needs.
+/// A discarded attachment whose average is kept, and a depth attachment that is not read.
 pub(crate) fn samples_are_discarded_after_their_average(s: &Subject) -> Checked {
     let discard = json!({ "store": "discard" });
     let frame = s.show(json!({
@@ -156,7 +156,7 @@ pub(crate) fn samples_are_discarded_after_their_average(s: &Subject) -> Checked 
     Ok(())
 }
 
-/// A clear before a draw, one after it and one between draws, each of a rectangle.
+/// Clears of rectangles before a draw, between draws and after a draw.
 pub(crate) fn clears_reach_their_rectangle(s: &Subject) -> Checked {
     let clear = |before: u32, value: Value, rect: [u32; 4]| json!({ "before": before, "color": 0, "value": value, "rect": rect });
     let frame = s.show(json!({
@@ -211,7 +211,7 @@ pub(crate) fn clears_ignore_the_draws_around(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Depth or stencil cleared, and the other as it was.
+/// Clearing depth or stencil leaves the other aspect unchanged.
 pub(crate) fn clears_leave_the_other_aspect(s: &Subject) -> Checked {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
         for clear in [
@@ -236,7 +236,7 @@ pub(crate) fn clears_leave_the_other_aspect(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Integers, the second of two targets, and all samples of a texel.
+/// Clears of integers, of the second of two targets, and of all samples of a texel.
 pub(crate) fn clears_know_their_target(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": { "a": blue(), "b": blue() },
@@ -271,7 +271,7 @@ pub(crate) fn clears_know_their_target(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Channels and bits that a mask keeps.
+/// Channels and bits outside a mask keep their values.
 pub(crate) fn masked_clears_keep_the_rest(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": { "color": blue(),
@@ -296,11 +296,12 @@ pub(crate) fn masked_clears_keep_the_rest(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The depths and stencil values of four samples, of which none is the first in order.
+/// The depths and stencil values of four samples. The first one is neither the least nor the greatest
+/// stencil value.
 const DEPTHS: [u32; 4] = [1, 0, 1, 0];
 const STENCILS: [u32; 4] = [7, 3, 9, 5];
 
-/// Draws that give each sample its own depth and stencil value.
+/// Returns draws that give each sample its own depth and stencil value.
 fn sample_by_sample(depth: bool, stencil: bool) -> Value {
     let draws = (0..4).map(|sample| {
         let mut draw = json!({ "mesh": everywhere(json!(DEPTHS[sample])), "shader": "flat_color_depth",
@@ -317,7 +318,7 @@ fn sample_by_sample(depth: bool, stencil: bool) -> Value {
     draws.collect()
 }
 
-/// The first of the samples, the least or the greatest.
+/// Resolves to the first, the least or the greatest sample.
 pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Checked {
     let depths = [("sample-zero", 1.0), ("min", 0.0), ("max", 1.0)];
     let stencils = [("sample-zero", 7), ("min", 3), ("max", 9), ("none", 100)];
@@ -364,7 +365,7 @@ pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Chec
     Ok(())
 }
 
-/// The average of samples that are 0 and 1, beside the first stencil value.
+/// Averages depths of 0 and 1, and takes the first stencil value.
 pub(crate) fn depths_are_averaged(s: &Subject) -> Checked {
     for (format, clear, stencil) in [
         ("depth32float", json!(0.25), false),
@@ -395,7 +396,7 @@ pub(crate) fn depths_are_averaged(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A pass that tests by what the one before resolved and then discarded.
+/// A pass tests against depths that the previous pass resolved and then discarded.
 pub(crate) fn what_was_resolved_is_tested(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": {

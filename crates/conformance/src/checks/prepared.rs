@@ -1,4 +1,4 @@
-//! Prepared scenes: again, side by side, after one another, and refused.
+//! Prepared scenes: drawn again, side by side, one after another, and refused.
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, RED};
@@ -11,7 +11,8 @@ use etalon_frame::{Feature, Frame, Requirement, TextureFormat};
 use etalon_scene::Scene;
 use serde_json::json;
 
-/// Two passes, blending onto what is there, an upload, depth and stencil that change.
+/// Returns a scene with two passes, blending over existing contents, an upload, and changing depth and
+/// stencil.
 fn busy(clear: [f64; 4]) -> Scene {
     let columns = [[[1, 2, 3, 4]; 8], [[9, 2, 3, 4]; 8]].concat();
     let max = component("max", "one", "one");
@@ -51,13 +52,13 @@ pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
         let time = prepared.submit().expect("the scene is drawn");
         assert!(time.cpu <= time.wall, "{time:?}");
         if let Some(gpu) = time.gpu {
-            // Two clocks, of which either may jump; a wrong unit is a factor of 1,000.
+            // Either of the two clocks can jump; a wrong unit would be a factor of 1,000.
             assert!(gpu <= 100 * time.wall, "{time:?}");
         }
     }
     assert_eq!(read(&mut prepared), first);
     drop(prepared);
-    // From reused images and buffers too.
+    // The same frame from reused images and buffers.
     assert_eq!(s.draw(&scene)?, first);
     Ok(())
 }
@@ -81,7 +82,7 @@ pub(crate) fn prepared_scenes_do_not_disturb_each_other(s: &Subject) -> Checked 
     Ok(())
 }
 
-/// Scenes of different colours, submitted one after the other and read in the same order.
+/// Scenes of different colours, submitted one after another and read in the same order.
 pub(crate) fn scenes_are_submitted_in_turns(s: &Subject) -> Checked {
     let [red, green] = [red(), green()].map(|params| {
         let mesh = rect([0, 0, 5, 3]);
@@ -110,9 +111,9 @@ pub(crate) fn reading_before_drawing_is_an_error(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// States that write nothing and compare with never, then a plain scene; twice.
+/// Draws states that write nothing and never pass, then a plain scene; twice.
 pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
-    // The factors that are not the default, where the driver has a say in them.
+    // Factors that are not the default, if the driver lets min and max have any.
     let factor = if s.offers(Feature::MinMaxBlendFactors) {
         "zero"
     } else {
@@ -139,7 +140,7 @@ pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// More texels than the limits have, and more samples than any driver.
+/// A size above the limits, and more samples than any driver has.
 pub(crate) fn denials_are_named(s: &Subject) -> Checked {
     let mut large = busy(CLEAR);
     let size = s.limits().max_size + 1;

@@ -7,18 +7,18 @@ use crate::subject::{Missing, Subject};
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
-/// Draws red over a blue image of 16 by 16.
+/// Draws red over a blue attachment of 16 by 16 texels.
 fn drawn(s: &Subject, draw: Value) -> Result<Frame, Missing> {
     s.show(over_blue(with(draw, painted())))
 }
 
-/// Draws front faces red and back faces green over a blue image of 16 by 16.
+/// Draws front faces red and back faces green over a blue attachment of 16 by 16 texels.
 fn faces(s: &Subject, draw: Value) -> Result<Frame, Missing> {
     let facing = json!({ "shader": "front_facing", "params": red_or_green() });
     s.show(over_blue(with(draw, facing)))
 }
 
-/// The mesh and topology of a rectangle from one corner to another in clip space.
+/// Returns the mesh and topology of a rectangle between two corners in clip space.
 fn clip(left: i32, bottom: i32, right: i32, top: i32) -> Value {
     let positions = [
         [left, top, 0],
@@ -29,12 +29,12 @@ fn clip(left: i32, bottom: i32, right: i32, top: i32) -> Value {
     json!({ "topology": "triangle-strip", "mesh": { "kind": "vertices", "positions": positions } })
 }
 
-/// A rectangle over exactly the viewport.
+/// Returns a rectangle that covers exactly the viewport.
 fn whole() -> Value {
     clip(-1, -1, 1, 1)
 }
 
-/// The upper left quarter of clip space.
+/// Returns the upper left quarter of clip space.
 fn quarter() -> Value {
     clip(-1, 0, 0, 1)
 }
@@ -51,7 +51,7 @@ pub(crate) fn a_viewport_counts_from_the_top_left(s: &Subject) -> Checked {
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 2, 8, 4]))?;
     frame.is_red(|x, y| (4..8).contains(&x) && (2..4).contains(&y));
-    // Texels of a mesh count from the viewport's corner.
+    // Texel coordinates of a mesh are relative to the viewport's corner.
     let rect = json!({ "mesh": rect([0, 0, 4, 3]) });
     let frame = drawn(s, viewport(rect, [8, 4, 8, 12]))?;
     frame.is_red(|x, y| (8..12).contains(&x) && (4..7).contains(&y));
@@ -73,7 +73,7 @@ pub(crate) fn a_viewport_moves_depths_in_its_corner(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Turned over, the second number is the bottom, and faces show their other side.
+/// With a negative height, the second number is the bottom, and faces show their other side.
 pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &Subject) -> Checked {
     let frame = drawn(s, viewport(whole(), [4, 6, 8, -4]))?;
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
@@ -108,7 +108,7 @@ pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
             frame.is_red(|x, y| inside(x, x0, width) && inside(y, y0, height));
         }
     }
-    // The next draw has none.
+    // The next draw has no scissor.
     let first = with(whole(), json!({ "scissor": [5, 1, 1, 1] }));
     let draws = [first, json!({ "mesh": rect([0, 0, 1, 1]) })];
     let frame = s.show(json!({
@@ -139,14 +139,14 @@ pub(crate) fn discarded_primitives_draw_nothing(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A mesh of vertices in texels, and the topology that joins them.
+/// Returns a mesh of vertices in texels, with a topology.
 fn vertices(topology: &str, positions: &[[f64; 2]]) -> Value {
     let positions: Vec<_> = positions.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
     json!({ "topology": topology,
             "mesh": { "kind": "vertices", "units": "texels", "positions": positions } })
 }
 
-/// [`vertices`] that indices pick; without a number, primitives begin again.
+/// Returns [`vertices`] with indices; null restarts the primitives.
 fn indexed(topology: &str, positions: &[[f64; 2]], indices: Value) -> Value {
     let mut draw = vertices(topology, positions);
     draw["mesh"]["indices"] = indices;
@@ -162,13 +162,13 @@ pub(crate) fn points_cover_the_texel_they_lie_in(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// From edge to edge and from centre to centre, where the diamond rule leaves the last texel out.
+/// Lines from edge to edge, and from centre to centre, where the diamond rule omits the last texel.
 pub(crate) fn lines_through_centres_cover_their_texels(s: &Subject) -> Checked {
     let lines = vertices(
         "line-list",
         &[[2.0, 5.5], [9.0, 5.5], [12.5, 3.0], [12.5, 8.0]],
     );
-    // A bias of triangles alone.
+    // The bias applies only to triangles.
     let frame = drawn(s, with(lines, json!({ "depth_bias": { "constant": 4 } })))?;
     frame.is_red(|x, y| matches!((x, y), (2..9, 5) | (12, 3..8)));
     for topology in ["line-list", "line-strip"] {
@@ -180,7 +180,7 @@ pub(crate) fn lines_through_centres_cover_their_texels(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The two parts of a list of points are drawn with values of their own.
+/// The two parts of a list of points have different values.
 pub(crate) fn points_and_lines_share_a_pass(s: &Subject) -> Checked {
     let colored = |mut draw: Value, values: &[[u32; 4]]| {
         draw["mesh"]["values"] = json!(values);
@@ -202,12 +202,12 @@ pub(crate) fn points_and_lines_share_a_pass(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The corners of a rectangle, in the order of a strip.
+/// Returns the corners of a rectangle, in the order of a strip.
 fn strip([left, top, right, bottom]: [f64; 4]) -> [[f64; 2]; 4] {
     [[left, top], [left, bottom], [right, top], [right, bottom]]
 }
 
-/// Indices pick the vertices; what a restart leaves incomplete is not drawn.
+/// Indices select the vertices, and primitives that a restart leaves incomplete are not drawn.
 pub(crate) fn lists_are_indexed(s: &Subject) -> Checked {
     let indices = json!([0, 1, null, 2, 1, 0, 2, 3, 1]);
     let list = indexed("triangle-list", &strip([1.0, 2.0, 5.0, 9.0]), indices);
@@ -222,8 +222,8 @@ pub(crate) fn lists_are_indexed(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Two rectangles with a gap, which a strip without restart would fill; the second of some is wound
-/// the other way.
+/// Two rectangles with a gap, which a strip without restart would fill. In some cases the second one is
+/// wound the other way.
 pub(crate) fn strips_begin_again(s: &Subject) -> Checked {
     let two = |rectangles: [[f64; 4]; 2]| {
         let indices = json!([0, 1, 2, 3, null, 4, 5, 6, 7]);
@@ -237,15 +237,15 @@ pub(crate) fn strips_begin_again(s: &Subject) -> Checked {
     });
     let frame = drawn(s, two([[0.0, 0.0, 4.25, 4.0], [10.0, 10.0, 14.25, 14.0]]))?;
     frame.is_red(|x, y| matches!((x, y), (0..4, 0..4) | (10..14, 10..14)));
-    // A strip joins what a list leaves apart, and its restart parts it again.
+    // A strip joins points that a list leaves separate; its restart separates them again.
     let positions = [[2.0, 5.5], [5.0, 5.5], [9.0, 5.5], [12.5, 3.0], [12.5, 8.0]];
     let lines = indexed("line-strip", &positions, json!([0, 1, 2, null, 3, 4]));
     drawn(s, lines)?.is_red(|x, y| matches!((x, y), (2..9, 5) | (12, 3..8)));
     Ok(())
 }
 
-/// The fan's middle and its rim, counter-clockwise, the top triangle left out. Its edges run through
-/// the texels of the diagonals, which are not looked at.
+/// The fan's centre and its rim, counter-clockwise, without the top triangle. The texels on its diagonal
+/// edges are not checked.
 pub(crate) fn fans_turn_about_their_first_vertex(s: &Subject) -> Checked {
     let rim = [
         [8.0, 8.0],
@@ -274,7 +274,7 @@ pub(crate) fn fans_turn_about_their_first_vertex(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Texels on the straight edges and off their ends are red, others inside and outside are not.
+/// Texels on straight edges, away from their ends, are red; other texels inside and outside are not.
 pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &Subject) -> Checked {
     let edges = |positions: &[[f64; 2]], red: &[(u32, u32)], blue: &[(u32, u32)]| -> Checked {
         let line = json!({ "polygon_mode": "line" });

@@ -1,4 +1,4 @@
-//! Attachments with several samples: positions, masks, coverage, shading, averages.
+//! Attachments with several samples: positions, masks, coverage, shading and averages.
 
 use super::Checked;
 use crate::frames::{
@@ -11,12 +11,12 @@ use etalon_frame::{Aspect, Frame, Image, ReadPath, TextureFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// An `rgba8unorm` attachment of four samples, cleared to 0.
+/// Returns an `rgba8unorm` attachment of four samples, cleared to 0.
 fn four() -> Value {
     json!({ "format": "rgba8unorm", "samples": 4 })
 }
 
-/// Draws over four blue samples and their average.
+/// Draws over four blue samples, and resolves them to their average.
 fn averaged(s: &Subject, draw: Value) -> Result<Frame, Missing> {
     s.show(json!({
         "attachments": {
@@ -26,12 +26,12 @@ fn averaged(s: &Subject, draw: Value) -> Result<Frame, Missing> {
     }))
 }
 
-/// A draw of a colour over every sample.
+/// Returns a draw of a colour over every sample.
 fn covered(color: [f64; 4], multisample: Value) -> Value {
     json!({ "mesh": everywhere(json!(color)), "shader": "flat_color", "multisample": multisample })
 }
 
-/// Holds the samples of an image to be red where told and blue elsewhere.
+/// Asserts that the given samples of an image are red, and the others blue.
 #[track_caller]
 fn check_red(image: &Image, red: impl Fn(u32, u32, u32) -> bool) {
     check_samples(image, |x, y, s| if red(x, y, s) { RED } else { BLUE });
@@ -40,7 +40,7 @@ fn check_red(image: &Image, red: impl Fn(u32, u32, u32) -> bool) {
 /// A rectangle whose edges cut through texels covers the samples inside it.
 pub(crate) fn positions_are_those_of_the_limits(s: &Subject) -> Checked {
     for (dx, dy) in [(64, 0), (192, 0), (0, 64), (0, 192), (128, 0), (0, 128)] {
-        // From this corner on to beyond the bottom right one, in a single triangle.
+        // From this corner to beyond the bottom right corner, in a single triangle.
         let (x, y) = (f64::from(dx) / 256.0, f64::from(dy) / 256.0);
         let mesh = json!({
             "kind": "vertices", "units": "texels", "values": [[1, 0, 0, 1]],
@@ -72,7 +72,7 @@ pub(crate) fn masks_let_their_samples_through(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The average is taken of all texels, whatever the draws' scissor.
+/// The average is taken in all texels, whatever the draws' scissor.
 pub(crate) fn averages_ignore_the_scissor(s: &Subject) -> Checked {
     let scissored = json!({ "mesh": everywhere(json!(1)), "scissor": [0, 0, 4, 8] });
     let frame = averaged(s, with(scissored, painted()))?;
@@ -82,7 +82,7 @@ pub(crate) fn averages_ignore_the_scissor(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Half of the samples of one attachment of two, over a clear that is not drawn to.
+/// Draws to half of the samples of two attachments and averages only one, over a clear.
 pub(crate) fn single_attachments_of_a_pass_are_averaged(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": {
@@ -106,7 +106,7 @@ pub(crate) fn single_attachments_of_a_pass_are_averaged(s: &Subject) -> Checked 
     Ok(())
 }
 
-/// A draw over an average stays there, and a later pass averages anew.
+/// A draw over an average remains, and a later pass averages again.
 pub(crate) fn averages_are_drawn_over_and_taken_again(s: &Subject) -> Checked {
     let frame = s.show(json!({
         "attachments": {
@@ -163,7 +163,7 @@ pub(crate) fn shaders_run_for_each_sample(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Against a clear above all of them, and one that the last two samples do not pass.
+/// Against a clear above all depths, and a clear that the last two samples do not pass.
 pub(crate) fn shaders_write_the_depth_of_each_sample(s: &Subject) -> Checked {
     for clear in [1.0_f32, 2.5 / 32.0] {
         let frame = s.show(json!({
@@ -184,7 +184,7 @@ pub(crate) fn shaders_write_the_depth_of_each_sample(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// An edge leaves of the third column only the samples farthest to the left, if there are several.
+/// Of the third column, an edge leaves only the leftmost samples, if there are several.
 pub(crate) fn attributes_at_centres_are_as_in_their_texel(s: &Subject) -> Checked {
     let mesh = json!({
         "kind": "vertices", "units": "texels", "values": [1],
@@ -231,7 +231,7 @@ pub(crate) fn attributes_stay_inside_slanted_edges(s: &Subject) -> Checked {
 pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
     let slanted = json!({
         "kind": "vertices", "values": [0.25], "positions": [[-0.125, 3, 0], [0.25, -3, 0], [6.5, 0, 0]] });
-    // Four are asked for even where there are none.
+    // Four samples are requested even if they are not supported.
     let positions = s.limits().sample_positions.keys();
     let counts: BTreeSet<_> = positions
         .copied()
@@ -262,7 +262,7 @@ pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
                 let distance = sx - (8.0 + sy / 16.0);
                 let inside = image.sample(x, y, sample) == RED;
                 covered += u32::from(inside);
-                // Nearer samples may fall to either side: vertices are snapped.
+                // Samples closer to the edge can be on either side, because vertices are snapped.
                 if distance.abs() > 0.1 {
                     assert_eq!(inside, distance > 0.0, "({x}, {y}) sample {sample}");
                 }
@@ -281,7 +281,7 @@ pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Samples 1 and 2 of every format take 1, or depth 0 and stencil 9; the others keep their clear.
+/// Samples 1 and 2 of every format take 1, or depth 0 and stencil 9; the others keep their clear value.
 pub(crate) fn every_format_keeps_its_samples(s: &Subject) -> Checked {
     for format in TextureFormat::ALL.iter().copied() {
         let clear = match (format.has_depth(), format.has_stencil()) {
@@ -323,7 +323,7 @@ pub(crate) fn every_format_keeps_its_samples(s: &Subject) -> Checked {
 
 const DRAWN: [f64; 4] = [1.0, 1.0, 0.0, 0.0];
 
-/// A draw to samples 1 and 2.
+/// Returns a draw to samples 1 and 2.
 fn drawn_to(format: TextureFormat) -> Value {
     let shader = if format.is_integer() {
         "uint_color"
@@ -334,7 +334,7 @@ fn drawn_to(format: TextureFormat) -> Value {
             "multisample": { "mask": 6 } })
 }
 
-/// Half of the samples of the left half; integers are not averaged, one of the samples is taken.
+/// Draws to half of the samples in the left half. Integers are not averaged: one sample is taken.
 pub(crate) fn every_format_is_averaged(s: &Subject) -> Checked {
     for format in s.limits().formats.keys().filter(|f| f.is_color()) {
         let draw = with(drawn_to(*format), json!({ "scissor": [0, 0, 4, 8] }));

@@ -8,7 +8,7 @@ use etalon_frame::Frame;
 use etalon_scene::AddressMode;
 use serde_json::{Value, json};
 
-/// A texture of 4 by 2 texels, each different.
+/// Returns a texture of 4 by 2 texels, all different.
 fn eight() -> Value {
     let row = |red: u32| [red, red + 1, red + 2, red + 3].map(|red| [red, 0, 0, 255]);
     with(
@@ -17,7 +17,7 @@ fn eight() -> Value {
     )
 }
 
-/// The texel that a number across or down stands for.
+/// Returns the texel that an index across or down addresses.
 fn addressed(mode: AddressMode, count: i32, at: i32) -> i32 {
     match mode {
         AddressMode::ClampToEdge => at.clamp(0, count - 1),
@@ -29,7 +29,7 @@ fn addressed(mode: AddressMode, count: i32, at: i32) -> i32 {
     }
 }
 
-/// Shows a texture between texture coordinates in so many texels.
+/// Shows the part of a texture between texture coordinates in an attachment of this size.
 fn sampled(
     s: &Subject,
     size: [u32; 2],
@@ -46,8 +46,8 @@ fn sampled(
     }))
 }
 
-/// Row 0 of a texture, the first that is uploaded, lies at coordinate 0. Each texel is shown twice
-/// in either direction, from three textures around or from the middle of one on.
+/// Row 0 of a texture, the first that is uploaded, is at coordinate 0. Each texel is shown twice in either
+/// direction, across three repetitions of the texture, or two from the middle of one.
 pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subject) -> Checked {
     for (size, uv, origin) in [
         ([24, 12], [-1.0, -1.0, 2.0, 2.0], [-4, -2]),
@@ -67,7 +67,7 @@ pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subjec
     Ok(())
 }
 
-/// Four attachment texels to each of the texture: weights of eighths.
+/// Four attachment texels per texel of the texture: the weights are multiples of an eighth.
 fn weights(s: &Subject, mode: AddressMode) -> Checked {
     let rows = [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| [40 * x, 50 * y, 7, 255]));
     let source = with(uploaded("grid", rows), json!({ "size": [4, 4] }));
@@ -88,7 +88,7 @@ fn weights(s: &Subject, mode: AddressMode) -> Checked {
     Ok(())
 }
 
-/// At the middle between two texels both have equal weight, at a texel's centre it is alone.
+/// In the middle between two texels both have equal weight; at a texel's centre only that texel counts.
 fn middles(s: &Subject, mode: AddressMode, due: [u32; 8]) -> Checked {
     let columns = uploaded("columns", [[40, 0, 0, 255], [200, 0, 0, 255]]);
     let source = with(columns, json!({ "size": [2, 4] }));
@@ -124,7 +124,7 @@ pub(crate) fn neighbours_in_the_mirror_are_averaged(s: &Subject) -> Checked {
     weights(s, AddressMode::MirrorRepeat)
 }
 
-/// Weights may have no more than 8 bits.
+/// Weights may have only 8 bits.
 pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
     let grid = [[[0, 0, 0, 1], [1, 0, 0, 1]], [[0, 1, 0, 1], [1, 1, 0, 1]]];
     let frame = s.show(json!({
@@ -139,7 +139,7 @@ pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
     for (x, y) in texels([8, 8]) {
         let position = |at: u32| (f64::from(at) + 0.5) / 4.0 - 0.5;
         let red = position(x).clamp(0.0, 1.0);
-        // Beyond the ends lie the texels of the other end.
+        // Beyond the ends are the texels of the other end.
         let green = position(y).abs().min(2.0 - position(y));
         let came = values(color(&frame, "a"), x, y);
         check_near(&came, &[red, green, 0.0, 1.0], 1.0 / 256.0);
@@ -147,7 +147,7 @@ pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A sampler that an earlier draw used has no say in fetches.
+/// The sampler of an earlier draw does not affect fetches.
 pub(crate) fn fetches_need_no_sampler(s: &Subject) -> Checked {
     let floats = [[0, 1, 0, 1], [1, 0, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]];
     let frame = s.show(json!({
@@ -161,14 +161,14 @@ pub(crate) fn fetches_need_no_sampler(s: &Subject) -> Checked {
     }))?;
     frame.color_is("a", |x, y| match y {
         0 => floats[x as usize].map(|value| value * 255),
-        // The middle of a texel is that texel.
+        // The middle of a texel has that texel's value.
         _ => [11 + x, 0, 0, 255],
     });
     frame.color_is("t", |x, y| [1 + x + 10 * y, 0, 0, 255]);
     Ok(())
 }
 
-/// Draws with samplers and textures of their own in one pass.
+/// Draws in one pass, each with its own sampler and texture.
 pub(crate) fn each_draw_has_its_own_sampler(s: &Subject) -> Checked {
     let draw = |texels: [u32; 4], texture: &str, filter: &str| {
         json!({ "mesh": with(corners(texels), json!({ "uv": [[0.5, 0.5]] })),

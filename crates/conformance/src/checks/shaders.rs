@@ -5,7 +5,7 @@ use crate::subject::Subject;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
-/// With as many attachments as a shader has outputs, and with fewer.
+/// Draws with as many attachments as a shader has outputs, and with fewer.
 pub(crate) fn every_shader_draws(s: &Subject) -> Checked {
     for shader in Shader::ALL {
         for targets in 1..=shader.outputs() {
@@ -15,7 +15,7 @@ pub(crate) fn every_shader_draws(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A scene that draws with a shader to so many attachments.
+/// Returns a scene that draws with a shader to this number of attachments.
 fn with_shader(shader: Shader, targets: usize) -> Value {
     let format = if shader.writes_integers() {
         "rgba8uint"

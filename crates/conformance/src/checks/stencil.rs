@@ -54,8 +54,8 @@ pub(crate) fn faces_have_masks_and_references_of_their_own(s: &Subject) -> Check
     Ok(())
 }
 
-/// Front faces: 7 is less than 200, so 200 + 1. Back faces: 7 is not greater than 200, so the bits
-/// are inverted. Only the low nibble and the top bit may change.
+/// Front faces: 7 is less than 200, so 200 + 1. Back faces: 7 is not greater than 200, so the bits are
+/// inverted. Only the low nibble and the top bit may change.
 pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
     for format in FORMATS {
         for (front_face, turned) in [("ccw", false), ("cw", true)] {
@@ -72,7 +72,7 @@ pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The depth of 1 is not less than the cleared 0; one face holds its value at 255, one goes to 0.
+/// The depth of 1 is not less than the cleared 0. One face keeps its value at 255, the other wraps to 0.
 pub(crate) fn a_failed_depth_test_has_its_own_operation(s: &Subject) -> Checked {
     let state = json!({ "shader": "flat_color_depth", "depth": test("less", true), "stencil": {
         "front": { "compare": "always", "depth_fail_op": "increment-clamp", "pass_op": "zero" },
@@ -97,7 +97,7 @@ pub(crate) fn operations_follow_the_depth_test(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Every value from 0 to 255 by eight replacements of one bit each, without a depth aspect.
+/// Writes every value from 0 to 255 by eight replacements of one bit each, without a depth aspect.
 pub(crate) fn every_bit_is_masked_by_itself(s: &Subject) -> Checked {
     let mut draws = Vec::new();
     for bit in 0..8 {

@@ -31,7 +31,7 @@ pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The last draw, which writes nothing, and the one before it share no state.
+/// The last two draws share no state; the last one writes nothing.
 pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
     let add = component("add", "one", "one");
     let subtract = component("reverse-subtract", "one", "one");
@@ -53,7 +53,7 @@ pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Sums that keep to their channels, and one target in the order of bytes that windows use.
+/// Sums that stay in their channels; one target is also tested with the byte order of windows.
 pub(crate) fn targets_keep_apart(s: &Subject) -> Checked {
     let add = component("add", "one", "one");
     let keep = component("reverse-subtract", "zero", "one");
@@ -101,7 +101,7 @@ pub(crate) fn targets_of_different_formats_take_one_draw(s: &Subject) -> Checked
     Ok(())
 }
 
-/// The results of source 0x33 and destination 0x55: a truth table in each nibble.
+/// The results for source 0x33 and destination 0x55: a truth table in each nibble.
 const OPERATIONS: [(&str, u32); 16] = [
     ("clear", 0x00),
     ("and", 0x11),
@@ -131,13 +131,13 @@ pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked
                 "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["source"],
                             "logic": name, "write_mask": mask }],
             }))?;
-            // Of 0xcc and 0xaa the table stands the other way round, from the highest bit.
+            // For 0xcc and 0xaa, the table is in reverse bit order.
             let turned = u32::from((expected as u8).reverse_bits());
             let green = if mask == "rgba" { expected } else { 0x55 };
             frame.color_is("color", |_, _| [expected, green, turned, expected]);
         }
     }
-    // Nothing of it is left for the next scene.
+    // The operation does not affect the next scene.
     let draw = json!({ "mesh": rect([0, 0, 4, 16]) });
     s.show(over_blue(with(draw, painted())))?
         .is_red(|x, _| x < 4);
@@ -172,7 +172,7 @@ pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// As factor of the source alone and of the destination alone.
+/// As a factor of only the source, and of only the destination.
 pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
     let drawn = |rgb: Value, alpha: Value| {
         s.show(json!({
@@ -198,7 +198,7 @@ pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Factors that name the second source do not stay.
+/// Factors that use the second source do not affect later draws.
 pub(crate) fn later_draws_have_one_source(s: &Subject) -> Checked {
     the_second_source_weighs_one_side(s)?;
     images_of_all_targets_agree(s)?;

@@ -6,7 +6,7 @@ use crate::scenes::{blue, full, rect, red, uploaded, with};
 use crate::subject::Subject;
 use serde_json::json;
 
-/// One texture is only fetched from; another is drawn over, in a corner.
+/// One texture is only fetched from; another is drawn over in a corner.
 pub(crate) fn texels_keep_their_places(s: &Subject) -> Checked {
     let value = |i: u32| [i * 16, 255 - i, i, 255];
     let bytes: Vec<_> = (0..16).map(value).collect();
@@ -94,7 +94,7 @@ pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Each of two thresholds, between the texels' alphas.
+/// Two thresholds, each between two of the texels' alphas.
 pub(crate) fn fragments_are_discarded_below_a_threshold(s: &Subject) -> Checked {
     let texels = [
         [10, 20, 30, 0],

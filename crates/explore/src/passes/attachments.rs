@@ -1,10 +1,10 @@
-//! Attachments: those of passes, those that are read back, and those that nothing names any more.
+//! Attachments: removes them from passes, from read-back, or entirely if unused.
 
 use crate::document::{list, parts};
 use crate::edit::{Edit, below, place};
 use serde_json::{Value, json};
 
-/// Each attachment of a pass, with all that is said of it.
+/// Removes each attachment of a pass, with all keys that refer to it.
 pub(crate) fn bound(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
@@ -88,7 +88,7 @@ fn without_color(pass: &Value, place: &[crate::edit::Step], location: usize) -> 
     edit
 }
 
-/// Attachments that are read back.
+/// Removes attachments from the list of read-back attachments.
 pub(crate) fn read(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let count = list(&document["scene"], "read").len();
     let parts = parts(count).into_iter().filter(|part| part.len() < count);
@@ -100,7 +100,7 @@ pub(crate) fn read(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         .collect()
 }
 
-/// Attachments that nothing names, together and one by one.
+/// Removes attachments that nothing refers to, together and one by one.
 pub(crate) fn unused(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let scene = &document["scene"];
     let mut named = Vec::new();

@@ -1,11 +1,11 @@
-//! Lists: further frames, passes, draws, clear commands and counters are left out.
+//! Lists: removes further frames, passes, draws, clear commands and counters.
 
 use crate::document::{draws_of, list, parts, passes_of};
 use crate::edit::{Edit, below, place};
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
-/// Variants, readings, literal values and the relation between frames.
+/// Removes variants, readings, literal values and the relation between frames.
 pub(crate) fn frames(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let keys = ["variants", "submissions", "relation", "expect"];
     let given: Vec<&str> = keys
@@ -31,7 +31,7 @@ pub(crate) fn frames(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Passes.
+/// Removes passes.
 pub(crate) fn passes(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let parts = parts(passes_of(document)).into_iter();
     parts
@@ -43,7 +43,7 @@ pub(crate) fn passes(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         .collect()
 }
 
-/// Draws. Clear commands keep their places between those that stay.
+/// Removes draws. Clear commands keep their order among the remaining draws.
 pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
@@ -67,7 +67,7 @@ pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Clear commands.
+/// Removes clear commands.
 pub(crate) fn clears(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
@@ -82,7 +82,7 @@ pub(crate) fn clears(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Counters, with their names in draws.
+/// Removes counters, with their names in draws.
 pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let scene = &document["scene"];
     let Some(counters) = scene.get("counters").and_then(Value::as_object) else {
@@ -120,15 +120,15 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         }
         edits.push(edit);
     }
-    // A draw that counts nothing.
+    // A draw without counters.
     for draw in draws_of(document) {
         edits.push(Edit::removal(below(&draw, "counters")));
     }
     edits
 }
 
-/// Returns an edit of the JSON pointers and orders of variants and of the judge's scene, when items of a list
-/// of the scene are left out.
+/// Returns an edit that renumbers the JSON pointers and orders of variants and of the judge's scene after
+/// items of a list are removed.
 fn renumbered(document: &Value, list: &str, gone: &Range<usize>) -> Edit {
     let number = |i: usize| match i {
         i if gone.contains(&i) => None,

@@ -1,15 +1,15 @@
-//! Meshes: one primitive in the place of many, and shorter lists.
+//! Meshes: replaces many primitives by one, and shortens lists.
 
 use crate::document::{draws_of, parts};
 use crate::edit::{Edit, at, below};
 use serde_json::{Map, Value, json};
 
-/// The kinds of one colour and one depth, the simplest first.
+/// The mesh kinds with a single primitive, the simplest first.
 const WHOLE: [&str; 2] = ["full", "cover"];
-/// The most parts of a mesh that are tried as the whole.
+/// The most parts of a mesh that are tried as the whole mesh.
 const PARTS: usize = 12;
 
-/// Each draw's mesh.
+/// Simplifies the mesh of each draw.
 pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for place in draws_of(document) {
@@ -29,7 +29,7 @@ pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// The parts of a mesh as whole meshes of a kind. First the plain one.
+/// Returns the parts of a mesh as whole meshes of a kind, the plain one first.
 fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec<Value> {
     let mut meshes = vec![json!({ "kind": kind })];
     let list = |key: &str| -> Vec<Value> {
@@ -46,7 +46,7 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         }
     };
     let count = values.len().max(z.len()).max(1);
-    // The part of the wrong texel first, as far as that can be said.
+    // Begins with the part at the wrong texel, approximately.
     let first = texel
         .map_or(0, |[x, _]| x as usize * count / 16)
         .min(count - 1);
@@ -71,7 +71,8 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
     meshes
 }
 
-/// The mesh with shorter lists: of vertices one primitive less, of others one item.
+/// Returns edits that shorten a list of the mesh: by a primitive for vertices, and by an item for other
+/// lists.
 fn shorter(mesh: &Map<String, Value>, place: &[crate::edit::Step]) -> Vec<Edit> {
     let mut edits = Vec::new();
     for key in ["values", "z", "windings", "uv", "indices"] {

@@ -4,12 +4,12 @@ use super::words::walk;
 use crate::edit::{Edit, Place, Step, at, place};
 use serde_json::{Value, json};
 
-/// The keys of numbers that have a pass of their own, or are no values.
+/// The keys of numbers that have their own pass, or are not values.
 const NOT_VALUES: [&str; 6] = ["size", "samples", "before", "indices", "positions", "cells"];
 /// The longest list whose numbers are tried one by one.
 const LONGEST: usize = 16;
 
-/// All numbers of a scene: lists as a whole, then each number.
+/// Simplifies all numbers of a scene: lists as a whole, then each number.
 pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut lists: Vec<Place> = Vec::new();
     let mut singles: Vec<(Place, f64)> = Vec::new();
@@ -34,7 +34,7 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         if !items.iter().all(Value::is_number) {
             continue;
         }
-        // Four alike are written as one, where case files take that.
+        // Four equal numbers are written as one, in keys that accept this.
         if items.len() == 4 && items.iter().all(|item| *item == items[0]) {
             edits.push(Edit::replacement(list.clone(), items[0].clone()));
         }
@@ -63,12 +63,12 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             edits.extend(simple.map(|n| Edit::replacement(place.clone(), n)));
         }
     }
-    // A list of one key alone may be shorter than a default.
+    // Drops edits that change nothing or do not apply.
     edits.retain(|edit| edit.apply(document).is_some());
     edits
 }
 
-/// The simplest numbers, the first ones the simplest.
+/// The simplest numbers, in order.
 const SIMPLEST: [f64; 5] = [0.0, 1.0, 0.5, -1.0, 255.0];
 
 /// Returns the cost of a number: small for simple ones.
@@ -80,12 +80,12 @@ fn cost(number: f64) -> u32 {
     )
 }
 
-/// Returns the numbers that may stand for one, the simplest first.
+/// Returns the numbers that may replace a number, the simplest first.
 fn simpler(number: f64) -> Vec<Value> {
     let rounded = [1.0, 10.0, 100.0].map(|digits| (number * digits).round() / digits);
     let mut numbers: Vec<f64> = Vec::new();
     for other in SIMPLEST.into_iter().chain(rounded) {
-        // A whole number may have to stay one.
+        // An integer may have to stay an integer.
         let fits = number.fract() != 0.0 || other.fract() == 0.0 || number == 1.0;
         if fits && cost(other) < cost(number) && !numbers.contains(&other) {
             numbers.push(other);

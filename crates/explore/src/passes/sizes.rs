@@ -1,16 +1,16 @@
-//! Sizes: pictures are cropped, best to the wrong texel, and lose samples.
+//! Sizes: crops pictures, preferably to the wrong texel, and removes samples.
 
 use crate::document::{draws_of, list};
 use crate::edit::{Edit, Place, at, below, place};
 use serde_json::{Value, json};
 
-/// The size of attachments that give none.
+/// The size of attachments without `size`.
 const DEFAULT: [u64; 2] = [16, 16];
 
 /// The sides that are tried.
 const SIDES: [u64; 6] = [1, 2, 4, 8, 16, 64];
 
-/// The attachments of each size, cropped together.
+/// Crops all attachments of a size together.
 pub(crate) fn sizes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let Some(attachments) = document["scene"]["attachments"].as_object() else {
         return Vec::new();
@@ -84,7 +84,7 @@ impl Window {
         edit.replace.push((place, json!(values)));
     }
 
-    /// Moves rectangles with the picture, and cuts them off.
+    /// Moves rectangles with the picture, and clips them to it.
     fn crop_rectangles(self, document: &Value, edit: &mut Edit) {
         for draw in draws_of(document) {
             self.crop(document, below(&draw, "scissor"), edit);
@@ -96,7 +96,8 @@ impl Window {
                 let [r, b] = [0, 1].map(|i| self.moved(corners[i + 2], i));
                 edit.replace.push((texels, json!([l, t, r, b])));
             }
-            // Viewports may reach beyond the picture, but not before its start on every driver: they follow.
+            // Viewports can extend beyond the picture but, on some drivers, not before its start, so they
+            // are cropped too.
             let rect = below(&below(&draw, "viewport"), "rect");
             self.crop(document, rect, edit);
         }
@@ -110,7 +111,7 @@ impl Window {
         self.crop(document, place!["relation", "within"], edit);
     }
 
-    /// Crops left, top, width and height.
+    /// Crops a rectangle of left, top, width and height.
     fn crop(self, document: &Value, place: Place, edit: &mut Edit) {
         let Some([x, y, w, h]) = at(document, &place).and_then(numbers) else {
             return;
@@ -120,14 +121,14 @@ impl Window {
         edit.replace.push((place, json!([l, t, r - l, b - t])));
     }
 
-    /// Returns a coordinate in the window.
+    /// Returns a coordinate, relative to the window.
     fn moved(self, value: u64, axis: usize) -> u64 {
         let moved = value.saturating_sub(self.origin[axis]);
         moved.min(self.size[axis])
     }
 }
 
-/// Returns four whole numbers.
+/// Returns four non-negative integers.
 fn numbers(value: &Value) -> Option<[u64; 4]> {
     let list = value.as_array()?.iter();
     let whole = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
@@ -137,7 +138,8 @@ fn numbers(value: &Value) -> Option<[u64; 4]> {
     sizes.try_into().ok()
 }
 
-/// Fewer samples, in all attachments of as many; without any, what is resolved is read itself.
+/// Reduces the samples of all attachments with the most samples. Without samples, attachments are read
+/// without a resolve.
 pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let Some(attachments) = document["scene"]["attachments"].as_object() else {
         return Vec::new();

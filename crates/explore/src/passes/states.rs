@@ -1,13 +1,14 @@
-//! States: keys are removed, which puts every state at its default.
+//! States: removes keys, which resets each state to its default.
 
 use crate::document::{draws_of, parts};
 use crate::edit::{Edit, Place, at, below, place};
 use serde_json::Value;
 
-/// The keys without which no case can be, or which have a pass of their own.
+/// The keys that a case cannot lack, or that have their own pass.
 const KEPT: [&str; 4] = ["format", "kind", "size", "shader"];
 
-/// The states of each draw: all, halves and so on down to one; first those of all draws together.
+/// Removes the states of each draw: all, halves, and so on down to single ones; first the states of all
+/// draws together.
 pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let draws = draws_of(document);
     let states = |draw: &Place| -> Vec<Place> {
@@ -41,7 +42,7 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Every key of the scene, those of outer values first.
+/// Removes each key of the scene, outer keys first.
 pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     let mut next = vec![place!["scene"]];
@@ -68,7 +69,7 @@ pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Sizes that another attachment gives too.
+/// Removes sizes that another attachment also has.
 fn sizes(document: &Value) -> Vec<Edit> {
     let attachments = document["scene"]["attachments"].as_object();
     let mut given = attachments

@@ -1,16 +1,16 @@
-//! Shaders and the textures that they read: a shader that reads nothing stands in the place of one that does,
-//! and a clear value in the place of texels.
+//! Shaders and their textures: replaces shaders that read textures by shaders that do not, and uploaded
+//! texels by a clear value.
 
 use crate::document::draws_of;
 use crate::edit::{Edit, at, below, place};
 use serde_json::{Map, Value, json};
 
-/// The shaders that others are replaced by, the simplest first.
+/// The shaders that replace others, the simplest first.
 const SIMPLE: [&str; 2] = ["uniform_color", "flat_color"];
-/// The most colours that a shader's own is tried with.
+/// The most colours that are tried in place of a shader's own.
 const COLORS: usize = 6;
 
-/// Each draw's shader.
+/// Simplifies the shader of each draw.
 pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for place in draws_of(document) {
@@ -45,7 +45,7 @@ pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// An edit that leaves out what only a shader that reads textures has.
+/// Returns an edit that removes the keys that only shaders with textures have.
 fn without_inputs(draw: &Value, place: &[crate::edit::Step]) -> Edit {
     let keys = ["textures", "sampler", "early_tests", "clip_distances"];
     let given = keys.into_iter().filter(|key| draw.get(key).is_some());
@@ -55,7 +55,7 @@ fn without_inputs(draw: &Value, place: &[crate::edit::Step]) -> Edit {
     }
 }
 
-/// Returns the colours that a draw names: its parameters', then its mesh's.
+/// Returns the colours in a draw: those of its parameters, then those of its mesh.
 fn colors(draw: &Value) -> Vec<Value> {
     let params = &draw["params"];
     let mesh = &draw["mesh"];
@@ -71,7 +71,7 @@ fn colors(draw: &Value) -> Vec<Value> {
     values
 }
 
-/// Returns the colours under the wrong texel of the textures of a draw.
+/// Returns the colours of a draw's textures at the wrong texel.
 fn colors_of_textures(document: &Value, draw: &Value, texel: Option<[u32; 2]>) -> Vec<Value> {
     let names = draw["textures"].as_array().into_iter().flatten();
     let attachments = &document["scene"]["attachments"];
@@ -79,7 +79,7 @@ fn colors_of_textures(document: &Value, draw: &Value, texel: Option<[u32; 2]>) -
     colors.collect()
 }
 
-/// Uploaded texels.
+/// Replaces uploaded texels by a clear value.
 pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     let attachments = document["scene"]["attachments"].as_object();
@@ -94,7 +94,7 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
             edit.replace.push((below(&own, "clear"), color));
             edits.push(edit);
         }
-        // All texels alike, for shaders that want uploaded ones.
+        // Makes all texels equal, for shaders that need uploaded texels.
         let values = attachment["texels"]["values"].as_array();
         if let (Some(values), Some(value)) = (values, raw(attachment, texel))
             && attachment["texels"]["kind"] != "grid"
@@ -121,8 +121,8 @@ fn raw(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
     }
 }
 
-/// Returns the colour of the texels of an attachment at a texel, as a clear value: codes of normalized formats
-/// as shares of the greatest.
+/// Returns the colour of an attachment's texels at a texel as a clear value: codes of normalized formats
+/// become fractions of the largest code.
 fn color(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
     if let Some(clear) = attachment.get("clear") {
         return clear.is_array().then(|| clear.clone());

@@ -1,9 +1,9 @@
-//! Words: formats, functions and factors become common ones.
+//! Words: replaces formats, functions and factors by common ones.
 
 use crate::edit::{Edit, Place, Step, below, place};
 use serde_json::{Value, json};
 
-/// The words that stand for others under a key, the simplest first. Words that are not listed are the least
+/// The words that replace others under a key, the simplest first. Words that are not listed are the least
 /// simple.
 const SIMPLE: [(&str, &[&str]); 14] = [
     ("compare", &["always", "never", "less", "greater", "equal"]),
@@ -25,7 +25,7 @@ const SIMPLE: [(&str, &[&str]); 14] = [
 /// Formats of depth and stencil, the simplest first.
 const DEPTH: [&str; 3] = ["depth32float", "stencil8", "depth24plus-stencil8"];
 
-/// Words of states, and truth values.
+/// Simplifies the words of states, and booleans.
 pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     walk(
@@ -60,7 +60,7 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Formats, those of all attachments of one format together.
+/// Simplifies formats, for all attachments of a format together.
 pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let Some(attachments) = document["scene"]["attachments"].as_object() else {
         return Vec::new();
@@ -97,7 +97,7 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Calls a function with every word, number and truth value below a place.
+/// Calls a function with every word, number and boolean below a place.
 pub(super) fn walk(value: &Value, place: Place, each: &mut dyn FnMut(&Place, &Value)) {
     match value {
         Value::Object(map) => {

@@ -6,7 +6,7 @@ use etalon_frame::{ChannelEncoding, TextureFormat};
 use serde_json::{Value, json};
 
 impl Maker<'_> {
-    /// Chooses the formats of so many colour attachments, and the palette that suits all.
+    /// Chooses the formats of `count` colour attachments, and a palette that suits all of them.
     pub(super) fn color_formats(&mut self, count: u32, logic: bool) -> Vec<TextureFormat> {
         let common = TextureFormat::Rgba8Unorm;
         let usable: Vec<TextureFormat> = self.space.color.clone();
@@ -35,8 +35,8 @@ impl Maker<'_> {
         } else {
             Palette::Normalized
         };
-        // Of one or two bits, all between would be legal as halves or thirds, and as a factor carry that
-        // into the colours.
+        // With one or two bits of alpha, all codes between would be legal for halves or thirds, and alpha
+        // as a factor would carry that into the colours.
         let few = |f: &TextureFormat| {
             matches!(f, TextureFormat::Rgb10a2Unorm | TextureFormat::Bgr5a1Unorm)
         };
@@ -77,14 +77,14 @@ impl Maker<'_> {
         self.attachments.insert(name.to_owned(), attachment);
     }
 
-    /// A stored stencil value, often the reference of the draws or near it.
+    /// Returns a stored stencil value, often equal or close to the reference of the draws.
     pub(super) fn stored_stencil(&mut self) -> u32 {
         let reference = self.reference;
         let other = self.choices.below(256);
         self.choices.of(&[0, reference, reference + 1, 255, other])
     }
 
-    /// A depth and stencil format, if the pass has one.
+    /// Returns a depth and stencil format, if the pass has such an attachment.
     pub(super) fn depth_stencil_format(&mut self) -> Option<TextureFormat> {
         let none = self.choices.once_in(5);
         if none || self.space.depth_stencil.is_empty() {
@@ -95,7 +95,7 @@ impl Maker<'_> {
         Some(format)
     }
 
-    /// A value to which a colour attachment is cleared.
+    /// Returns a clear value for a colour attachment.
     pub(super) fn cleared_color(&mut self) -> Value {
         self.color()
     }

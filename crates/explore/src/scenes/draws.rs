@@ -1,4 +1,4 @@
-//! Draws of random scenes: shader, state, and what changes from one draw to the next.
+//! Draws of random scenes: shaders, states, and changes from one draw to the next.
 
 use super::meshes::VertexDepth;
 use super::{Maker, Pass};
@@ -6,7 +6,7 @@ use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
-/// States that a draw may change of the one before it, whatever both draw.
+/// States that a draw can change from the previous one, whatever both draw.
 const ALONE: [&str; 13] = [
     "cull",
     "front_face",
@@ -24,7 +24,7 @@ const ALONE: [&str; 13] = [
 ];
 
 impl Maker<'_> {
-    /// Makes a draw of a pass. One in four is the one before it with another value of one state.
+    /// Makes a draw of a pass. One in four is the previous draw with another value of one state.
     pub(super) fn draw(&mut self, pass: &Pass, previous: Option<&Value>) -> Value {
         self.choices.begin_draw();
         if let Some(previous) = previous
@@ -86,7 +86,7 @@ impl Maker<'_> {
         draw
     }
 
-    /// Gives the vertices of a mesh another w, seldom behind the eye. Outlines keep theirs.
+    /// Changes the w of a mesh's vertices; rarely, vertices are behind the eye. Outlines keep their w.
     fn factors(&mut self, draw: &mut Value) {
         if draw["polygon_mode"] == "line" || !self.extra("w") {
             return;
@@ -104,7 +104,7 @@ impl Maker<'_> {
         draw["w"] = json!(lists[number as usize]);
     }
 
-    /// The draw before with another value of one state.
+    /// Returns the previous draw with another value of one state.
     fn changed(&mut self, pass: &Pass, previous: &Value) -> Value {
         let mut draw = previous.clone();
         let shader = Shader::ALL.iter().find(|s| draw["shader"] == s.name());
@@ -195,7 +195,7 @@ impl Maker<'_> {
             color = json!([0.0625, 0.03125, self.choices.of(&[0.0, 1.0]), 1.0]);
         }
         if shader.discards() {
-            // The least alpha, or blue, that is kept.
+            // The smallest alpha, or blue, that is kept.
             let least = self.choices.of(&[0.5, 0.0, 1.0, 0.3]);
             color[2] = json!(least);
             color[3] = json!(least);
@@ -275,7 +275,7 @@ impl Maker<'_> {
         self.choices.word("early tests", &words)
     }
 
-    /// A shader that writes what the pass has.
+    /// Returns a shader that writes what the pass's attachments need.
     fn shader(&mut self, pass: &Pass) -> Shader {
         use Shader as Is;
         if pass.is_integer() {
@@ -403,7 +403,7 @@ impl Maker<'_> {
         json!({ "filter": filter, "address": address })
     }
 
-    /// A texture that every driver filters.
+    /// Returns a texture that every driver filters.
     fn sampled_texture(&mut self) -> &'static str {
         let texture =
             json!({ "format": "rgba8unorm", "size": [4, 4], "texels": { "kind": "codes" } });

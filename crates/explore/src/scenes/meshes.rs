@@ -5,31 +5,31 @@ use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
-/// The form of a mesh of single vertices.
+/// The form of a mesh that is given as vertices.
 #[derive(Clone, Copy, Debug)]
 struct Form {
     /// True for triangles, three vertices each.
     list: bool,
-    /// True if an index may end a strip.
+    /// True if an index can restart a strip.
     restarts: bool,
     indexed: bool,
-    /// True if each vertex has a colour of its own.
+    /// True if each vertex has its own colour.
     apart: bool,
 }
 
-/// The depth that the vertex colours of a mesh hold.
+/// The depth that a mesh's vertex colours contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum VertexDepth {
     /// None: they are colours.
     Nothing,
-    /// Any.
+    /// Any depth.
     Red,
-    /// Always this one.
+    /// Always this depth.
     Always(f64),
 }
 
 impl Maker<'_> {
-    /// Adds the mesh of a draw whose viewport is so many texels large.
+    /// Adds the mesh of a draw whose viewport has this size in texels.
     pub(super) fn mesh(
         &mut self,
         pass: &Pass,
@@ -140,7 +140,7 @@ impl Maker<'_> {
             _ => json!({ "kind": "cover", "z": z, "value": self.value(written) }),
         };
         self.fetch(indexed, draw);
-        // What is no list needs indices for the end of an instance.
+        // Strips and fans need indices to end an instance.
         let list = draw.get("topology").is_none_or(|t| t == "triangle-list");
         if written == VertexDepth::Nothing && (list || indexed) && self.extra("instances") {
             let count = self.choices.range(1, 3);
@@ -161,7 +161,7 @@ impl Maker<'_> {
         }
     }
 
-    /// The value of a vertex: a colour or a depth.
+    /// Returns the value of a vertex: a colour or a depth.
     fn value(&mut self, written: VertexDepth) -> Value {
         match written {
             VertexDepth::Nothing => self.color(),
@@ -170,7 +170,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Bands across or down, with depths and windings of their own.
+    /// Returns bands across or down, each with its own depth and winding.
     fn bands(&mut self, kind: &str, most: u32, written: VertexDepth) -> Value {
         let count = self.choices.range(1, most);
         let values: Vec<Value> = (0..count).map(|_| self.value(written)).collect();
@@ -181,7 +181,7 @@ impl Maker<'_> {
         json!({ "kind": kind, "values": values, "z": z, "windings": windings })
     }
 
-    /// Everything, as two triangles of one plane that is not parallel to the picture.
+    /// Returns a mesh over everything, as two triangles in a plane that is not parallel to the picture.
     fn slope(&mut self, [w, h]: [u32; 2]) -> Value {
         let ends = self.choices.of(&[[0.2, 0.7], [0.9, 0.1], [0.45, 0.55]]);
         let down = self.choices.once_in(2);
@@ -206,7 +206,7 @@ impl Maker<'_> {
         })
     }
 
-    /// Triangles anywhere, with edges through samples among them. Most are of one depth.
+    /// Returns triangles at any position, some with edges through samples. Most have a constant depth.
     fn vertices(&mut self, [w, h]: [u32; 2], form: Form, written: VertexDepth) -> Value {
         let Form {
             list,
@@ -250,8 +250,8 @@ impl Maker<'_> {
         mesh
     }
 
-    /// A mesh with texture coordinates: the texture a few times, or texels from some line on, so that planes
-    /// lie between samples.
+    /// Sets a mesh with texture coordinates: either the texture a few times, or texels beyond a line, such
+    /// that planes are between samples.
     fn with_coordinates(
         &mut self,
         pass: &Pass,
@@ -267,7 +267,7 @@ impl Maker<'_> {
             return json!({ "kind": "cover", "z": z, "uv": [l, t, r, b] });
         }
         let centroid = shader == Shader::Centroid;
-        // The left side of what is interpolated at the centroid lies between the samples of a texel.
+        // The left side of a centroid-interpolated mesh is between the samples of a texel.
         let cut = f64::from(self.choices.below(w)) + 0.25;
         let left = if centroid { cut } else { -1.0 };
         let [right, bottom] = [w, h].map(|n| f64::from(n) + 1.0);
@@ -319,7 +319,7 @@ impl Maker<'_> {
         })
     }
 
-    /// Adds numbers of the draw call.
+    /// Adds the first index, base vertex or first vertex of the draw call.
     fn fetch(&mut self, indexed: bool, draw: &mut Value) {
         if !self.extra("fetch") {
             return;

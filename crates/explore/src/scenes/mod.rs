@@ -1,10 +1,10 @@
 //! Random scenes over the whole model, made from choices.
 //!
-//! A scene is made as the JSON of a case file, as `reduce` takes it. Inputs keep to what can be proven, as in
-//! the built-in random scenes: written depths are the same or far apart, most edges lie clear of samples, and
-//! colours clear of where rounding is open. Nearly every sequence of choices is a valid scene; the checks of
-//! case files have the last word. Of what is not common to all draws, a scene has a few things only (swarm
-//! testing: Groce and others 2012): where everything is on at once, one state hides the next.
+//! A scene is made as the JSON of a case file, which `reduce` takes. Inputs are limited to what can be
+//! proven, as in the built-in random scenes: written depths are equal or far apart, most edges stay clear
+//! of samples, and colours avoid values whose rounding is open. Nearly every sequence of choices is a valid
+//! scene; the checks of case files decide. A scene has only a few uncommon features (swarm testing: Groce
+//! and others 2012), because states hide each other if all are on at once.
 
 mod attachments;
 mod draws;
@@ -26,13 +26,13 @@ use std::collections::BTreeMap;
 pub(crate) struct Made {
     /// The scene, as in a case file.
     pub(crate) scene: Value,
-    /// Further submissions that are read back; empty for one.
+    /// Further submissions that are read back; empty if there is only one.
     pub(crate) submissions: Vec<u32>,
-    /// Its states, and those of each draw.
+    /// The states of the scene, then those of each draw.
     pub(crate) scopes: Vec<Vec<State>>,
 }
 
-/// Makes the scene of some choices.
+/// Makes the scene that the choices give.
 pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
     let mut maker = Maker::new(choices, space);
     let scene = maker.scene();
@@ -48,7 +48,7 @@ pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
     }
 }
 
-/// A pass while its draws are made.
+/// A pass whose draws are being made.
 #[derive(Clone, Debug)]
 struct Pass {
     /// The names of its colour attachments, and their formats.
@@ -56,14 +56,14 @@ struct Pass {
     depth_stencil: Option<TextureFormat>,
     samples: u32,
     read_only: bool,
-    /// The names of attachments of one sample that earlier passes drew, and this one does not.
+    /// The names of single-sample attachments that earlier passes drew and this one does not.
     drawn: Vec<String>,
-    /// The provoking vertex of all its draws.
+    /// The provoking vertex of all draws in the pass.
     provoking: Option<&'static str>,
 }
 
 impl Pass {
-    /// True if alpha to coverage asks nothing unusual of its first color attachment.
+    /// Returns true if alpha to coverage requires no unusual format of the first colour attachment.
     fn has_alpha(&self) -> bool {
         let first = self.color.first();
         first.is_some_and(|(_, format)| format.has_alpha())
@@ -82,7 +82,7 @@ impl Pass {
     }
 }
 
-/// A scene while it is made.
+/// A scene that is being made.
 struct Maker<'s> {
     choices: Choices,
     space: &'s Space,
@@ -90,9 +90,9 @@ struct Maker<'s> {
     palette: Palette,
     /// True if alpha is 0 or 1.
     whole_alpha: bool,
-    /// One stencil reference for most draws, or none would ever be equal.
+    /// The stencil reference of most draws; with random references, none would ever be equal.
     reference: u32,
-    /// The uncommon traits that the scene has.
+    /// The uncommon traits, and whether the scene has them.
     swarm: BTreeMap<&'static str, bool>,
     attachments: Map<String, Value>,
     counters: Map<String, Value>,
@@ -147,7 +147,7 @@ impl<'s> Maker<'s> {
         scene
     }
 
-    /// The way to the driver: mostly the default.
+    /// Returns the path to the driver, usually the default.
     fn path(&mut self) -> Option<PathValue> {
         if self.space.paths.is_empty() || !self.choices.once_in(4) {
             return None;
@@ -157,7 +157,8 @@ impl<'s> Maker<'s> {
         Some(path)
     }
 
-    /// True if a state that is not common is to be set: never in two of three scenes, else by turns.
+    /// Returns true if an uncommon state is to be set: never in two thirds of scenes, else half of the
+    /// time.
     fn extra(&mut self, state: &'static str) -> bool {
         let known = self.swarm.get(state).copied();
         let on = known.unwrap_or_else(|| self.choices.once_in(3));
@@ -165,18 +166,18 @@ impl<'s> Maker<'s> {
         on && self.choices.once_in(2)
     }
 
-    /// The same for a state that needs a feature.
+    /// Like [`Maker::extra`], for a state that needs a feature.
     fn extra_with(&mut self, state: &'static str, feature: Feature) -> bool {
         self.space.has(feature) && self.extra(state)
     }
 
-    /// A number of 8 bits, mostly one of few.
+    /// Returns an 8-bit number from a short list.
     fn bits(&mut self) -> u32 {
         let some = [0xff, 0x0f, 0xf0, 0x55, 0xaa, 0x3c, 0x81, 0, 1, 0x80, 0x7f];
         self.choices.of(&some)
     }
 
-    /// A rectangle inside the scene's size.
+    /// Returns a rectangle inside the scene's size.
     fn rect(&mut self) -> [u32; 4] {
         let [w, h] = self.size;
         let mut side = |length: u32| {

@@ -1,22 +1,22 @@
-//! The colours of a random scene: few, and such that the rules leave few codes open.
+//! The colours of a random scene. They are few, and the rules leave few of their codes open.
 
-/// The colours of a scene, of which few codes are legal.
+/// The colours of a scene, for which few codes are legal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Palette {
-    /// Sums of powers of two, of which no multiple by `2^b - 1` is nearly an integer.
+    /// Sums of powers of two whose multiples by `2^b - 1` are never close to an integer.
     Normalized,
-    /// The same with negative values.
+    /// The same, with negative values.
     Signed,
-    /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits.
+    /// Values between two codes that differ only in the last bit, with 8 and 10 bits.
     Bits,
-    /// Exact in floats, as are their products; few differences are nearly 0.
+    /// Values that are exact in floats, as are their products. Few differences are close to 0.
     Float,
-    /// Whole numbers.
+    /// Integers.
     Integer,
 }
 
 impl Palette {
-    /// The values of a channel, the simplest first.
+    /// Returns the values of a channel, the simplest first.
     pub(super) fn values(self) -> &'static [f64] {
         match self {
             Self::Normalized => &[0.0, 1.0, 0.25, 0.375, 0.625, 0.75],

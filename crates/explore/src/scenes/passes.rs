@@ -1,11 +1,11 @@
-//! Passes of random scenes: attachments, load and store operations, clears, resolves.
+//! Passes of random scenes: attachments, load and store operations, clears and resolves.
 
 use super::{Maker, Pass};
 use etalon_frame::{Feature, TextureFormat};
 use serde_json::{Value, json};
 
 impl Maker<'_> {
-    /// Makes the passes. Returns them and the names of what is read back.
+    /// Makes the passes, and returns them with the names of the attachments to read back.
     pub(super) fn passes(&mut self) -> (Vec<Value>, Vec<String>) {
         let logic = self.extra_with("logic", Feature::LogicOperations);
         let none = self.choices.once_in(10);
@@ -49,7 +49,8 @@ impl Maker<'_> {
         self.choices.note("passes", number);
         let mut passes = Vec::new();
         for index in 0..number {
-            // The last pass reads what the first one drew, or draws what it did not.
+            // The last pass reads what the first one drew, or draws to attachments that the first one did
+            // not.
             let other = framebuffers && index % 2 == 1;
             let mut colors = color.clone();
             let mut drawn = Vec::new();
@@ -80,7 +81,7 @@ impl Maker<'_> {
         color.iter().any(|(_, f)| f.is_integer())
     }
 
-    /// The provoking vertex of a pass's draws.
+    /// Returns the provoking vertex of a pass's draws.
     fn provoking(&mut self) -> Option<&'static str> {
         let first = self.space.has(Feature::FirstProvokingVertex);
         let last = self.space.has(Feature::LastProvokingVertex);
@@ -94,7 +95,7 @@ impl Maker<'_> {
         Some(self.choices.word("provoking", &both))
     }
 
-    /// A number of samples that all formats have.
+    /// Returns a number of samples that all formats support.
     fn samples(&mut self, formats: &[TextureFormat], depth_stencil: Option<TextureFormat>) -> u32 {
         if !self.choices.once_in(3) {
             return 1;
@@ -166,7 +167,7 @@ impl Maker<'_> {
         value
     }
 
-    /// The load and store operation of an aspect.
+    /// Returns the load and store operation of an aspect.
     fn operation(&mut self, clear: Value) -> Value {
         let mut value = json!({});
         if self.choices.flag("load clear", 2) {
@@ -178,7 +179,7 @@ impl Maker<'_> {
         value
     }
 
-    /// Clear commands between the draws.
+    /// Returns clear commands between the draws.
     fn clears(&mut self, pass: &Pass, draws: u32) -> Vec<Value> {
         let count = self.choices.range(1, 2);
         let mut before = 0;
@@ -225,12 +226,12 @@ impl Maker<'_> {
         clears
     }
 
-    /// The resolves of a pass of several samples.
+    /// Adds resolves to a pass with several samples.
     fn resolves(&mut self, pass: &Pass, index: usize, value: &mut Value, read: &mut Vec<String>) {
         if !pass.color.is_empty() && self.extra("resolve") {
             let mut resolves = Vec::new();
             for (i, (_, format)) in pass.color.iter().enumerate() {
-                // Into what an earlier pass was resolved to, or into another.
+                // Into an earlier pass's resolve target, or into another attachment.
                 let number = if self.choices.once_in(2) { 0 } else { index };
                 let name = format!("resolved{number}-{i}");
                 if !self.attachments.contains_key(&name) {

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 impl Maker<'_> {
     pub(super) fn compare(&mut self, state: &'static str) -> &'static str {
-        // What draws something stands more than once, or pictures would stay empty.
+        // Functions that draw something occur more than once, because pictures would stay empty otherwise.
         use CompareFunction as Is;
         let functions = [
             Is::Always,
@@ -92,7 +92,7 @@ impl Maker<'_> {
         Some(stencil)
     }
 
-    /// Letters of channels.
+    /// Returns the letters of channels to write.
     pub(super) fn channels(&mut self) -> &'static str {
         let some = [
             "rgba", "rgb", "rga", "gba", "rba", "rb", "ga", "r", "g", "b", "a", "",
@@ -100,7 +100,7 @@ impl Maker<'_> {
         self.choices.word("write mask", &some)
     }
 
-    /// Adds blending or what stands instead, and write masks.
+    /// Adds blending or a replacement for it, and write masks.
     pub(super) fn output(&mut self, pass: &Pass, second: bool, draw: &mut Value) {
         let space = self.space;
         let blendable = |f: &TextureFormat| space.blendable.contains(f) && !f.is_integer();
@@ -141,7 +141,7 @@ impl Maker<'_> {
         draw["blend_constant"] = self.color();
     }
 
-    /// A write mask, mostly of all channels.
+    /// Returns a write mask, usually of all channels.
     fn mask(&mut self) -> &'static str {
         if self.choices.once_in(3) {
             self.channels()
@@ -197,7 +197,7 @@ impl Maker<'_> {
         })
     }
 
-    /// Adds what several samples have, or one of them may have too.
+    /// Adds states of multisampling, some of them also without several samples.
     pub(super) fn multisample(&mut self, pass: &Pass, shader: Shader, draw: &mut Value) {
         let mut value = json!({});
         if pass.samples > 1 {

@@ -5,7 +5,7 @@ use super::palette::Palette;
 use serde_json::{Value, json};
 
 impl Maker<'_> {
-    /// Returns the name of a texture of colours.
+    /// Adds a texture of colours and returns its name.
     pub(super) fn texture(&mut self, name: &str) -> String {
         if !self.attachments.contains_key(name) {
             let texels = self.texels(&mut |maker| maker.texel());
@@ -19,14 +19,15 @@ impl Maker<'_> {
         name.to_owned()
     }
 
-    /// Returns the name of a texture of sample masks, whole numbers from 0 on.
+    /// Adds a texture of sample masks, which are integers, and returns its name.
     pub(super) fn masks(&mut self) -> String {
         self.numbers("masks", &mut |maker| {
             f64::from(maker.choices.of(&[0xf, 0, 1, 5, 10, 8, 0xfffe]))
         })
     }
 
-    /// Returns the name of a texture of stencil references, of which many are the scene's in the bits that count.
+    /// Adds a texture of stencil references, many of them equal to the scene's in the bits that count, and
+    /// returns its name.
     pub(super) fn references(&mut self) -> String {
         self.numbers("references", &mut |maker| {
             let other = maker.choices.below(256);
@@ -38,7 +39,7 @@ impl Maker<'_> {
         })
     }
 
-    /// A texture of numbers in red and alpha, written depths in green and 0 or 1 in blue.
+    /// Adds a texture with numbers in red and alpha, written depths in green, and 0 or 1 in blue.
     fn numbers(&mut self, name: &str, number: &mut dyn FnMut(&mut Self) -> f64) -> String {
         if !self.attachments.contains_key(name) {
             let texels = self.texels(&mut |maker| {
@@ -53,7 +54,7 @@ impl Maker<'_> {
         name.to_owned()
     }
 
-    /// Texels, the same in all rows or columns.
+    /// Returns texels that are the same in all rows or in all columns.
     fn texels(&mut self, texel: &mut dyn FnMut(&mut Self) -> Value) -> Value {
         let [w, h] = self.size;
         let (kind, count) = self.choices.of(&[("columns", w), ("rows", h)]);
@@ -62,7 +63,7 @@ impl Maker<'_> {
         json!({ "kind": kind, "values": values })
     }
 
-    /// A texel of a texture of colours: codes of normalized ones.
+    /// Returns a texel of a texture of colours: codes of normalized formats.
     fn texel(&mut self) -> Value {
         if self.palette != Palette::Normalized {
             return self.color();

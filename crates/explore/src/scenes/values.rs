@@ -5,15 +5,15 @@ use super::palette::Palette;
 use serde_json::{Value, json};
 
 impl Maker<'_> {
-    /// Channels of 0, 1 and values between.
+    /// Returns a colour with channels of 0, 1 and values between.
     pub(super) fn color(&mut self) -> Value {
         let values = self.palette.values();
         let mut color = [0; 4].map(|_| self.choices.of(values));
-        // Beyond the range, and clamped where the format is normalized.
+        // A value out of range, which normalized formats clamp.
         if self.palette == Palette::Normalized && self.choices.once_in(12) {
             color[self.choices.below(4) as usize] = self.choices.of(&[1.5, -0.5]);
         }
-        // Only what has a sign keeps it.
+        // Only signed formats keep negative values.
         if self.palette == Palette::Float && self.choices.once_in(6) {
             color[self.choices.below(4) as usize] = self.choices.of(&[-0.4375, -1.375]);
         }
@@ -23,17 +23,17 @@ impl Maker<'_> {
         json!(color)
     }
 
-    /// A written depth: mostly two of them are the same or far apart.
+    /// Returns a written depth: any two are usually equal or far apart.
     pub(super) fn depth(&mut self) -> f64 {
         if self.extra("near depths") {
-            // Neighbours of 32 bits.
+            // Neighbouring 32-bit floats.
             return self.choices.of(&[0.5, 0.500_000_06, 0.499_999_97]);
         }
         self.choices
             .of(&[0.0, 1.0, 0.0, 0.21, 0.4, 0.62, 0.83, 1.0])
     }
 
-    /// A clip-space depth, never near a plane that clips.
+    /// Returns a clip-space depth, never close to a clip plane.
     pub(super) fn vertex_depth(&mut self) -> f64 {
         if self.extra("beyond the planes") {
             self.choices.of(&[0.3, -0.75, 1.75, 0.7])

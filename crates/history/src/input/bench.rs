@@ -1,4 +1,4 @@
-//! A `bench.jsonl`.
+//! Reading a `bench.jsonl`.
 
 use super::started::started;
 use crate::adapter::Adapter;
@@ -25,7 +25,7 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
         .collect();
     for record in &bench.records {
         let name = &record.picture.adapter;
-        // The reader has refused pictures of other adapters.
+        // The reader has already refused pictures of other adapters.
         let Some(adapter) = adapters.iter_mut().find(|a| a.adapter.name == *name) else {
             continue;
         };
@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
         {
             adapter.times.insert(case.clone(), times);
         }
-        // What share was asserted is not kept: a picture does not say of how many channels.
+        // The asserted share is not kept, because a picture does not record its number of channels.
         adapter.take(case, Outcome::new(record.picture.verdict));
     }
     Ok(NewRun {

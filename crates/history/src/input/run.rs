@@ -1,4 +1,4 @@
-//! A `run.jsonl`.
+//! Reading a `run.jsonl`.
 
 use super::started::started;
 use crate::adapter::Adapter;
@@ -18,7 +18,7 @@ use std::path::Path;
 struct Assembly {
     header: Header,
     adapters: Vec<NewAdapter>,
-    /// Names to places among the adapters.
+    /// Names to indices in `adapters`.
     places: HashMap<String, usize>,
 }
 

@@ -1,7 +1,8 @@
-//! A `versions.jsonl`: one run for each release of the line.
+//! Reading a `versions.jsonl`: one run per release of the line.
 //!
-//! `etalon bisect` does not draw every case with every release: what lies between two of one standing is taken to have
-//! it. The history says so too, so that all releases have the same cases, and marks what was not drawn.
+//! `etalon bisect` does not draw every case with every release: a release between two with the same
+//! standing is assumed to have that standing too. The history stores these outcomes and marks them as
+//! inferred, so that all releases have the same cases.
 
 use super::started::started;
 use crate::adapter::Adapter;
@@ -75,7 +76,7 @@ fn adapter(line: &str, release: &ReleaseRecord) -> NewAdapter {
     }
 }
 
-/// The outcome of a case by release; `None` where nothing is known.
+/// Returns the outcome of a case by release; `None` if it is unknown.
 fn outcomes(case: &CaseVersions) -> impl Iterator<Item = Option<Outcome>> + '_ {
     let mut before: Option<Verdict> = None;
     let each = case.verdicts.iter().zip(case.standings());
@@ -88,7 +89,7 @@ fn outcomes(case: &CaseVersions) -> impl Iterator<Item = Option<Outcome>> + '_ {
         before = drawn.or(before);
         match drawn {
             Some(verdict) => Some(outcome(*verdict)),
-            // What has a standing without being drawn lies behind one that was drawn.
+            // A release with an inferred standing follows one that was drawn.
             None => standing.and(before).map(outcome),
         }
     })

@@ -168,7 +168,7 @@ fn damage_is_named_with_its_line() {
         ),
         (
             lines(&timeless, &records()),
-            "run.jsonl:1: \"soon\" is no time",
+            "run.jsonl:1: \"soon\" is not a time",
         ),
         (
             lines(&header(2), &records()).replace("\"pass\"", "\"well\""),

@@ -6,13 +6,13 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "ordered-8-bit",
         "Layers are blended into 8 bits per channel.",
-        "Each layer rounds by up to half a code, of which one less alpha is left by the next: in the end half a code over alpha.",
+        "Each layer rounds by up to half a code, and the next layer keeps 1 - alpha of that error: half a code over alpha in total.",
         "Porter and Duff 1984, Compositing Digital Images",
     ),
     Lesson::new(
         "ordered-10-bit",
         "Layers are blended into 10 bits per channel.",
-        "As with 8 bits, a quarter as large; alpha has 2 bits.",
+        "As with 8 bits, but the error is a quarter as large; alpha has 2 bits.",
         "Vulkan: Blending",
     ),
     Lesson::new(

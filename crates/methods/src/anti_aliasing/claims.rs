@@ -18,7 +18,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "The area below an edge as alpha beats four samples of it.",
+        "Using the area below an edge as alpha beats four samples.",
         "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images: convolution with a box",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -52,7 +52,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         },
     )
     .of(&["checker-fan", "half-planes", "thin-wedge"])
-    .noting("Among the fragments is one more for each texel of the picture, which takes the mean; in these scenes the ground fills it."),
+    .noting("The pass that takes the mean adds one fragment per texel of the picture; in these scenes the ground fills the picture."),
     Claim::new(
         QUESTION,
         "Multisampling shades fewer fragments than supersampling with as many samples.",
@@ -89,7 +89,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["checker-fan", "half-planes", "thin-wedge"]),
     Claim::new(
         QUESTION,
-        "What no sample hit, a filter over the finished picture cannot bring back: four samples err less on what is thin.",
+        "A filter over the finished picture cannot restore what no sample hit: four samples err less on thin shapes.",
         "Jimenez and others 2011, Filtering Approaches for Real-Time Anti-Aliasing",
         Test::Ratio {
             quantity: Quantity::Rmse,

@@ -1,6 +1,7 @@
 //! Anti-aliasing.
 //!
-//! Each scene is a ground on texel borders and pieces with slanted edges on it, everything opaque.
+//! Each scene has a ground whose borders are on texel borders, and pieces with slanted edges on it.
+//! Everything is opaque.
 
 mod claims;
 mod lessons;
@@ -81,12 +82,12 @@ fn supersampled(edges: &Edges, doublings: u32) -> Scene {
     stage.read(&[picture])
 }
 
-/// The contrast of an edge: relative to the brightest neighbour, and the least (Lottes 2009).
+/// The least contrast of an edge: relative to the brightest neighbour, and absolute (Lottes 2009).
 const CONTRAST: [f32; 2] = [1.0 / 6.0, 1.0 / 12.0];
-/// The weight of single texels that stand out (version 3.11's default).
+/// The weight of single texels that stand out (the default of version 3.11).
 const SINGLE: f32 = 0.75;
 
-/// Draws one sample, and a pass over the picture that blends along its edges.
+/// Draws with one sample, then blends along the picture's edges in a second pass.
 fn fxaa(edges: &Edges) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));

@@ -1,20 +1,20 @@
-//! Convex pieces as what lies on one side of several lines.
+//! Convex pieces, each the intersection of half planes.
 
 use crate::polygon::Polygon;
 
-/// A line, by the distance from it.
+/// A directed line: the distance of a point from it is positive inside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    /// Of x and y in texels, of unit length: to the inside.
+    /// The unit vector that points inside, in texels.
     normal: [f64; 2],
-    /// The distance of the picture's corner.
+    /// The distance of the picture's corner from the line.
     offset: f64,
-    /// True if it is the end of a line segment where the next one begins.
+    /// True if the line ends a wire segment where the next one begins.
     end: bool,
 }
 
 impl Line {
-    /// The line through a point, with the inside in the normal's direction.
+    /// Creates the line through a point, with the inside in the normal's direction.
     pub(super) fn new(point: [f64; 2], [x, y]: [f64; 2]) -> Self {
         let length = x.hypot(y);
         let normal = [x / length, y / length];
@@ -25,12 +25,12 @@ impl Line {
         }
     }
 
-    /// The line as the end of a line segment.
+    /// Returns the line, marked as the end of a wire segment.
     pub(super) fn ending(self) -> Self {
         Self { end: true, ..self }
     }
 
-    /// The line with the other side as inside.
+    /// Returns the line with inside and outside exchanged.
     pub(super) fn reversed(self) -> Self {
         Self {
             normal: self.normal.map(|v| -v),
@@ -39,7 +39,7 @@ impl Line {
         }
     }
 
-    /// Returns the distance of a point to the inside, in texels.
+    /// Returns the distance of a point from the line, in texels; positive inside.
     pub(super) fn distance(&self, point: [f64; 2]) -> f64 {
         point[0] * self.normal[0] + point[1] * self.normal[1] + self.offset
     }
@@ -48,30 +48,30 @@ impl Line {
 /// A convex piece of one colour.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Left, top, right and bottom of where it may lie, on texel borders.
+    /// Left, top, right and bottom of the rectangle that clips it, on texel borders.
     pub(super) within: [f64; 4],
-    /// It lies inside all of them.
+    /// The lines that it is inside of.
     pub(super) lines: Vec<Line>,
     /// Its colour.
     pub(super) color: [f64; 4],
 }
 
-/// The depth of everything: nothing is in front of anything.
+/// The depth of everything: no piece hides another.
 pub(super) const DEPTH: f64 = 0.5;
 
-/// The distance outside of an edge up to which texels are drawn.
+/// The distance outside an edge up to which texels are drawn, in texels.
 const MARGIN: f64 = 1.0;
 
 impl Piece {
-    /// The piece as it is; `None` where nothing of it lies in its rectangle.
+    /// Returns the piece clipped to its rectangle; `None` if nothing is left.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         let corners = self.clipped(|point| self.lines.iter().map(|l| l.distance(point)).collect());
         self.drawn(corners, |_| 1.0)
     }
 
-    /// The piece in parts, one for each edge that is smoothed, of what is nearer to it than to the
-    /// others, a texel beyond the edges included. Texture coordinates hold the distance from it.
-    /// Unless `overlap` is set, the ends of line segments are none of these edges.
+    /// Splits the piece into one part per smoothed edge: the points that are nearer to it than to the other
+    /// smoothed edges, up to a texel beyond the edge. Texture coordinates hold the distance from the edge.
+    /// Ends of wire segments are smoothed only if `overlap` is set.
     pub(super) fn smooth(&self, overlap: bool) -> Vec<Polygon> {
         let (smooth, hard): (Vec<Line>, Vec<Line>) =
             self.lines.iter().partition(|l| overlap || !l.end);
@@ -98,7 +98,7 @@ impl Piece {
         })
     }
 
-    /// The corners of the rectangle's part in which all of these linear functions are at least 0
+    /// Returns the corners of the rectangle's part in which all these linear functions are at least 0
     /// (Sutherland and Hodgman 1974).
     fn clipped(&self, functions: impl Fn([f64; 2]) -> Vec<f64>) -> Vec<[f64; 2]> {
         let [left, top, right, bottom] = self.within;

@@ -8,16 +8,16 @@ use crate::stage::SIZE;
 use crate::truth::{Coverage, Truth};
 use std::f64::consts::TAU;
 
-/// A ground on texel borders and pieces on it.
+/// A ground on texel borders, and pieces on it.
 #[derive(Clone, Debug)]
 pub(super) struct Edges {
-    /// Red, green and blue where nothing is; where the ground is everywhere, it shows in seams alone.
+    /// Red, green and blue behind everything. If the ground covers the picture, it can only show in seams.
     pub(super) background: [f64; 3],
     /// The polygons below the pieces.
     pub(super) ground: Vec<Polygon>,
-    /// The pieces that are seen.
+    /// The pieces in front of the ground.
     pub(super) front: Vec<Piece>,
-    /// The visible ground, as pieces that fill the gaps between those in front.
+    /// The visible ground, as pieces that fill the gaps between the front pieces.
     pub(super) back: Vec<Piece>,
 }
 
@@ -28,7 +28,7 @@ const BEHIND: [f64; 3] = [0.0, 0.0, 0.0];
 const ALL: [f64; 4] = [0.0, 0.0, SIZE[0] as f64, SIZE[1] as f64];
 
 impl Edges {
-    /// The scene of a case.
+    /// Returns the scene of a case.
     ///
     /// # Errors
     /// If a parameter is out of its range.
@@ -45,7 +45,7 @@ impl Edges {
         })
     }
 
-    /// The ground and the pieces on it.
+    /// Returns the ground and the pieces on it.
     pub(super) fn polygons(&self) -> Vec<Polygon> {
         let front = self.front.iter().filter_map(Piece::polygon);
         self.ground.iter().cloned().chain(front).collect()
@@ -84,7 +84,7 @@ fn half_planes(angle: f64) -> Edges {
     let (mut front, mut back) = (Vec::new(), Vec::new());
     for i in 0..16_u32 {
         let [left, top] = [i % 4, i / 4].map(|v| f64::from(v) * 32.0);
-        // Between the sixteenths of a texel at which samples lie.
+        // Halfway between the sixteenths of a texel at which samples are.
         let offset = (f64::from(i) + 0.5) / 16.0;
         let middle = [left + 16.0 - sin * offset, top + 16.0 + cos * offset];
         let edge = Line::new(middle, [-sin, cos]);
@@ -150,7 +150,7 @@ fn checker_fan() -> Edges {
 /// Steps around the torus and around its tube.
 const STEPS: [u32; 2] = [18, 8];
 
-/// Width of wires in texels.
+/// The width of wires, in texels.
 const WIRE: f64 = 1.25;
 
 fn wire_torus() -> Edges {
@@ -160,7 +160,7 @@ fn wire_torus() -> Edges {
         let (t, d) = (TAU * f64::from(tube.0) / f64::from(tube.1) + 0.2).sin_cos();
         let radius = 1.0 + 0.4 * d;
         let [x, y, z] = [radius * c, radius * s, 0.4 * t];
-        // Turned about the horizontal axis, then seen from a distance of 5.
+        // Turns it about the horizontal axis, then views it from a distance of 5.
         let (tilt_sin, tilt_cos) = 0.9_f64.sin_cos();
         let [y, z] = [y * tilt_cos - z * tilt_sin, y * tilt_sin + z * tilt_cos];
         let scale = 190.0 / (5.0 + z);

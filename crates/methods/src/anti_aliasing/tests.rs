@@ -1,4 +1,4 @@
-//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
 use super::make;
 use super::scenes::Edges;
@@ -122,7 +122,7 @@ fn pieces_in_front_and_behind_fill_the_picture_without_overlap() {
             let pieces = edges.front.iter().chain(&edges.back);
             let sum: f64 = pieces.filter_map(|p| p.polygon()).map(|p| area(&p)).sum();
             let all = f64::from(SIZE[0] * SIZE[1]);
-            // Nothing is missing; that nothing lies twice follows, as each piece lies in the picture.
+            // Nothing is missing. Each piece is inside the picture, so nothing overlaps either.
             assert!((sum - all).abs() < 1e-6, "{name:?}: {sum}");
         }
     }
@@ -178,7 +178,7 @@ fn a_half_plane_at_no_angle_covers_known_shares() {
     });
     for (i, piece) in edges.front.iter().enumerate() {
         let polygon = piece.polygon().expect("half of the cell is covered");
-        // The edge lies so much below the middle of the cell.
+        // The edge is this far below the middle of the cell.
         let offset = (i as f64 + 0.5) / 16.0;
         assert!((area(&polygon) - 32.0 * (16.0 - offset)).abs() < 1e-9);
     }

@@ -11,9 +11,9 @@ pub struct Wire {
     pub(crate) scene: SceneName,
     /// The method.
     pub(crate) method: MethodName,
-    /// The angle of the edges of half planes to the rows of texels in degrees, 0 to 90.
+    /// The angle between the edges of half planes and the rows of texels in degrees, 0 to 90.
     pub(crate) angle: Option<f64>,
-    /// The opening of wedges in degrees, 0.25 to 60.
+    /// The opening angle of wedges in degrees, 0.25 to 60.
     pub(crate) opening: Option<f64>,
 }
 
@@ -43,9 +43,10 @@ pub(crate) enum MethodName {
     Supersampling4x4,
     /// One sample, blended along the edges that the picture's luma shows.
     Fxaa,
-    /// Alpha from the distance to the nearest edge, blended over a neighbour that reaches below.
+    /// Alpha from the distance to the nearest edge, blended over a neighbour that extends below the edge.
     CoverageToAlpha,
-    /// The same where neighbours share edges and each blends its own side, and where lines end.
+    /// The same, but neighbours that share an edge both blend their side of it, and the ends of wires are
+    /// blended too.
     CoverageToAlphaOverlap,
 }
 
@@ -53,11 +54,11 @@ pub(crate) enum MethodName {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SceneName {
-    /// Sixteen half planes whose edges lie at `angle` and at different parts of a texel.
+    /// Sixteen half planes whose edges have the angle `angle` and cross texels at different offsets.
     HalfPlanes,
     /// Four wedges that open by `opening`, in different directions.
     ThinWedge,
-    /// Sectors and rings around a point in two colours by turns.
+    /// Alternating sectors and rings in two colours around a point.
     CheckerFan,
     /// The wires of a torus, as quads a little wider than a texel.
     WireTorus,

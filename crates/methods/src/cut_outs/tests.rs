@@ -1,4 +1,4 @@
-//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
 use super::*;
 use crate::validity::assert_valid;

@@ -5,10 +5,11 @@ use crate::claim::{Claim, Condition, Test};
 const QUESTION: &str = "depth-precision";
 const GAPS: &[&str] = &["planes", "slanted"];
 
-/// A far plane at infinity changes each difference of depths by the factor 1 - near / far, which is 0.9999. Two depths less
-/// than a step apart get one code or two by the place of the step between them, which is another one behind that factor,
-/// and the rounding of vertices to 32 bits moves each of them by up to a step. So gaps of a few steps are resolved by
-/// chance, with either far plane, and those of eight steps are resolved with both.
+/// A far plane at infinity changes each difference of depths by the factor 1 - near / far, which is 0.9999.
+/// Whether two depths less than a step apart get different codes depends on where the step between them is.
+/// The factor moves that step, and rounding vertices to 32 bits moves each depth by up to a step. Gaps of a
+/// few steps are therefore resolved by chance with either far plane, and gaps of eight steps are resolved
+/// with both.
 const fn infinite(families: &'static [&'static str], from: f64) -> Claim {
     Claim::new(
         QUESTION,
@@ -45,7 +46,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         },
     )
     .of(GAPS),
-    // Eight steps at distance 900, and at 420, the first row's.
+    // Eight steps at distance 900, and at 420, the distance of the first row.
     infinite(&["planes"], 4.0),
     infinite(&["slanted"], 0.002),
     Claim::new(

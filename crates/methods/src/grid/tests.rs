@@ -30,7 +30,7 @@ fn settled_triangles_lie_on_the_grid_leave_no_gaps_and_touch_no_centre() {
         }
         covered += area(&corners(triangle));
     }
-    // As much is seen of its front as of its back: the box stays closed.
+    // The front and the back show the same area: the box stays closed.
     assert!(covered.abs() < 1e-9, "{covered}");
 }
 

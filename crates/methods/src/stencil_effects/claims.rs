@@ -17,7 +17,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["shadow-volume"]),
     Claim::new(
         QUESTION,
-        "A stencil keeps a reflection inside its mirror, where it would show beside it.",
+        "A stencil confines a reflection to its mirror; without one it shows outside too.",
         "Kilgard 1999, Improving Shadows and Reflections via the Stencil Buffer",
         Test::Unlike {
             right: "mirror",

@@ -1,4 +1,4 @@
-//! A mirror: the scene is drawn once more, upside down, where the stencil holds the mirror.
+//! A mirror: the scene is drawn a second time, upside down, in the stencil area of the mirror.
 
 use super::shown::{Shown, mark, only, opaque};
 use crate::grid::settle;
@@ -14,10 +14,10 @@ use serde::Deserialize;
 /// The method for the reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
-    /// Only where the stencil holds the mirror.
+    /// Only inside the stencil area of the mirror.
     #[serde(rename = "mirror")]
     Masked,
-    /// Everywhere: what is reflected beside the mirror shows too.
+    /// Everywhere, so that reflections also show outside the mirror.
     #[serde(rename = "mirror-unmasked")]
     Unmasked,
 }
@@ -25,7 +25,7 @@ pub enum MethodName {
 /// Half the mirror's width and depth.
 const HALF: [f64; 2] = [1.2, 1.5];
 
-/// A part of the ground.
+/// Returns a rectangle of the ground.
 fn ground([left, right, back, front]: [f64; 4], color: [f64; 4]) -> Face {
     Face {
         corners: vec![
@@ -62,7 +62,7 @@ fn boxes(shift: f64) -> Vec<Face> {
     [lower, upper].concat()
 }
 
-/// The parts of a triangle inside of others that do not overlap.
+/// Returns the parts of a triangle that are inside the `inside` triangles, which do not overlap.
 fn parts(triangle: &Polygon, inside: &[Polygon]) -> Vec<Surface> {
     let part = |area: &Polygon| {
         let [a, b, c] = [0, 1, 2].map(|i| DVec3::from(area.corners[i]));
@@ -100,7 +100,7 @@ pub(super) fn show(method: MethodName, shift: f64) -> Shown {
     area.stencil = mark(1);
     let mut image = opaque(&reflected);
     let mut glass = opaque(&mirror);
-    // The image behind it does not count for what stands before it.
+    // The mirror image is behind the mirror and must not hide the mirror's surface.
     glass.depth = stage::depth(CompareFunction::Always, true);
     glass.targets[0].blend = stage::over();
     let mut draws = vec![opaque(&frame)];

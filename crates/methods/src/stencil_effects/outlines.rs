@@ -1,4 +1,4 @@
-//! Outlines: each object is drawn into the stencil, then, larger, where the stencil does not hold it.
+//! Outlines: each object is drawn into the stencil, then drawn again, larger, outside its stencil area.
 
 use super::shown::{Shown, except, mark, opaque};
 use crate::grid::settle;
@@ -9,19 +9,19 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Whose outlines are drawn.
+/// Which objects have an outline of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
     /// One outline around all objects: they share a stencil value.
     #[serde(rename = "outline-merged")]
     Merged,
-    /// An outline around each object, also where it stands before another one: each object has a
-    /// stencil value of its own, and its outline its depth.
+    /// An outline around each object, even in front of another object: each object has its own stencil
+    /// value, and its outline has the object's depth.
     #[serde(rename = "outline-separate")]
     Separate,
 }
 
-/// Convex, clockwise in texels with y down, back to front.
+/// Returns convex shapes with their depth and colour, clockwise in texels with y down, back to front.
 fn objects() -> [(Vec<DVec2>, f64, [f64; 4]); 3] {
     let shape = |corners: &[[f64; 2]]| corners.iter().map(|c| DVec2::from(*c)).collect();
     let hexagon = shape(&[
@@ -41,17 +41,17 @@ fn objects() -> [(Vec<DVec2>, f64, [f64; 4]); 3] {
     ]
 }
 
-/// The convex shape with each edge moved outwards.
+/// Returns the convex shape with each edge moved outwards.
 fn larger(corners: &[DVec2], by: f64) -> Vec<DVec2> {
     let count = corners.len();
-    // Outwards of an edge of a clockwise shape, y down.
+    // The outward normal of an edge, for a clockwise shape with y down.
     let normal = |i: usize| {
         let along = (corners[(i + 1) % count] - corners[i]).normalize();
         DVec2::new(along.y, -along.x)
     };
     let corner = |i: usize| {
         let [m, n] = [normal((i + count - 1) % count), normal(i)];
-        // The point as far before both edges.
+        // The point that is `by` outside both edges.
         corners[i] + (m + n) * (by / (1.0 + m.dot(n)))
     };
     (0..count).map(corner).collect()
@@ -75,7 +75,7 @@ pub(super) fn show(method: MethodName, width: f64) -> Shown {
         let mut draw = opaque(&object);
         draw.stencil = mark(reference);
         draws.push(draw);
-        // One outline around all lies behind them all.
+        // A shared outline is behind all objects.
         let behind = if separate { depth } else { 0.9 };
         let around = polygon(&larger(&corners, width), behind, outline);
         let mut draw = opaque(&around);
@@ -86,7 +86,7 @@ pub(super) fn show(method: MethodName, width: f64) -> Shown {
             None
         };
         outlines.push(draw);
-        // At the same depth what comes later is in front.
+        // At equal depths, the later surface is in front.
         surfaces.extend(around.iter().chain(&object).map(Polygon::surface));
     }
     draws.extend(outlines);

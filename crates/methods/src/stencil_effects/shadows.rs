@@ -1,9 +1,9 @@
-//! Shadow volumes (Crow 1977; Heidmann 1991): a point lies in shadow when more sides of volumes lead in
-//! than out between it and a point that surely does not.
+//! Shadow volumes (Crow 1977; Heidmann 1991): a point is in shadow if, between it and a point that is
+//! certainly lit, more sides of volumes lead in than out.
 //!
-//! The picture is seen along z and light falls at a slant, so that a card's shadow on a plane behind it
-//! is the card moved. Cards stand on whole texels and light moves them by whole texels, so the edges of
-//! all shadows keep half a texel away from all centres.
+//! The picture is seen along z, and light falls at a slant, so that a card's shadow on a plane behind it is
+//! the card moved. Cards are on whole texels and light moves them by whole texels, so the edges of all
+//! shadows are half a texel away from all centres.
 
 use super::shown::{Shown, except, opaque, test};
 use crate::grid::settle;
@@ -19,10 +19,11 @@ use serde::Deserialize;
 /// The sides of volumes that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
-    /// Sides before what is seen, from the near plane on, which should lie in no volume (Heidmann 1991).
+    /// Sides in front of the visible surface, from the near plane on, which should be outside all volumes
+    /// (Heidmann 1991).
     #[serde(rename = "shadow-volume-depth-pass")]
     DepthPass,
-    /// Sides behind what is seen; the volumes are closed at both ends (Carmack 2000; Everitt and
+    /// Sides behind the visible surface; the volumes are closed at both ends (Carmack 2000; Everitt and
     /// Kilgard 2002).
     #[serde(rename = "shadow-volume-depth-fail")]
     DepthFail,
@@ -52,7 +53,7 @@ const CARDS: [Card; 4] = [
         z: 0.5,
         color: [0.5, 0.8, 0.4, 1.0],
     },
-    // The wall; its own shadow is out of sight.
+    // The wall. Its own shadow is not visible.
     Card {
         area: [0.0, 0.0, 128.0, 128.0],
         z: 0.9,
@@ -60,20 +61,20 @@ const CARDS: [Card; 4] = [
     },
 ];
 
-/// By how many texels light moves right and down on its way from z 0 to 1: 5 and 4 in a tenth.
+/// The number of texels by which light moves right and down from z 0 to z 1: 5 and 4 per tenth.
 const LIGHT: [f64; 2] = [50.0, 40.0];
 
-/// The end of volumes: behind the wall, before the far plane at 1.
+/// The end of volumes: behind the wall, and in front of the far plane at 1.
 const END: f64 = 0.97;
 
-/// The distance of a volume from its card, so that the two do not touch.
+/// The distance between a volume and its card, so that they do not touch.
 const BEHIND: f64 = 0.004;
 
-/// The share of light in a shadow.
+/// The brightness in a shadow.
 const SHADE: f64 = 0.5;
 
 impl Card {
-    /// The corners of the shadow at another depth, counter-clockwise as seen.
+    /// Returns the corners of the shadow at another depth, counter-clockwise as seen.
     fn shadow(&self, z: f64) -> [DVec3; 4] {
         let [left, top, right, bottom] = self.shadow_area(z);
         [[left, top], [left, bottom], [right, bottom], [right, top]]
@@ -86,7 +87,7 @@ impl Card {
         [left + dx, top + dy, right + dx, bottom + dy]
     }
 
-    /// The closed volume in the card's shadow, seen from outside.
+    /// Returns the faces of the closed volume in the card's shadow, seen from outside.
     fn volume(&self) -> Vec<Vec<DVec3>> {
         let [from, to] = [self.z + BEHIND, END].map(|z| self.shadow(z));
         let mut faces = vec![from.to_vec(), to.iter().rev().copied().collect()];
@@ -98,7 +99,7 @@ impl Card {
     }
 }
 
-/// Depth from 0 at the near plane, where the eye is, to 1 at the far plane, at z 1.
+/// Returns the window depth: 0 at the near plane, where the eye is, and 1 at the far plane, at z 1.
 fn window_depth(z: f64, eye: f64) -> f64 {
     (z - eye) / (1.0 - eye)
 }
@@ -119,7 +120,7 @@ fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
     settle(SIZE, &polygons)
 }
 
-/// Counts the sides of a volume.
+/// Returns a draw that counts the sides of a volume in the stencil.
 fn count(method: MethodName, volume: &[Polygon]) -> Draw {
     let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, volume));
     draw.depth = stage::depth(CompareFunction::Less, false);
@@ -143,7 +144,7 @@ fn count(method: MethodName, volume: &[Polygon]) -> Draw {
     draw
 }
 
-/// Takes light away wherever a count is left.
+/// Returns a draw that darkens texels whose count is not 0.
 fn darken() -> Draw {
     let mut draw = stage::draw(Shader::UniformColor, polygon::cover());
     draw.params.color = [0.0, 0.0, 0.0, 1.0 - SHADE as f32];
@@ -152,7 +153,7 @@ fn darken() -> Draw {
     draw
 }
 
-/// The cards behind the near plane, each followed by the shadows on it.
+/// Returns the cards behind the near plane, each followed by the shadows on it.
 fn surfaces(eye: f64) -> Vec<Surface> {
     let mut all = Vec::new();
     for on in CARDS.iter().filter(|card| card.z > eye) {

@@ -1,4 +1,4 @@
-//! The draws of an effect, and the stencil tests that effects share.
+//! The draws of an effect, and the stencil states that effects share.
 
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE};
@@ -12,14 +12,14 @@ pub(super) struct Shown {
     pub(super) surfaces: Vec<Surface>,
 }
 
-/// A draw of opaque triangles with a depth test.
+/// Returns a draw of opaque triangles with a depth test.
 pub(super) fn opaque(polygons: &[Polygon]) -> Draw {
     let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, polygons));
     draw.depth = stage::depth(CompareFunction::Less, true);
     draw
 }
 
-/// A stencil test that changes nothing.
+/// Returns a stencil test that does not change the stencil.
 pub(super) fn test(compare: CompareFunction, reference: u8) -> StencilFace {
     StencilFace {
         compare,
@@ -32,7 +32,7 @@ pub(super) fn test(compare: CompareFunction, reference: u8) -> StencilFace {
     }
 }
 
-/// The same for both faces.
+/// Returns the state with the same test for both faces.
 fn both(face: StencilFace) -> Option<StencilState> {
     Some(StencilState {
         front: face,
@@ -40,7 +40,7 @@ fn both(face: StencilFace) -> Option<StencilState> {
     })
 }
 
-/// Leaves a reference wherever something is drawn.
+/// Returns a state that stores the reference wherever something is drawn.
 pub(super) fn mark(reference: u8) -> Option<StencilState> {
     both(StencilFace {
         pass_op: StencilOperation::Replace,
@@ -48,12 +48,12 @@ pub(super) fn mark(reference: u8) -> Option<StencilState> {
     })
 }
 
-/// Draws only where there is the reference.
+/// Returns a state that draws only where the stencil equals the reference.
 pub(super) fn only(reference: u8) -> Option<StencilState> {
     both(test(CompareFunction::Equal, reference))
 }
 
-/// Draws only where there is something else.
+/// Returns a state that draws only where the stencil differs from the reference.
 pub(super) fn except(reference: u8) -> Option<StencilState> {
     both(test(CompareFunction::NotEqual, reference))
 }

@@ -6,18 +6,18 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "nearest",
         "A fragment has the colour of the texel at its centre.",
-        "Far away a texel of the picture holds many of the texture, of which one is picked: the ground flickers.",
+        "Far away, one texel of the picture covers many texels of the texture, and only one is picked: the ground flickers.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
     ),
     Lesson::new(
         "linear",
         "A fragment has the weighted mean of the four texels around its centre.",
-        "Four texels are too few far away, and near to the eye edges become as wide as a texel.",
+        "Four texels are too few far away, and close to the eye edges become as wide as a texel of the texture.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
     ),
     Lesson::new(
         "affine",
-        "Texture coordinates are interpolated over the picture, without a division by w.",
+        "Texture coordinates are interpolated linearly in the picture, without a division by w.",
         "The two triangles bend the ground, each its own way.",
         "Heckbert and Moreton 1991, Interpolation for Polygon Texture Mapping and Shading",
     ),
@@ -30,7 +30,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "supersampling-4x4",
         "The mean of sixteen fragments, each with its nearest texel.",
-        "As with four; sixteen times the fragments for a quarter of a row's distance.",
+        "As with four fragments; sixteen times the fragments sample the texture four times as finely.",
         "Fuchs and others 1985, Fast Spheres, Shadows, Textures, Transparencies, and Image Enhancements",
     ),
 ];

@@ -1,4 +1,4 @@
-//! The ground that a driver clips and divides is the ground of the truth.
+//! The ground that a driver clips and divides must be the ground of the truth.
 
 use super::*;
 use crate::view::clip;

@@ -12,7 +12,7 @@ pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
 /// The format of depths.
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// The background's colour, opaque.
+/// Returns the background's colour, opaque.
 pub(super) fn clear(glass: &Glass) -> [f64; 4] {
     let [r, g, b] = glass.background;
     [r, g, b, 1.0]
@@ -23,7 +23,7 @@ pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
     stage.depth("depth", DEPTH, SIZE, samples, 1.0)
 }
 
-/// A draw of the opaque polygons, with depth; `None` where there are none.
+/// Returns a draw of the opaque polygons, with depth; `None` if the scene has no opaque polygons.
 pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
     if glass.opaque.is_empty() {
         return None;
@@ -33,7 +33,7 @@ pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
     Some(draw)
 }
 
-/// A draw of the opaque polygons for their depth alone.
+/// Returns a draw of the opaque polygons that writes only depth.
 pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
     let mut draw = opaque(glass, shader)?;
     for target in &mut draw.targets {
@@ -42,7 +42,7 @@ pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
     Some(draw)
 }
 
-/// A draw of the opaque polygons' colours, the farthest first, without depth.
+/// Returns a draw of the opaque polygons' colours, the farthest first, without a depth test.
 pub(super) fn opaque_color(glass: &Glass) -> Option<Draw> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| b.corners[0][2].total_cmp(&a.corners[0][2]));
@@ -50,7 +50,7 @@ pub(super) fn opaque_color(glass: &Glass) -> Option<Draw> {
     some.then(|| draw(Shader::FlatColor, mesh(SIZE, &polygons)))
 }
 
-/// The polygon with its colour multiplied by its alpha.
+/// Returns the polygon with its colour multiplied by its alpha.
 pub(super) fn premultiplied(polygon: &Polygon) -> Polygon {
     let [r, g, b, a] = polygon.color;
     Polygon {

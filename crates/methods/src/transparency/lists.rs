@@ -8,8 +8,9 @@ use etalon_scene::{
     BlendFactor, BlendState, CompareFunction, EarlyTests, Params, Pool, Scene, Shader,
 };
 
-/// Two passes whatever there is: every fragment in front of what is opaque becomes a node of its texel's list, then
-/// the lists are sorted and composed over the picture. The pool holds so many nodes for each texel, on average.
+/// Builds two passes for any number of layers. The first adds every fragment in front of the opaque
+/// polygons to its texel's list; the second sorts the lists and composes them over the picture. The pool
+/// has `nodes` nodes per texel, on average.
 pub(super) fn linked_lists(glass: &Glass, polygons: &[Polygon], nodes: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
@@ -26,7 +27,7 @@ pub(super) fn linked_lists(glass: &Glass, polygons: &[Polygon], nodes: u32) -> S
     let mut append = draw(Shader::ListAppend, mesh(SIZE, polygons));
     append.params = params;
     append.depth = depth(CompareFunction::Less, false);
-    // What fails the depth test must not become a node, although the shader has side effects.
+    // A fragment that fails the depth test must not become a node, although the shader has side effects.
     append.early_tests = EarlyTests::Forced;
     append.targets[0].write_mask = 0;
     let draws = opaque(glass, Shader::FlatColor).into_iter().chain([append]);

@@ -8,18 +8,17 @@ use crate::stage::{SIZE, Stage, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
 
-/// Samples of a texel. The shader `stochastic` knows no more.
+/// Samples per texel, which the shader `stochastic` assumes.
 const SAMPLES: u32 = 4;
 
-/// Draws a number of samples that follows alpha.
+/// Covers a number of samples that follows alpha.
 pub(super) fn alpha_to_coverage(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
     glassy.multisample.alpha_to_coverage = true;
     resolved(glass, Stage::new(), vec![glassy])
 }
 
-/// A threshold for each sample says whether it is drawn, another one for each of several polygons that
-/// overlap.
+/// Draws each sample if its threshold is below alpha. Polygons that overlap have different thresholds.
 pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut alphas: Vec<f64> = polygons.iter().map(|p| p.color[3]).collect();
     alphas.sort_by(f64::total_cmp);
@@ -37,7 +36,7 @@ pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
     resolved(glass, stage, draws)
 }
 
-/// Draws with depth over what is opaque, and the mean of the samples.
+/// Draws the glass with depth over the opaque polygons, then takes the mean of the samples.
 fn resolved(glass: &Glass, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let contents = Contents::Color(clear(glass).map(|c| c as f32));
@@ -52,8 +51,8 @@ fn resolved(glass: &Glass, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
     stage.read(&[picture])
 }
 
-/// Polygons in as few groups as a first fit finds, so that none overlaps another of its group: what
-/// does not meet may share its thresholds.
+/// Groups polygons by first fit, so that no two in a group overlap. Polygons that do not overlap can share
+/// their thresholds.
 pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
     let mut layers: Vec<Vec<Polygon>> = Vec::new();
     for polygon in polygons {
@@ -66,8 +65,7 @@ pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
     layers
 }
 
-/// True if two convex polygons have a point of the picture in common: no edge of either separates
-/// them.
+/// Returns true if two convex polygons share a point of the picture: no edge of either separates them.
 fn overlap(a: &Polygon, b: &Polygon) -> bool {
     let range = |polygon: &Polygon, [x, y]: [f64; 2]| {
         let along = polygon.corners.iter().map(|c| c[0] * x + c[1] * y);
@@ -90,8 +88,8 @@ fn overlap(a: &Polygon, b: &Polygon) -> bool {
     !normals(a).into_iter().chain(normals(b)).any(separates)
 }
 
-/// A threshold for each sample of each texel. None is so close to an alpha that rounding decides, and
-/// each is below exactly those alphas that the number behind it is below.
+/// Returns a threshold code for each sample of each texel. No code is so close to an alpha that rounding
+/// decides, and each is below exactly the alphas that its random number is below.
 pub(super) fn thresholds(seed: u64, alphas: &[f64]) -> Vec<u32> {
     let mut noise = Noise::new(seed);
     let count = SIZE[0] * SIZE[1] * SAMPLES;

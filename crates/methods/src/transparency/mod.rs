@@ -1,7 +1,7 @@
-//! Transparency: how surfaces that let light through are composed.
+//! Transparency: how transparent surfaces are composed.
 //!
-//! Opaque surfaces come first or last, as a method needs it; all methods test transparent surfaces
-//! against their depth. Blending equations are those of Porter and Duff (1984).
+//! Opaque surfaces are drawn first or last, as a method needs them. All methods test transparent surfaces
+//! against their depth. The blend equations are those of Porter and Duff (1984).
 
 mod claims;
 mod draws;
@@ -26,9 +26,9 @@ use crate::method_scene::MethodScene;
 use scenes::Glass;
 use wire::MethodName;
 
-/// The number of layers that are peeled, or of nodes per texel, where no `k` is given.
+/// The number of layers that are peeled, or of nodes per texel, if no `k` is given.
 const PEELED_LAYERS: u32 = 8;
-/// The most nodes per texel: no API need have larger storage buffers.
+/// The most nodes per texel: no API requires support for larger storage buffers.
 const MOST_NODES: f64 = 32.0;
 
 /// Draws the scene by the method.

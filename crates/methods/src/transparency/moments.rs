@@ -7,11 +7,11 @@ use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Draw, Scene, Shader};
 
-/// The format of sums: moments are differences of large numbers, and need all bits of 32-bit floats.
+/// The format of sums. Moments are differences of large numbers and need all bits of 32-bit floats.
 const SUMS: TextureFormat = TextureFormat::Rgba32Float;
 
-/// Three passes whatever there is: absorbance and its moments, colours by transmittance, then their mean over
-/// the background.
+/// Builds three passes for any number of layers: absorbance and its moments, then colours by transmittance,
+/// then their mean over the background.
 pub(super) fn moment_based(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));

@@ -6,7 +6,7 @@ use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Params, Scene, Shader};
 
-/// The polygons of all objects, the farthest object first.
+/// Returns the polygons of all objects, the farthest object first.
 pub(super) fn by_object(glass: &Glass) -> Vec<Polygon> {
     let mut objects: Vec<&Object> = glass.objects.iter().collect();
     objects.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
@@ -14,7 +14,7 @@ pub(super) fn by_object(glass: &Glass) -> Vec<Polygon> {
     polygons.cloned().collect()
 }
 
-/// The triangles of all objects, the farthest first.
+/// Returns the triangles of all objects, the farthest first.
 pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
     let mut triangles = Vec::new();
     for polygon in glass.polygons() {
@@ -29,7 +29,7 @@ pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
     triangles
 }
 
-/// Blends polygons in their order over the opaque ones.
+/// Blends the polygons in their order over the opaque ones.
 pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
@@ -42,12 +42,12 @@ pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene
     stage.read(&[picture])
 }
 
-/// Draws polygons with an alpha of at least a half as opaque, and no others.
+/// Draws the polygons with an alpha of at least a half as opaque, and no others.
 pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);
-    // The shader does no more than the test when it is given no steps of work.
+    // With no steps of work, the shader only tests alpha.
     let mut tested = draw(Shader::ExpensiveDiscard, mesh(SIZE, polygons));
     tested.params = Params {
         color: [0.0, 0.0, 0.0, 0.5],
@@ -59,12 +59,12 @@ pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
     stage.read(&[picture])
 }
 
-/// Premultiplied colours under what is there, whose alpha says how much of it is covered.
+/// Returns the blend state that puts premultiplied colours under the picture, whose alpha is its coverage.
 pub(super) fn under() -> Option<BlendState> {
     both(add(BlendFactor::OneMinusDstAlpha, BlendFactor::One))
 }
 
-/// Everything opaque and the background, nearest first, to be drawn under what is there.
+/// Returns the opaque polygons and the background, nearest first, to be drawn under the glass.
 pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| a.corners[0][2].total_cmp(&b.corners[0][2]));
@@ -73,7 +73,7 @@ pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
     polygons
 }
 
-/// Blends objects nearest first. No depth is needed: nothing shows through what is opaque.
+/// Blends objects nearest first. This needs no depth, since nothing shows through opaque polygons.
 pub(super) fn front_to_back(glass: &Glass) -> Scene {
     let mut objects = glass.objects.clone();
     objects.extend(behind(glass).into_iter().map(|polygon| Object {

@@ -1,4 +1,4 @@
-//! Depth peeling, from the front and from both sides.
+//! Depth peeling, from the front or from both sides.
 
 use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth, premultiplied};
 use super::ordered::{behind, under};
@@ -13,7 +13,7 @@ use etalon_scene::{
 /// The format of peeled depths: that of the depth attachment, as a texture.
 const PEELED: TextureFormat = TextureFormat::Rgba32Float;
 
-/// A copy of a texture.
+/// Returns a draw that copies a texture.
 fn copy(texture: usize, blend: Option<BlendState>) -> Draw {
     let mut copy = draw(Shader::TexelColor, cover());
     copy.textures = vec![texture];
@@ -21,7 +21,7 @@ fn copy(texture: usize, blend: Option<BlendState>) -> Draw {
     copy
 }
 
-/// The nearest of what lies behind the layer before, `k` times, each time drawn under what is there
+/// Peels `k` times the nearest layer behind the previous one, and composes it under the picture so far
 /// (Everitt 2001).
 pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
@@ -39,7 +39,7 @@ pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scen
         let into = peeled[i as usize % peeled.len()];
         let mut draws = Vec::new();
         if i > 0 {
-            // What a clear does to the attachments of the first pass.
+            // The same as the clear that the first pass's attachments have.
             let mut clear = draw(Shader::Peel, far_cover());
             clear.textures = vec![nothing];
             clear.depth = depth(CompareFunction::Always, true);
@@ -66,14 +66,14 @@ pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scen
     stage.read(&[picture])
 }
 
-/// All of the picture at the farthest depth, in no colour.
+/// Returns a mesh over the whole picture at the farthest depth, without colour.
 fn far_cover() -> etalon_scene::Mesh {
     let all = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
     mesh(SIZE, &[Polygon::rect(all, 1.0, [0.0; 4])])
 }
 
-/// The nearest and the farthest layer, `k` times: the nearest under what is in front, the farthest
-/// over what is behind (Bavoil and Myers 2008).
+/// Peels `k` times the nearest and the farthest remaining layer: the nearest is composed under the front
+/// layers, the farthest over the back layers (Bavoil and Myers 2008).
 pub(super) fn dual_depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
@@ -97,7 +97,7 @@ pub(super) fn dual_depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) ->
     for i in 0..k as usize {
         let (from, to) = (i % 2, (i + 1) % 2);
         let textures = vec![ranges[from], fronts[from]];
-        // In front of everything that is left, the shader clears depths and back and keeps the front.
+        // Drawn in front of all remaining layers; the shader clears depths and back, and keeps the front.
         let mut clear = draw(Shader::DualPeel, cover());
         clear.textures = textures.clone();
         let mut peel = glassy(Shader::DualPeel);

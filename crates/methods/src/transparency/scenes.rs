@@ -10,12 +10,12 @@ use crate::truth::{Coverage, Truth};
 /// Polygons that are sorted as a whole.
 #[derive(Clone, Debug)]
 pub(super) struct Object {
-    /// Its faces, in the order in which it is drawn.
+    /// Its faces, in drawing order.
     pub(super) polygons: Vec<Polygon>,
 }
 
 impl Object {
-    /// The mean depth of its corners.
+    /// Returns the mean depth of its corners.
     pub(super) fn depth(&self) -> f64 {
         let corners = || self.polygons.iter().flat_map(|p| &p.corners);
         corners().map(|c| c[2]).sum::<f64>() / corners().count() as f64
@@ -31,7 +31,7 @@ pub(super) struct Glass {
     pub(super) opaque: Vec<Polygon>,
     /// Transparent objects, unsorted.
     pub(super) objects: Vec<Object>,
-    /// The part of a texel that counts: its area where edges are part of the question.
+    /// The part of a texel that counts: its whole area if edges are part of the question.
     pub(super) coverage: Coverage,
 }
 
@@ -60,7 +60,7 @@ impl Glass {
         Ok(scene)
     }
 
-    /// All faces of what is seen through, object by object.
+    /// Returns all transparent faces, object by object.
     pub(super) fn polygons(&self) -> impl Iterator<Item = &Polygon> {
         self.objects.iter().flat_map(|o| &o.polygons)
     }
@@ -91,14 +91,14 @@ const HUES: [[f64; 3]; 6] = [
     [0.15, 0.7, 0.75],
 ];
 
-/// Orange, of what is opaque.
+/// Orange, the colour of opaque polygons.
 const OPAQUE: [f64; 4] = [0.9, 0.5, 0.1, 1.0];
 
 fn tinted([r, g, b]: [f64; 3], alpha: f64) -> [f64; 4] {
     [r, g, b, alpha]
 }
 
-/// An object that is one polygon.
+/// Returns an object with a single polygon.
 fn pane(polygon: Polygon) -> Object {
     Object {
         polygons: vec![polygon],
@@ -131,7 +131,7 @@ fn windows(alpha: f64) -> Glass {
     }
 }
 
-/// Texels across that a pane at 45 degrees takes for all of the range of depths.
+/// The width in texels across which a pane at 45 degrees passes through the whole range of depths.
 const DEPTH_RANGE: f64 = 320.0;
 
 fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
@@ -155,7 +155,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
     }
 }
 
-/// A box that is open to the viewer: its front face, and its back face and sides in the middle of it.
+/// Returns a box that is open to the viewer: its front face, with its back face and sides seen through it.
 fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 4]) -> Object {
     let corners = |[left, top, right, bottom]: [f64; 4], depth: f64| {
         [
@@ -169,7 +169,7 @@ fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 
     let mut polygons = vec![Polygon::new(f.to_vec(), color)];
     for i in 0..4 {
         let next = (i + 1) % 4;
-        // Upright sides and those that lie differ, as if lit.
+        // Upright and level sides differ, as if lit.
         let shade = if i % 2 == 0 { 0.8 } else { 0.6 };
         let [red, green, blue, alpha] = color;
         let shaded = [red * shade, green * shade, blue * shade, alpha];
@@ -179,8 +179,8 @@ fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 
     Object { polygons }
 }
 
-/// No edge between two sides runs through a texel's centre: the steps between corners are no two odd
-/// multiples of one number.
+/// No edge between two sides passes through a texel's centre: the steps between corners are never two odd
+/// multiples of the same number.
 fn nested_glass(alpha: f64) -> Glass {
     let outer = glass_box(
         [8.0, 8.0, 120.0, 120.0],
@@ -211,7 +211,7 @@ fn nested_glass(alpha: f64) -> Glass {
     }
 }
 
-/// The numbers below `count`, each once and not in order.
+/// Returns the numbers below `count`, each once, in a mixed order.
 fn mixed(count: u32) -> impl Iterator<Item = u32> {
     let shares_none =
         |step: &u32| (2..=*step).all(|d| !(step.is_multiple_of(d) && count.is_multiple_of(d)));
@@ -243,7 +243,7 @@ fn thin_layers(layers: u32, alpha: f64) -> Glass {
     }
 }
 
-/// Strips of hair.
+/// The number of strips of hair.
 const STRIPS: u32 = 128;
 
 fn hair(alpha: f64) -> Glass {
@@ -275,7 +275,7 @@ fn hair(alpha: f64) -> Glass {
     }
 }
 
-/// Quads of smoke.
+/// The number of quads of smoke.
 const PUFFS: u32 = 12;
 
 fn smoke(alpha: f64) -> Glass {

@@ -1,4 +1,4 @@
-//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
 use super::ordered::{behind, by_object, by_triangle};
 use super::scenes::Glass;
@@ -224,7 +224,7 @@ fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
         assert_eq!(passes(MethodName::MomentBased, layers, None), 3);
         assert_eq!(passes(MethodName::LinkedLists, layers, None), 2);
         assert_eq!(passes(MethodName::Sorted, layers, None), 1);
-        // As many layers: one pass for each and one to blend it, or for two of them.
+        // The same number of layers takes a pass and a blending pass per layer, or per two layers.
         assert_eq!(passes(MethodName::DepthPeeling, layers, Some(8)), 16);
         assert_eq!(passes(MethodName::DualDepthPeeling, layers, Some(4)), 9);
         assert_eq!(passes(MethodName::DepthPeeling, layers, None), 16);
@@ -242,7 +242,7 @@ fn thresholds_keep_a_share_that_is_alpha_and_none_is_close_to_it() {
         let values = || codes.iter().map(|c| f64::from(*c) / 255.0);
         assert!(values().all(|v| (0.0..=1.0).contains(&v) && (v - alpha).abs() > 0.09 / 255.0));
         let share = values().filter(|v| *v <= alpha).count() as f64 / codes.len() as f64;
-        // Six standard deviations of so many samples.
+        // Six standard deviations of the mean of this many samples.
         assert!(
             (share - alpha).abs() < 6.0 * 0.5 / 256.0,
             "{share} of {alpha}"
@@ -269,7 +269,7 @@ fn layers_that_overlap_have_thresholds_of_their_own() {
     let layers = many_samples::layers(&strips);
     assert_eq!(layers.concat().len(), strips.len());
     assert!(layers.len() < strips.len() / 2, "{}", layers.len());
-    // Two strips beside each other share a layer only where their boxes or their slants part them.
+    // Neighbouring strips share a layer only if their boxes or their slants separate them.
     let apart = |a: &Polygon, b: &Polygon| {
         let side = |p: &Polygon, y: f64| {
             let [from, to] = [p.corners[0], p.corners[1]];
@@ -329,7 +329,7 @@ fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
         let depths: Vec<f64> = glass.polygons().map(at).collect();
         (0..3).min_by(|a, b| depths[*a].total_cmp(&depths[*b]))
     };
-    // At the right end of what all of them cover.
+    // At the right end of the area that all of them cover.
     assert_eq!(nearest(30.0, 103.0), Some(1));
     assert_eq!(nearest(45.0, 103.0), Some(2));
     assert_eq!(nearest(45.0, 64.0), Some(1));
@@ -349,7 +349,7 @@ fn no_shader_writes_what_half_floats_do_not_hold() {
             .flat_map(|d| d.mesh.vertices.chunks_exact(3))
             .map(|t| 3000.0 * (1.0 - t[0].position[2]).powi(3) * t[0].color[3].powi(2))
             .sum();
-        // The sum over all triangles is more than that at any texel.
+        // The sum over all triangles exceeds the sum at any texel.
         assert!(
             sum / 2.0 < 65504.0 || name == SceneName::Hair,
             "{name:?}: {sum}"

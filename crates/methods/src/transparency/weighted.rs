@@ -7,7 +7,8 @@ use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, BlendState, ColorTarget, CompareFunction, Scene, Shader};
 
-/// Two passes whatever there is: sums and what is left of the background, then the mean over it.
+/// Builds two passes for any number of layers: the weighted sums and the share of the background that
+/// remains, then the mean over it.
 pub(super) fn weighted_blended(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));

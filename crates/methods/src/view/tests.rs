@@ -5,7 +5,7 @@ use crate::corners::{area, corners};
 
 const SIZE: [u32; 2] = [128, 128];
 
-/// A regular polygon, turned.
+/// Returns a regular polygon that is turned by an angle.
 fn disc(sides: u32, turn: f64) -> Vec<DVec3> {
     let corner = |i: u32| {
         let (sin, cos) = (turn + f64::from(i) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
@@ -26,7 +26,7 @@ fn a_clipped_polygon_and_what_was_cut_off_make_the_whole() {
         assert!(cut.iter().all(|p| side(*p) < 1e-12));
         let whole = area(&kept) + area(&cut);
         assert!((whole - area(&shape)).abs() < 1e-12, "{whole}");
-        // Still flat.
+        // The polygon is still flat.
         assert!(kept.iter().all(|p| (p.z - 0.3 * p.x - 0.1).abs() < 1e-12));
     }
 }
@@ -52,7 +52,7 @@ fn window_depth_is_0_at_the_near_and_1_at_the_far_plane() {
     assert_eq!(window_depth(0.1, planes), 0.0);
     assert_eq!(window_depth(1000.0, planes), 1.0);
     assert!((window_depth(0.2, planes) - 0.50005).abs() < 1e-6);
-    // Exchanged, the same from the other end.
+    // With the planes exchanged, the same depths from the other end.
     let reversed = window_depth(7.0, [1000.0, 0.1]);
     assert!((window_depth(7.0, planes) + reversed - 1.0).abs() < 1e-12);
 }

@@ -4,13 +4,13 @@ use crate::claim::{Claim, Condition, Quantity, Test, one};
 
 const QUESTION: &str = "visibility-cost";
 
-/// Adapters on which a depth test saves fragments that are counted.
+/// A comparison that holds on adapters whose fragment counts a depth test lowers.
 const COUNTED: [&str; 2] = ["unsorted", "no-test"];
 
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "Front to back, a depth test shades fewer fragments than in no order.",
+        "A depth test shades fewer fragments front to back than in arbitrary order.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -32,12 +32,12 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Between(0.8, 1.2),
         },
     )
-    .noting("A prepass is drawn in the order of unsorted with the same test, and so has that method's fragments; what is left was shaded.")
+    .noting("A prepass is drawn in the order of unsorted with the same test, and so has that method's fragments; the rest were shaded.")
     .between(2.0, f64::INFINITY)
     .where_fewer(COUNTED),
     Claim::new(
         QUESTION,
-        "A depth prepass takes less time than no order where shading is expensive.",
+        "A depth prepass takes less time than arbitrary order if shading is expensive.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Time,
@@ -49,7 +49,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(8.0, f64::INFINITY),
     Claim::new(
         QUESTION,
-        "A shader that writes depth cannot be spared by early tests.",
+        "Early tests cannot skip a shader that writes depth.",
         "Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility; Vulkan: Early Fragment Test",
         Test::Ratio {
             quantity: Quantity::Fragments,

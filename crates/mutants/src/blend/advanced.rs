@@ -1,5 +1,5 @@
-//! Bugs of advanced blending: one mode for another, a step of a mode's function, the weights of coverage,
-//! and the division by alpha.
+//! Bugs of advanced blending: a mode is replaced by another, or a mode's function, the weights of coverage
+//! or the division by alpha is wrong.
 
 use crate::fields::Places;
 use crate::hooks::{advanced_blending, faithful_advanced};
@@ -8,12 +8,12 @@ use crate::plant::{Plant, draws};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::AdvancedBlend;
 
-/// Source and destination.
+/// The colours of source and destination.
 type Colors = [[f32; 4]; 2];
-/// The weights of both, of the source alone and of the destination alone, of two alphas.
+/// Returns the weights of the overlap, of the source alone and of the destination alone, for two alphas.
 type Weights = fn(f32, f32) -> [f32; 3];
 
-/// The function of a mode, by what it makes of opaque colours.
+/// Returns the result of a mode's function for opaque colours.
 fn mix(mode: AdvancedBlend, s: f32, d: f32) -> f32 {
     let floats = [ChannelEncoding::Float32; 4];
     faithful_advanced(mode, floats, [[s, s, s, 1.0], [d, d, d, 1.0]])[0]
@@ -23,7 +23,7 @@ fn over_alpha(color: f32, alpha: f32) -> f32 {
     if alpha == 0.0 { 0.0 } else { color / alpha }
 }
 
-/// Blends by a function and weights, of colours that are divided by their alphas or not.
+/// Blends with a function and weights. `divided` says which of the colours are divided by their alphas.
 fn composed(
     [src, dst]: Colors,
     f: impl Fn(f32, f32) -> f32,
@@ -47,7 +47,7 @@ fn parts(s: f32, d: f32) -> [f32; 3] {
     [s * d, s * (1.0 - d), d * (1.0 - s)]
 }
 
-/// The function of a mode is another one, given what it is to be.
+/// Replaces the function of a mode, given its correct result.
 fn mixes(wrong: AdvancedBlend, function: fn(f32, f32, f32) -> f32) -> Plant {
     advanced_blending(move |mode, encodings, colors: Colors| {
         if mode != wrong {
@@ -62,14 +62,14 @@ fn mixes(wrong: AdvancedBlend, function: fn(f32, f32, f32) -> f32) -> Plant {
     })
 }
 
-/// Coverage is weighed in another way.
+/// Replaces the weights of coverage.
 fn weighed(weights: Weights) -> Plant {
     advanced_blending(move |mode, _, colors: Colors| {
         composed(colors, |s, d| mix(mode, s, d), weights, [true; 2])
     })
 }
 
-/// Source or destination is not divided by its alpha.
+/// Blends without dividing source or destination by its alpha.
 fn undivided(divided: [bool; 2]) -> Plant {
     advanced_blending(move |mode, _, colors: Colors| {
         composed(colors, |s, d| mix(mode, s, d), parts, divided)

@@ -14,7 +14,7 @@ const CONSTANT: Places<[f32; 4]> = |d| vec![&mut d.blend_constant];
 
 type Values = [[f32; 1]; 4];
 
-/// Blends without any clamp of its own after `held` has clamped source, second source and constant.
+/// Blends without further clamping, after `held` has clamped some of source, second source and constant.
 fn held(held: fn(&mut Input)) -> Plant {
     before(move |_, encodings, input| {
         *encodings = [Float32; 4];
@@ -26,7 +26,7 @@ fn clamped(values: Values) -> Values {
     values.map(|[v]| [v.clamp(0.0, 1.0)])
 }
 
-/// Blending in codes of 8 bits: operands are rounded to codes, each side by `product(code, factor)`.
+/// Blends in 8-bit codes: operands are rounded to codes, and each side is `product(code, factor)`.
 fn integer(product: fn(u32, u32) -> u32) -> Plant {
     blending(move |state, encodings, input| {
         if encodings[0] != Unorm(8) {
@@ -57,7 +57,7 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
     })
 }
 
-/// A value as an exact code.
+/// Returns a value in units of 8-bit codes, not rounded.
 fn exact(v: f32) -> f64 {
     f64::from(v.clamp(0.0, 1.0)) * 255.0
 }

@@ -11,7 +11,7 @@ fn swap<T>(codes: &mut [T], texel: usize, [a, b]: [usize; 2]) {
     codes.chunks_exact_mut(texel).for_each(|t| t.swap(a, b));
 }
 
-/// Changes the first contents of attachments of a format.
+/// Changes the initial contents of attachments of a format.
 fn contents_of(
     format: TextureFormat,
     bug: impl Fn(&mut Contents) + Send + Sync + 'static,
@@ -33,7 +33,7 @@ fn bgra(bug: fn(&mut Draw)) -> Plant {
     })
 }
 
-/// The mask with red and blue exchanged.
+/// Returns the mask with red and blue exchanged.
 fn exchanged(mask: u8) -> u8 {
     (mask & 0b1010) | (mask & 1) << 2 | (mask >> 2 & 1)
 }

@@ -1,4 +1,4 @@
-//! Clears when passes load and between draws, and discards: skipped, moved, or wider than asked for.
+//! Clears on load and between draws, and discards: skipped, moved, or larger than requested.
 
 use crate::aspects::{
     ASPECTS, BOTH, clear, discard, is_cleared, is_discarded, load, reach_both, reaches, word,
@@ -20,7 +20,7 @@ fn commands(bug: impl Fn(&Pass, &mut Clear) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// Leaves out the commands that `keeps` does not keep, given their pass and those before them.
+/// Removes the commands for which `keeps` is false, given their pass and the earlier commands.
 fn without(keeps: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let asked = &scene.passes[number];
@@ -31,7 +31,7 @@ fn without(keeps: impl Fn(&Pass, &[Clear], &Clear) -> bool + Send + Sync + 'stat
     })
 }
 
-/// Loads where a pass clears to the same value as the clear before, which may be the first contents.
+/// Loads instead of clearing if the last clear, or the initial contents, had the same value.
 fn skip_equal(scene: &mut Scene) {
     let mut last = PassOperations::default();
     for pass in &mut scene.passes {

@@ -1,4 +1,4 @@
-//! Contents that a pass change or a submission loses or keeps.
+//! Contents that are wrongly lost or kept when a pass or submission begins.
 
 use crate::aspects::{ASPECTS, word};
 use crate::list::bugs;
@@ -20,8 +20,8 @@ fn restore(aspect: Aspect, from: &Surface, to: &mut Surface) {
     }
 }
 
-/// Restores one aspect of what a pass draws to, or of all attachments where none has begun, at `to`, as
-/// it was at `from`.
+/// Restores one aspect of a pass's attachments, or of all attachments if no pass has begun. At the moment
+/// `to`, they get their contents of the moment `from`.
 fn restored(
     aspect: Aspect,
     from: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
@@ -47,7 +47,7 @@ fn restored(
     })
 }
 
-/// True at the end of the last pass.
+/// Returns true at the end of the last pass.
 fn at_end(moment: Moment, scene: &Scene) -> bool {
     matches!(moment, Moment::End { pass } if pass + 1 == scene.passes.len())
 }

@@ -1,4 +1,4 @@
-//! Queries side by side, and queries over several draws or passes.
+//! Concurrent queries, and queries over several draws or passes.
 
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, frames, passes, scene};
@@ -19,7 +19,7 @@ fn alike(bug: fn(&mut [u64])) -> Plant {
     })
 }
 
-/// Removes each counter from one of several draws that it counts, given how many there are.
+/// Removes each counter from one of the draws that it counts, chosen by `which` from their number.
 fn uncounted(scene: &mut Scene, which: fn(usize) -> usize) {
     for counter in 0..scene.counters.len() {
         let draws = scene.passes.iter_mut().flat_map(|p| &mut p.draws);
@@ -31,7 +31,7 @@ fn uncounted(scene: &mut Scene, which: fn(usize) -> usize) {
     }
 }
 
-/// Removes the counters of draws that other passes count too.
+/// Removes counters from draws if draws of other passes have them too.
 fn counted_elsewhere(draws: &mut [Draw], others: &[etalon_scene::Pass]) {
     let others = others.iter().flat_map(|p| &p.draws);
     let known: Vec<usize> = others.flat_map(|d| d.counters.clone()).collect();

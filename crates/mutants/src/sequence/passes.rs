@@ -1,4 +1,4 @@
-//! Passes that lose what earlier ones drew, their draws, attachments or resolves, or their promises; and
+//! Passes that lose the drawing of earlier passes, or their draws, attachments, resolves or promises; and
 //! submissions after the first.
 
 use crate::fields::{DEPTH, DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
@@ -10,13 +10,13 @@ use etalon_scene::{Pass, Scene, StencilOperation};
 
 const TILER: &str = "Mali, PowerVR, Turnip: contents that a tiler does not keep";
 
-/// True if two passes draw to one attachment at least.
+/// Returns true if two passes draw to a common attachment.
 fn share(a: &Pass, b: &Pass) -> bool {
     let color = a.color.iter().any(|i| b.color.contains(i));
     color || a.depth_stencil.is_some() && a.depth_stencil == b.depth_stencil
 }
 
-/// Empties the passes of which a later one would lose what they drew, given both and their distance.
+/// Clears passes whose output a later pass discards. `lost` decides, given both passes and their distance.
 fn lose(lost: impl Fn(&Pass, &Pass, usize) -> bool + Send + Sync + 'static) -> Plant {
     passes(move |asked, number, pass| {
         let mut later = (1..).zip(&asked.passes[number + 1..]);
@@ -26,7 +26,7 @@ fn lose(lost: impl Fn(&Pass, &Pass, usize) -> bool + Send + Sync + 'static) -> P
     })
 }
 
-/// Empties some passes, given those before each.
+/// Clears some passes, given the earlier passes.
 fn emptied(strikes: fn(&[Pass], &Pass) -> bool) -> Plant {
     passes(move |asked, number, pass| {
         if strikes(&asked.passes[..number], pass) {
@@ -35,7 +35,7 @@ fn emptied(strikes: fn(&[Pass], &Pass) -> bool) -> Plant {
     })
 }
 
-/// Changes each pass but the first, given the pass before it.
+/// Changes each pass except the first, given the previous pass.
 fn after(bug: impl Fn(&Pass, &mut Pass) + Send + Sync + 'static) -> Plant {
     passes(move |asked, number, pass| {
         if number > 0 {
@@ -44,7 +44,7 @@ fn after(bug: impl Fn(&Pass, &mut Pass) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// Changes each pass but the last.
+/// Changes each pass except the last.
 fn earlier(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
     passes(move |asked, number, pass| {
         if number + 1 < asked.passes.len() {
@@ -53,7 +53,7 @@ fn earlier(bug: impl Fn(&mut Pass) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// Formats, sizes and samples of attachments.
+/// Returns the formats, sizes and sample counts of attachments.
 fn shape(
     scene: &Scene,
     indices: impl IntoIterator<Item = usize>,

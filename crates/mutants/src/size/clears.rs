@@ -1,4 +1,4 @@
-//! Bugs of clears of memory that a driver only notes as cleared.
+//! Bugs of clears that a driver only records instead of writing memory.
 
 use crate::aspects::{BOTH, clear, is_cleared, load, reach_both, reaches};
 use crate::list::bugs;
@@ -6,7 +6,7 @@ use crate::plant::{Plant, contents, passes};
 use etalon_frame::Aspect;
 use etalon_scene::{Attachment, Clear, ClearTarget, Contents, LoadOperation, Pass, Scene};
 
-/// Changes passes over attachments of more than 64 texels, given the scene and their size.
+/// Changes passes whose attachments are larger than 64 texels, given the scene and their size.
 fn large(bug: impl Fn(&mut Pass, &Scene, [u32; 2]) + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let size = scene.pass_size(&scene.passes[number]);
@@ -21,7 +21,7 @@ fn commands(bug: impl Fn(&mut Clear, [u32; 2]) + Send + Sync + 'static) -> Plant
     large(move |pass, _, size| pass.clears.iter_mut().for_each(|c| bug(c, size)))
 }
 
-/// Changes the clear values of colour in such passes.
+/// Changes the clear colours of such passes.
 fn color_loads(bug: impl Fn(&mut [f32; 4]) + Send + Sync + 'static) -> Plant {
     large(move |pass, _, _| {
         for operations in &mut pass.operations.color {
@@ -32,7 +32,7 @@ fn color_loads(bug: impl Fn(&mut [f32; 4]) + Send + Sync + 'static) -> Plant {
     })
 }
 
-/// A rectangle with its edges on multiples of a side, at most as large as the attachments.
+/// Extends a rectangle to multiples of a tile's side, within the attachments.
 fn outward([x, y, w, h]: [u32; 4], side: u32, size: [u32; 2]) -> [u32; 4] {
     let [left, top] = [x, y].map(|v| v / side * side);
     let right = (x + w).next_multiple_of(side).min(size[0]);
@@ -40,7 +40,7 @@ fn outward([x, y, w, h]: [u32; 4], side: u32, size: [u32; 2]) -> [u32; 4] {
     [left, top, right - left, bottom - top]
 }
 
-/// The whole tiles in a rectangle.
+/// Returns the whole tiles inside a rectangle.
 fn inward([x, y, w, h]: [u32; 4], side: u32) -> [u32; 4] {
     let [left, top] = [x, y].map(|v| v.next_multiple_of(side));
     let [width, height] =
@@ -48,7 +48,7 @@ fn inward([x, y, w, h]: [u32; 4], side: u32) -> [u32; 4] {
     [left, top, width, height]
 }
 
-/// Changes what large attachments start from.
+/// Changes the initial contents of large attachments.
 fn large_contents(bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant {
     contents(move |attachment: &mut Attachment| {
         if attachment.size[0].max(attachment.size[1]) > 64 {

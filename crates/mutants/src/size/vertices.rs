@@ -1,13 +1,13 @@
-//! Bugs of indices, offsets and instances: the mesh that a driver fetches which takes one number of a
-//! draw call wrongly.
+//! Bugs of indices, offsets and instances: a driver misreads one number of a draw call and fetches another
+//! mesh.
 
 use crate::list::bugs;
 use crate::plant::{Plant, draws, from_draw};
 use IndexFormat::{Uint16, Uint32};
 use etalon_scene::{Call, Draw, Fetch, IndexFormat, Mesh, PrimitiveTopology, RESTART};
 
-/// Draws what is fetched for another call than was asked for. Fetches beyond a buffer give its first
-/// vertex, as robust access does.
+/// Draws the mesh that a changed call fetches. Fetches beyond a buffer return its first vertex, as robust
+/// access does.
 fn called(bug: impl Fn(&mut Call<'_>, &Draw) + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
         if draw.fetch == Fetch::default() && draw.mesh.vertices.len() < 65_000 {
@@ -17,12 +17,12 @@ fn called(bug: impl Fn(&mut Call<'_>, &Draw) + Send + Sync + 'static) -> Plant {
         let mut call = asked.call();
         bug(&mut call, &asked);
         draw.mesh = fetched(&call);
-        // A backend would fetch the mesh by its path once more.
+        // A backend would otherwise apply the numbers to the fetched mesh again.
         draw.fetch = Fetch::default();
     })
 }
 
-/// The mesh that a call fetches.
+/// Returns the mesh that a call fetches.
 fn fetched(call: &Call<'_>) -> Mesh {
     let range = call.first as usize..(call.first + call.count) as usize;
     let moved = |index: u32| {
@@ -62,7 +62,7 @@ fn fetched(call: &Call<'_>) -> Mesh {
     part.instanced(&colors)
 }
 
-/// Changes the calls with indices.
+/// Changes calls with indices.
 fn indexed(bug: fn(&mut Call<'_>)) -> Plant {
     called(move |call, _| {
         if call.indices.is_some() {
@@ -71,7 +71,7 @@ fn indexed(bug: fn(&mut Call<'_>)) -> Plant {
     })
 }
 
-/// Changes the calls without indices.
+/// Changes calls without indices.
 fn straight(bug: fn(&mut Call<'_>)) -> Plant {
     called(move |call, _| {
         if call.indices.is_none() {
@@ -80,7 +80,7 @@ fn straight(bug: fn(&mut Call<'_>)) -> Plant {
     })
 }
 
-/// Changes the indices of a size, of draws that it strikes.
+/// Changes the indices of one format, in draws for which `strikes` is true.
 fn indices(format: IndexFormat, strikes: fn(&Draw) -> bool, bug: fn(u32) -> u32) -> Plant {
     called(move |call, draw| {
         if call.index == format && strikes(draw) {
@@ -99,7 +99,7 @@ fn any(_: &Draw) -> bool {
     true
 }
 
-/// True of lists of primitives that share no vertices.
+/// Returns true for topologies whose primitives share no vertices.
 fn lists(draw: &Draw) -> bool {
     use PrimitiveTopology::{LineList, PointList, TriangleList};
     [PointList, LineList, TriangleList].contains(&draw.topology)

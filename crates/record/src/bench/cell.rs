@@ -1,7 +1,7 @@
-//! Cells of the performance matrix: two cases that differ in their number of layers alone.
+//! Cells of the performance matrix: two cases that differ only in their number of layers.
 //!
-//! A cell has no time of its own. Its rate is the slope between the times of its two cases, over the work that
-//! one has and the other has not, which the pictures tell.
+//! A cell has no time of its own. Its rate is the slope between the times of its two cases, over the
+//! difference of their work, which is recorded with their pictures.
 
 use super::record::BenchRecord;
 use super::time::Time;
@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 const AREA: &str = "perf/matrix/";
 /// The axis in which the cases of a cell differ.
 const LAYERS: &str = "layers=";
-/// The most texels of a triangle that is counted as a triangle: larger ones take their time from their texels.
+/// The most texels of a triangle that is counted as a triangle: the time of larger ones depends on their
+/// texels.
 const LARGEST: u64 = 1024;
 
 /// Returns the name of the cell that a case belongs to: its id without the number of layers. `None` outside the
@@ -28,15 +29,15 @@ pub fn cell(case: &str) -> Option<String> {
 }
 
 state_enum! {
-    /// The unit of work of a cell.
+    /// The unit of a cell's work.
     Measure {
         /// Texels that triangles cover.
         Texels = "texels",
-        /// Triangles.
+        /// Triangles that are drawn.
         Triangles = "triangles",
         /// Texels that are cleared.
         Cleared = "cleared",
-        /// Texels that are resolved to.
+        /// Texels that a resolve writes.
         Resolved = "resolved",
         /// Texels that are read back.
         Read = "read",
@@ -44,7 +45,8 @@ state_enum! {
 }
 
 impl Measure {
-    /// The unit of work in which two works differ, and by how much; `None` if `more` is not the larger one.
+    /// Returns the unit in which two amounts of work differ, and the difference; `None` if `more` is not
+    /// the larger one.
     pub fn between(less: Work, more: Work) -> Option<(Self, u64)> {
         let difference = |f: fn(Work) -> u64| f(more).checked_sub(f(less));
         let passes = [
@@ -69,20 +71,21 @@ impl Measure {
 pub struct CellRate {
     /// The unit of work.
     pub measure: Measure,
-    /// The work between the two cases.
+    /// The difference of the two cases' work.
     pub work: u64,
-    /// The time that was taken.
+    /// The kind of time that was compared.
     pub time: Time,
-    /// The slope between the two.
+    /// The slope between the two cases.
     pub slope: Slope,
-    /// The median time of each round, of the case with less work and of the one with more.
+    /// The median time of each round: of the case with less work, then of the case with more.
     pub medians: [Vec<f64>; 2],
 }
 
 impl CellRate {
-    /// Computes the rate from the records of a cell's cases in either order; `None` without a round of both, or
-    /// without a difference of their work. Timestamps of a device count where all rounds have them and the
-    /// adapter is not the processor itself, else wall time; reading back has a time of its own.
+    /// Computes the rate from the records of a cell's cases, in either order. `None` if the cases share no
+    /// round, or if their work does not differ. Uses GPU timestamps if all rounds have them and the adapter
+    /// is not the processor itself, and wall time otherwise; cells that read back use the time of reading
+    /// back.
     pub fn new(first: &BenchRecord, other: &BenchRecord, software: bool) -> Option<Self> {
         let works = (first.picture.work?, other.picture.work?);
         let (less, more, (measure, work)) = match Measure::between(works.0, works.1) {

@@ -17,7 +17,7 @@ pub struct BenchHeader {
     pub format: u32,
     /// The suite's version.
     pub etalon: String,
-    /// The commit that the suite was built from, where it is known.
+    /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The machine.
@@ -34,36 +34,36 @@ pub struct BenchHeader {
     pub rounds: u32,
     /// The contents of the drivers' shader caches on disk.
     pub shader_cache: ShaderCache,
-    /// A description of the fixed work on the processor that is timed around each round. It changes when the
-    /// work does. Benches with different rulers cannot be corrected by them.
+    /// A description of the fixed work on the processor that is timed around each round. It changes when
+    /// the work does. Benches with different rulers cannot be corrected by them.
     pub ruler: String,
     /// The settings that it was measured with.
     #[serde(default)]
     pub settings: BenchSettings,
     /// The adapters that were timed.
     pub adapters: Vec<AdapterRecord>,
-    /// The adapters that were looked for and cannot be used.
+    /// The adapters that were looked for and could not be used.
     pub absent: Vec<AbsentAdapter>,
 }
 
-/// The settings of a bench. They must be the same when it is resumed, but for the time limits.
+/// The settings of a bench. A bench can be resumed only with the same settings, except for the time limits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchSettings {
-    /// The digest of the ids that were selected before sharding, as a run's.
+    /// The digest of the ids that were selected before sharding, computed as for a run.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub selection: String,
-    /// The part of the selection that is measured; all of it where there is none.
+    /// The part of the selection that is measured; all of it if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
-    /// Seconds that the timed frames of a case take in a round, about.
+    /// Seconds that the timed frames of a case take in a round, approximately.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// Seconds that one answer of a worker may take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
-    /// The share of the rate or time within which an interval is narrow enough to take no further rounds; all
-    /// rounds are taken where there is none.
+    /// The relative width at which an interval is narrow enough that the case takes no further rounds; if
+    /// absent, all rounds are taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within: Option<f64>,
     /// Seconds that the rounds of an adapter may take, all together.
@@ -72,7 +72,7 @@ pub struct BenchSettings {
 }
 
 impl BenchHeader {
-    /// The adapter of this name.
+    /// Returns the adapter with this name.
     pub fn adapter(&self, name: &str) -> Option<&AdapterRecord> {
         self.adapters.iter().find(|a| a.name == name)
     }

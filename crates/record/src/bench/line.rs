@@ -42,8 +42,8 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// True if the picture was judged and is right. A wrong picture has no frame time, and neither has one
-    /// of which nothing was asserted.
+    /// Returns true if the picture was judged and is right. A picture that is wrong, or about which nothing
+    /// was asserted, has no frame times.
     pub fn may_be_timed(&self) -> bool {
         matches!(
             self.verdict,
@@ -64,22 +64,23 @@ pub struct Round {
     pub round: u32,
     /// The start of the round, since that of the bench.
     pub at: f64,
-    /// The ruler right before and right after the round.
+    /// The ruler's times right before and right after the round.
     pub ruler: [f64; 2],
     /// Preparing the scene: all that a driver does once, such as creating pipelines.
     pub prepare: f64,
-    /// The first frame after preparing, until the device was done; part of the warm-up.
+    /// The time of the first frame after preparing, until the device was done; part of the warm-up.
     pub first: f64,
     /// Frames drawn before the first sample, including the very first; they are discarded.
     pub warm_up: u32,
-    /// Frames, until the device was done.
+    /// The times of the frames, until the device was done.
     pub wall: Vec<f64>,
-    /// The same frames, until the last call that submits work returned.
+    /// The times of the same frames, until the last call that submits work returned.
     pub cpu: Vec<f64>,
-    /// The same frames, between GPU timestamps; empty where there are none.
+    /// The times of the same frames, between GPU timestamps; empty if the device has none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gpu: Vec<f64>,
-    /// The mean clock of the processors in MHz right before and right after the round, where the system tells.
+    /// The mean clock of the processors in MHz right before and right after the round, if the system
+    /// reports it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clock: Option<[f64; 2]>,
     /// Reading the frame back, if that was timed.
@@ -88,7 +89,7 @@ pub struct Round {
 }
 
 impl Round {
-    /// The samples of one time in the order of measuring; empty where it was not measured.
+    /// Returns the samples of one time in the order of measuring; empty if it was not measured.
     pub fn samples(&self, time: Time) -> &[f64] {
         match time {
             Time::Wall => &self.wall,
@@ -100,7 +101,7 @@ impl Round {
         }
     }
 
-    /// The ruler's time for this round: the geometric mean of the two.
+    /// Returns the ruler's time for this round: the geometric mean of the times before and after it.
     pub fn ruler_time(&self) -> f64 {
         (self.ruler[0] * self.ruler[1]).sqrt()
     }
@@ -114,8 +115,8 @@ pub struct Ended {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// Crash, Timeout, DeviceLost, ResourceError, InternalError; Flaky or Fail where a picture after
-    /// a round differs from the judged one.
+    /// `Crash`, `Timeout`, `DeviceLost`, `ResourceError` or `InternalError`; `Flaky` or `Fail` if a picture
+    /// after a round differs from the judged one.
     pub verdict: Verdict,
     /// The cause.
     pub message: String,
@@ -131,7 +132,7 @@ state_enum! {
     }
 }
 
-/// The end of a case's rounds on an adapter, with which it is complete.
+/// The line that ends a case's rounds on an adapter because it needs no more; the case is then complete.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Done {

@@ -16,7 +16,7 @@ use std::path::Path;
 pub struct Bench {
     /// The first line.
     pub header: BenchHeader,
-    /// Per case and adapter, in the order in which their pictures were judged.
+    /// One record per case and adapter, in the order in which their pictures were judged.
     pub records: Vec<BenchRecord>,
     /// True if the last line was cut off, as a killed bench leaves it; the line is dropped.
     pub truncated: bool,
@@ -27,12 +27,12 @@ const REMEDY: &str = "remove the line, or record the bench again";
 
 impl Bench {
     /// Reads `bench.jsonl` in a bench folder. A last line that is not whole JSON is dropped and
-    /// noted; any other line must parse and agree with those before it.
+    /// noted; any other line must parse and fit the lines before it.
     ///
     /// # Errors
-    /// When there is no bench, it is in another format, or a line is damaged or impossible: a time
-    /// that is not above zero, a round of a picture that was not judged or is wrong, an adapter that
-    /// the header does not name.
+    /// If the folder holds no bench, if its format is unknown, or if a line is damaged or impossible: a
+    /// time that is not above zero, a round of a picture that was not judged or is wrong, or an adapter
+    /// that the header does not name.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         Ok(Self::read_prefix(folder)?.0)
     }
@@ -49,7 +49,7 @@ impl Bench {
         Self::parse_prefix(&path, file)
     }
 
-    /// Reads the lines of a `bench.jsonl` from anywhere. Errors name `path`.
+    /// Reads the lines of a `bench.jsonl` from any source. Errors name `path`.
     ///
     /// # Errors
     /// As [`Bench::read`].
@@ -79,14 +79,14 @@ impl Bench {
         Ok((bench, extent.bytes))
     }
 
-    /// The record of a case on an adapter.
+    /// Returns the record of a case on an adapter.
     pub fn record(&self, case: &str, adapter: &str) -> Option<&BenchRecord> {
         let mut records = self.records.iter();
         records.find(|r| r.picture.case == case && r.picture.adapter == adapter)
     }
 
-    /// The number of rounds that a complete bench has and this one lacks. A case whose picture may not be
-    /// timed, whose rounds ended with a reason or are enough, lacks none.
+    /// Returns the number of rounds that this bench lacks to be complete. A case lacks none if its picture
+    /// may not be timed, or if its rounds ended early.
     pub fn missing(&self) -> u64 {
         let rounds = u64::from(self.header.rounds);
         let pairs = self
@@ -115,7 +115,7 @@ struct Assembly {
 }
 
 impl Assembly {
-    /// Adds a line, or returns why it cannot follow those before it.
+    /// Adds a line, or returns why it cannot follow the lines before it.
     fn take(&mut self, line: BenchLine) -> Result<(), String> {
         match line {
             BenchLine::Picture(picture) => self.picture(picture),
@@ -148,7 +148,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// The record that a line belongs to.
+    /// Returns the record that a line belongs to.
     fn open(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
         let key = (case.to_owned(), adapter.to_owned());
         let place = self.places.get(&key).copied();
@@ -163,7 +163,9 @@ impl Assembly {
             ));
         }
         if record.ended.is_some() || record.enough.is_some() {
-            return Err(format!("{case:?} on {adapter:?} had ended before this"));
+            return Err(format!(
+                "{case:?} on {adapter:?} already ended before this line"
+            ));
         }
         Ok(record)
     }
@@ -173,10 +175,7 @@ impl Assembly {
         let record = self.open(&round.case, &round.adapter)?;
         let expected = record.rounds.len();
         if round.round as usize != expected {
-            return Err(format!(
-                "round {} where round {expected} is due",
-                round.round
-            ));
+            return Err(format!("round {} instead of round {expected}", round.round));
         }
         record.rounds.push(round);
         Ok(())

@@ -8,28 +8,27 @@ use super::time::Time;
 pub struct BenchRecord {
     /// Its picture with the verdict.
     pub picture: Picture,
-    /// Its rounds, by number; empty where the picture may not be timed.
+    /// Its rounds, by number; empty if the picture may not be timed.
     pub rounds: Vec<Round>,
-    /// The reason for having fewer rounds than others.
+    /// Why it has fewer rounds than others, if an error ended them.
     pub ended: Option<Ended>,
-    /// The reason for needing no more rounds than it has.
+    /// Why it needs no more rounds than it has.
     pub enough: Option<Enough>,
 }
 
 impl BenchRecord {
-    /// True if further rounds are due until it has all: its picture is right, and neither did they end nor are
-    /// they enough.
+    /// Returns true if the case needs further rounds: its picture is right, and its rounds have not ended.
     pub fn is_open(&self) -> bool {
         self.picture.may_be_timed() && self.ended.is_none() && self.enough.is_none()
     }
 
-    /// The samples of one time, round by round; rounds without any are left out.
+    /// Returns the samples of one time, round by round; skips rounds without any.
     pub fn samples(&self, time: Time) -> Vec<&[f64]> {
         let samples = self.rounds.iter().map(|r| r.samples(time));
         samples.filter(|s| !s.is_empty()).collect()
     }
 
-    /// The ruler's time of each round that has samples of this time, as [`BenchRecord::samples`].
+    /// Returns the ruler's time of each round that has samples of this time, as [`BenchRecord::samples`].
     pub fn rulers(&self, time: Time) -> Vec<f64> {
         let timed = |r: &&Round| !r.samples(time).is_empty();
         self.rounds
@@ -39,7 +38,7 @@ impl BenchRecord {
             .collect()
     }
 
-    /// The number of frames drawn and discarded as warm-up.
+    /// Returns the number of frames drawn and discarded as warm-up.
     pub fn discarded(&self) -> u64 {
         self.rounds.iter().map(|r| u64::from(r.warm_up)).sum()
     }

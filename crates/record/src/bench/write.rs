@@ -22,19 +22,19 @@ pub struct BenchWriter {
 }
 
 impl BenchWriter {
-    /// Begins a bench in a folder, which is made when it does not exist. A bench that the folder
-    /// already holds is replaced, and its reports stay.
+    /// Begins a bench in a folder, and creates the folder if it does not exist. Replaces a bench that the
+    /// folder already holds, but keeps its reports.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds something else than a bench.
+    /// If the folder cannot be written to, or holds anything other than a bench.
     pub fn create(folder: &Path, header: &BenchHeader) -> Result<Self, RecordError> {
         Self::replace(folder, header, ReportFiles::NONE)
     }
 
-    /// [`BenchWriter::create`], which also removes the reports of the bench before.
+    /// Like [`BenchWriter::create`], but also removes the reports of the earlier bench.
     ///
     /// # Errors
-    /// When the folder cannot be written to, or holds something else than a bench.
+    /// If the folder cannot be written to, or holds anything other than a bench.
     pub fn replace(
         folder: &Path,
         header: &BenchHeader,
@@ -55,11 +55,11 @@ impl BenchWriter {
         Ok(Self { path, file })
     }
 
-    /// Resumes the bench that a folder holds, and returns what it holds. A last line that was cut off is
-    /// removed.
+    /// Resumes the bench in a folder, and returns what was recorded so far. Removes a last line that was
+    /// cut off.
     ///
     /// # Errors
-    /// When there is no bench, it is damaged, or it is another bench than that of the header.
+    /// If the folder holds no bench, a damaged one, or a bench that does not match the header.
     pub fn resume(folder: &Path, header: &BenchHeader) -> Result<(Self, Bench), RecordError> {
         let (mut bench, whole) = Bench::read_prefix(folder)?;
         if let Some(reason) = bench_conflict(&bench.header, header) {
@@ -77,7 +77,7 @@ impl BenchWriter {
     /// Appends one line in a single write.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn append(&mut self, line: &BenchLine) -> Result<(), RecordError> {
         self.write(&json_line("a line of a bench", line)?)
     }

@@ -188,12 +188,12 @@ fn impossible_lines_are_told_with_file_and_line() {
         (
             vec![pass(), BenchLine::Round(round(1))],
             3,
-            "round 0 is due",
+            "round 1 instead of round 0",
         ),
         (
             vec![pass(), ended(), BenchLine::Round(round(0))],
             4,
-            "had ended",
+            "already ended",
         ),
         (of(&|r| r.wall[1] = 0.0), 3, "a time of 0 s"),
         (of(&|r| r.ruler[0] = -1.0), 3, "a time of -1 s"),

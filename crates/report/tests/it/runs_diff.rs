@@ -196,7 +196,7 @@ fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
             .frame_error
             .as_ref()
             .unwrap()
-            .contains("no path below")
+            .contains("not a path below")
     );
     assert!(
         found.warnings[0].contains("1 pair of frames"),

@@ -1,8 +1,8 @@
-//! The clock of the processors, where the system tells it.
+//! The clock of the processors, if the system reports it.
 
 use std::fs;
 
-/// The mean clock of all processors in MHz; `None` where `/proc/cpuinfo` does not tell.
+/// Returns the mean clock of all processors in MHz; `None` if `/proc/cpuinfo` does not report it.
 pub(crate) fn measure() -> Option<f64> {
     mean(&fs::read_to_string("/proc/cpuinfo").ok()?)
 }

@@ -11,15 +11,17 @@ use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hasher};
 use std::time::{Duration, Instant};
 
-/// The slot in which a round's scene is prepared: one at a time, so that big frames do not add up.
+/// The slot in which a round's scene is prepared. Scenes are prepared one at a time, so that big frames do
+/// not add up.
 const SLOT: u32 = 0;
-/// Frames in each of the two stretches that are compared to detect that a driver has warmed up.
+/// Frames in each of the two stretches that are compared to detect the end of the warm-up.
 const STRETCH: usize = 5;
 /// The largest relative difference of the medians of the two stretches after the warm-up.
 const STEADY: f64 = 0.05;
 /// The most frames of a warm-up.
 const MOST_WARM_UP: usize = 60;
-/// The fewest and the most timed frames of a round: more rounds tell more than more frames in each.
+/// The fewest and the most timed frames of a round. More rounds give more information than more frames per
+/// round.
 const FRAMES: [u32; 2] = [3, 25];
 /// The most times that a frame is read back in a round.
 const MOST_READ_BACKS: usize = 3;
@@ -36,11 +38,12 @@ pub(crate) struct RoundTimes {
 }
 
 impl WorkerProcess {
-    /// Prepares a scene, warms up, times frames for about `budget`, and reads back. `timeout` limits each answer.
+    /// Prepares a scene, warms up, times frames for about `budget`, and reads back. `timeout` limits each
+    /// answer.
     ///
-    /// Warm-up ends when the median of the last five frames lies within 5 % of that of the five before,
-    /// after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at the
-    /// first frame and some once more at the second, so two frames are never timed.
+    /// The warm-up ends when the median of the last five frames is within 5 % of the median of the five
+    /// before, after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at
+    /// the first frame, and some compile again at the second, so two frames are never timed.
     pub(crate) fn round(
         &mut self,
         scene: &Scene,
@@ -102,7 +105,7 @@ impl WorkerProcess {
     }
 }
 
-/// A duration in seconds, at least the nanosecond that is a clock's finest step.
+/// Returns a duration in seconds, at least the nanosecond that is a clock's finest step.
 pub(crate) fn seconds(time: Duration) -> f64 {
     time.as_secs_f64().max(1e-9)
 }
@@ -113,7 +116,7 @@ fn median(times: &[Duration]) -> Duration {
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
 }
 
-/// True if the last frames take as long as those before them.
+/// Returns true if the last frames take as long as the frames before them.
 fn steady(warm: &[Duration]) -> bool {
     let Some(from) = warm.len().checked_sub(2 * STRETCH) else {
         return false;
@@ -123,7 +126,7 @@ fn steady(warm: &[Duration]) -> bool {
     (last - before).abs() <= STEADY * before
 }
 
-/// A hash of a frame's images. The frames of a whole bench would not fit into memory.
+/// Returns a hash of a frame's images. The frames of a whole bench would not fit into memory.
 pub(crate) fn fingerprint(frame: &Frame) -> u64 {
     let mut hasher = DefaultHasher::new();
     for image in &frame.images {

@@ -1,4 +1,4 @@
-//! The ruler: a fixed piece of work on the processor, whose time shows the present speed of the machine.
+//! The ruler: a fixed amount of work on the processor, whose time shows the current speed of the machine.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,15 +12,15 @@ pub(crate) const RULER: &str = if cfg!(debug_assertions) {
 
 /// Passes of one repetition: about two milliseconds on a processor of 2020. Tests need no meaningful times.
 const PASSES: u32 = if cfg!(debug_assertions) { 80 } else { 8000 };
-/// Repetitions, of which the least counts: what interrupts a thread only makes it slower.
+/// The number of repetitions. The least time counts, because interruptions only make a thread slower.
 const REPEATS: u32 = 3;
-/// Floats of each of two tables: 8 KiB, which the nearest cache holds.
+/// Floats in each of two tables: 8 KiB, which fits into the nearest cache.
 const TABLE: usize = 2048;
 
-/// The time that the work takes now, in seconds.
+/// Returns the time that the work takes now, in seconds.
 ///
-/// Independent operations side by side, as rasterizers do them, keep all of a core's units busy. So the
-/// ruler notices when a neighbour takes some of these, which work bound by latency would not.
+/// Independent operations, as in a rasterizer, keep all units of a core busy. The ruler therefore shows
+/// when another process uses some of these units, which work bound by latency would not.
 pub(crate) fn measure() -> f64 {
     let mut values: Vec<f32> = (0..TABLE).map(|i| i as f32).collect();
     let steps: Vec<f32> = (0..TABLE).map(|i| (i % 7) as f32).collect();
@@ -38,7 +38,7 @@ fn work(values: &mut [f32], steps: &[f32]) {
         for (value, step) in values.iter_mut().zip(steps) {
             *value = *value * 0.5 + step;
         }
-        // Each pass counts: without this they could be exchanged with the loop inside.
+        // Keeps every pass: without this, the compiler could exchange the passes with the inner loop.
         black_box(&mut *values);
     }
 }

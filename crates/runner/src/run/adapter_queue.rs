@@ -14,30 +14,30 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock};
 use std::time::{Duration, Instant};
 
-/// The most cases that a thread takes at a time. Neighbours share states that drivers cache, so they
-/// should reach the same worker.
+/// The most cases that a thread takes at a time. Neighbouring cases share states that drivers cache, so
+/// they should go to the same worker.
 const CHUNK: usize = 16;
 /// The most cases of an adapter that are checked again.
 const MAX_RECHECKS: u32 = 256;
-/// The most cases of an adapter for which the cases that must precede them are searched.
+/// The most cases of an adapter for which the runner searches the cases that must precede them.
 const MAX_SEARCHES: u32 = 8;
 
 /// The queue of one adapter's cases.
 pub(super) struct AdapterQueue {
     pub(super) launch: Launch,
     pub(super) adapter: AdapterRecord,
-    /// Why the driver does not start; nothing is drawn then.
+    /// Why the driver does not start; if set, nothing is drawn.
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
-    /// Numbers of the cases that have no record, in drawing order, without those of `first`.
+    /// The indices of cases without a record, in drawing order, except those in `first`.
     numbers: Vec<usize>,
     first: First,
-    /// The outcome of the round trips, once all are drawn.
+    /// The result of the round trips, once all are drawn.
     round_trips: OnceLock<RoundTrips>,
     taken: Mutex<usize>,
-    /// Threads that take from it.
+    /// The number of threads that take from it.
     threads: AtomicUsize,
-    /// The worker that discovery left running.
+    /// The worker that was started to discover the adapter, and is still running.
     running: Mutex<Option<Worker>>,
     state: Mutex<State>,
     written: AtomicU64,
@@ -46,22 +46,22 @@ pub(super) struct AdapterQueue {
 /// The round trips that are drawn before all other cases.
 #[derive(Clone, Debug, Default)]
 pub(super) struct First {
-    /// Their numbers, in drawing order.
+    /// Their indices, in drawing order.
     pub(super) numbers: Vec<usize>,
-    /// Those of them that get no record: they are not selected, or have one.
+    /// The indices of round trips without a record of their own: not selected, or already recorded.
     pub(super) silent: BTreeSet<usize>,
-    /// What those that were drawn before the run was resumed showed.
+    /// The results of round trips that were drawn before the run was resumed.
     pub(super) known: RoundTrips,
 }
 
 /// The state that the workers of an adapter share.
 #[derive(Debug, Default)]
 pub(super) struct State {
-    /// Frame files of imprecise cases, by case file.
+    /// The number of frame files of imprecise cases, by case file.
     pub(super) imprecise_frames: HashMap<String, u32>,
-    /// Rechecks that gave the same verdict again, by kind.
+    /// The number of rechecks that gave the same verdict again, by kind.
     confirmed: HashMap<Symptom, u32>,
-    /// The counts of bad verdicts that were checked again, and that were not.
+    /// The numbers of bad verdicts that were checked again and that were not.
     rechecks: Rechecks,
     searches: u32,
     begun: Option<Instant>,
@@ -86,7 +86,7 @@ impl AdapterQueue {
         }
     }
 
-    /// The queue of an adapter whose driver does not start.
+    /// Returns the queue of an adapter whose driver does not start.
     pub(super) fn not_started(numbers: Vec<usize>, adapter: AdapterRecord, error: String) -> Self {
         let launch = Launch {
             adapter: adapter.name.clone(),
@@ -121,8 +121,8 @@ impl AdapterQueue {
         }
     }
 
-    /// Takes the next cases; empty when all are taken. The share shrinks with what is left, so that all
-    /// workers end at the same time.
+    /// Takes the next cases; empty if all are taken. The share shrinks with the number of cases left, so
+    /// that all workers end at about the same time.
     pub(super) fn take(&self) -> VecDeque<usize> {
         let mut taken = lock(&self.taken);
         let left = self.numbers.len() - *taken;
@@ -133,39 +133,39 @@ impl AdapterQueue {
         numbers.collect()
     }
 
-    /// The number of cases in the queue at its beginning that get a record.
+    /// Returns the number of cases that get a record, counted at the start of the run.
     pub(super) fn cases(&self) -> u64 {
         let first = self.first.numbers.iter();
         (self.numbers.len() + first.filter(|n| self.records(**n)).count()) as u64
     }
 
-    /// True if a case gets a record.
+    /// Returns true if a case gets a record.
     pub(super) fn records(&self, number: usize) -> bool {
         !self.first.silent.contains(&number)
     }
 
-    /// The round trips to draw, and what is known of others.
+    /// Returns the round trips to draw, and the known results of others.
     pub(super) fn first(&self) -> &First {
         &self.first
     }
 
-    /// The outcome of the round trips. The first thread draws them; all others wait for it.
+    /// Returns the result of the round trips. The first thread draws them, and all others wait for it.
     pub(super) fn round_trips_or(&self, draw: impl FnOnce() -> RoundTrips) -> &RoundTrips {
         self.round_trips.get_or_init(draw)
     }
 
-    /// The outcome of the round trips, once all are drawn.
+    /// Returns the result of the round trips, once all are drawn.
     pub(super) fn round_trips(&self) -> Option<&RoundTrips> {
         self.round_trips.get()
     }
 
-    /// True if a free thread finds something to draw.
+    /// Returns true if there is work for a free thread.
     fn has_more(&self) -> bool {
         let before = !self.first.numbers.is_empty() && self.round_trips.get().is_none();
         before || *lock(&self.taken) < self.numbers.len()
     }
 
-    /// Takes the worker that discovery left running.
+    /// Takes the worker that was started to discover the adapter.
     pub(super) fn take_running(&self) -> Option<Worker> {
         lock(&self.running).take()
     }
@@ -174,7 +174,7 @@ impl AdapterQueue {
         lock(&self.state)
     }
 
-    /// True for the first thread.
+    /// Marks the adapter as begun, and returns true for the first thread.
     pub(super) fn begin(&self) -> bool {
         let mut state = self.state();
         let first = state.begun.is_none();
@@ -182,7 +182,7 @@ impl AdapterQueue {
         first
     }
 
-    /// Counts a record; after the last one, the time that all took.
+    /// Counts a written record. After the last record, returns the time that all of them took.
     pub(super) fn written(&self) -> Option<Duration> {
         let written = self.written.fetch_add(1, Ordering::Relaxed) + 1;
         let begun = self.state().begun;
@@ -197,14 +197,16 @@ impl AdapterQueue {
         self.threads.fetch_sub(1, Ordering::Relaxed);
     }
 
-    /// True if a bad verdict is to be checked again: so many of each kind, so that a broken driver does not double
-    /// a run. The limits are counts, never times.
+    /// Returns true if a bad verdict must be checked again. Only `most` of each kind are, so that a broken
+    /// driver does not double the time of a run. The limits are counts, which do not depend on
+    /// the machine's speed.
     pub(super) fn may_recheck(&self, kind: &Symptom, most: u32) -> bool {
         let mut state = self.state();
         let confirmed = state.confirmed.get(kind).copied().unwrap_or(0);
         let fits = confirmed < most && state.rechecks.done < u64::from(MAX_RECHECKS);
         if fits {
-            // Counted as confirmed until it is not, so that no other worker exceeds the limit meanwhile.
+            // Counted as confirmed until it is refuted, so that no other worker exceeds the limit in the
+            // meantime.
             *state.confirmed.entry(kind.clone()).or_default() += 1;
             state.rechecks.done += 1;
         } else {
@@ -213,7 +215,7 @@ impl AdapterQueue {
         fits
     }
 
-    /// Notes that a recheck gave another verdict: its kind stays to be checked.
+    /// Records that a recheck gave another verdict, so that further verdicts of its kind are checked.
     pub(super) fn refuted(&self, kind: &Symptom) {
         let mut state = self.state();
         if let Some(confirmed) = state.confirmed.get_mut(kind) {
@@ -221,12 +223,12 @@ impl AdapterQueue {
         }
     }
 
-    /// The counts of bad verdicts that were checked again, and that were not.
+    /// Returns the numbers of bad verdicts that were checked again and that were not.
     pub(super) fn rechecks(&self) -> Rechecks {
         self.state().rechecks
     }
 
-    /// True if the cases that must precede a case may be searched.
+    /// Returns true if the cases that must precede a case may be searched.
     pub(super) fn may_search(&self) -> bool {
         let mut state = self.state();
         state.searches += 1;
@@ -234,9 +236,10 @@ impl AdapterQueue {
     }
 }
 
-/// The queue that a free thread takes from: one that has cases left, and the fewest threads.
+/// Returns the queue that a free thread takes from: of those with cases left, the one with the fewest
+/// threads.
 pub(super) fn next(queues: &[AdapterQueue]) -> Option<&AdapterQueue> {
-    // Two threads may choose the same queue at the same time; then both take from it.
+    // Two threads can choose the same queue at the same time; then both take from it.
     let threads = |queue: &AdapterQueue| queue.threads.load(Ordering::Relaxed);
     let open = queues.iter().filter(|q| q.has_more());
     let open = open.filter(|q| !q.launch.alone || threads(q) == 0);

@@ -1,4 +1,4 @@
-//! One adapter's part of a run, without its workers: judging drawings and writing records.
+//! One adapter's part of a run, except its workers: judging drawings and writing records.
 
 use super::adapter_queue::AdapterQueue;
 use super::plan::KeptFrames;
@@ -18,14 +18,15 @@ use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Se
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// Frame files and stories of imprecise cases per adapter and case file; failures keep all of theirs.
+/// The number of frame files and stories of imprecise cases that are kept per adapter and case file;
+/// failures keep all.
 const IMPRECISE_FRAMES: u32 = 3;
-/// The factor by which a case that is measured may take longer than others.
+/// The factor by which a case that is measured may take longer than other cases.
 const MEASURING: u32 = 4;
 /// The most bytes of one validation message that a record keeps.
 const MESSAGE_BYTES: usize = 1000;
 
-/// A judged drawing, of which nothing is written yet.
+/// A judged drawing that has not been written yet.
 pub(super) struct Observation {
     pub(super) record: Record,
     pub(super) frame: Option<FrameFile>,
@@ -45,7 +46,7 @@ impl<'s> AdapterRun<'s, '_> {
         self.shared.cases[number]
     }
 
-    /// The limits of waiting for a case.
+    /// Returns the limits of waiting for a case.
     pub(super) fn wait(&self, case: &Case) -> Wait<'s> {
         Wait {
             timeout: if case.measured {
@@ -57,12 +58,12 @@ impl<'s> AdapterRun<'s, '_> {
         }
     }
 
-    /// The time that a case which is measured may take.
+    /// Returns the time limit of a case that is measured.
     pub(super) fn measuring_timeout(&self) -> Duration {
         self.shared.options.timeout * MEASURING
     }
 
-    /// Records every case as a Crash, since the driver does not start.
+    /// Records every case as a `Crash`, because the driver does not start.
     pub(super) fn record_not_started(&self, error: &str) {
         loop {
             let numbers = self.queue.take();
@@ -80,7 +81,7 @@ impl<'s> AdapterRun<'s, '_> {
         }
     }
 
-    /// The record of a case that is not drawn on this adapter; `None` if it is to be drawn.
+    /// Returns the record of a case that is not drawn on this adapter; `None` if it must be drawn.
     pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
         let case = self.case(number);
         let adapter = &self.queue.adapter;
@@ -111,8 +112,8 @@ impl<'s> AdapterRun<'s, '_> {
         Some(record)
     }
 
-    /// A record with what the expectations say of it. A case that is not drawn for a reason that is expected is
-    /// expected itself.
+    /// Returns a record with what the expectations say about it. A case that is not drawn for an expected
+    /// reason is expected itself.
     pub(super) fn settled(&self, mut record: Record) -> Record {
         if record.verdict != Verdict::Skipped {
             let inherited = record.expected.take();
@@ -122,7 +123,7 @@ impl<'s> AdapterRun<'s, '_> {
         record
     }
 
-    /// Judges a drawing. `report` makes the report on a failed one.
+    /// Judges a drawing. `report` makes the report if drawing failed.
     pub(super) fn observe(
         &self,
         number: usize,
@@ -168,7 +169,7 @@ impl<'s> AdapterRun<'s, '_> {
         observed
     }
 
-    /// Writes the frame and the pictures that are worth keeping, and shortens the rest.
+    /// Writes the frame and pictures if they are kept, and shortens the record.
     pub(super) fn keep(
         &self,
         number: usize,
@@ -190,11 +191,11 @@ impl<'s> AdapterRun<'s, '_> {
         }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
         if record.due_fail && record.verdict.is_violation() {
-            // The frame file shows the rest of a failure that is due.
+            // The frame file shows the rest of an expected failure.
             record.wrong.truncate(4);
         }
         if record.verdict == Verdict::Imprecise {
-            // Legal deviations come by the hundred, and one texel shows of which kind they are.
+            // There can be hundreds of legal deviations, and one texel shows what kind they are.
             record.wrong.truncate(if kept.is_some() { 16 } else { 1 });
             if kept.is_none() {
                 record.story = None;
@@ -212,7 +213,7 @@ impl<'s> AdapterRun<'s, '_> {
         Ok(())
     }
 
-    /// Writes the pictures of a method and of the truth, if this case and adapter are chosen for it.
+    /// Writes the pictures of a method and of the truth, if this case and adapter are chosen for that.
     fn keep_picture(
         &self,
         number: usize,
@@ -275,8 +276,8 @@ impl<'s> AdapterRun<'s, '_> {
     }
 }
 
-/// Notes the messages of validation. Calls that break the API's rules are the suite's error: their result
-/// says nothing about the driver.
+/// Records the messages of validation. Calls that break the API's rules are an error of the suite: their
+/// result says nothing about the driver.
 fn note_validation(record: &mut Record, messages: Vec<String>) {
     let Some(first) = messages.first() else {
         return;

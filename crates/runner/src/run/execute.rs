@@ -1,4 +1,4 @@
-//! Execution of a plan: the folder, the shared state and the threads.
+//! Executing a plan: the folder, the shared state and the threads.
 
 use super::adapter_queue::{self, AdapterQueue, First};
 use super::pictures::pictured;
@@ -15,10 +15,10 @@ use etalon_record::{LossKind, Record, RunWriter, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
 
-/// Runs every case on every adapter. Events come from several threads.
+/// Runs every case on every adapter. Several threads report events.
 ///
 /// # Errors
-/// When the run folder cannot be written to, or holds another run than the one to resume.
+/// If the run folder cannot be written to, or holds another run than the one to resume.
 pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary, RunError> {
     let mut summary = RunSummary::default();
     let mut done: HashSet<(String, String)> = HashSet::new();
@@ -31,7 +31,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
             cases.push(case);
         }
     }
-    // By adapter: the round trips that a run which is resumed has records of.
+    // By adapter: the round trips that a resumed run has already recorded.
     let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
     let writer = if plan.resume {
         let (writer, run) =
@@ -114,8 +114,9 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     Ok(summary)
 }
 
-/// The round trips that an adapter draws first. One that has a record is as that says, so that a run which was
-/// resumed has the same records as one that was not; but a record of a driver that did not start says nothing.
+/// Returns the round trips that an adapter draws first. If one has a record, the record's result is used,
+/// so that a resumed run has the same records as an uninterrupted one. The record of a driver that did not
+/// start is ignored.
 fn to_draw_first(
     first: &[usize],
     cases: &[&Case],

@@ -1,10 +1,10 @@
-//! The choice of the method cases whose pictures are kept.
+//! Choosing the method cases whose pictures are kept.
 
 use etalon_case::Case;
 use std::collections::{BTreeMap, HashSet};
 
-/// The numbers of the cases whose pictures are kept: of each method in each scene, the case in the middle
-/// of its parameter's range.
+/// Returns the indices of the cases whose pictures are kept: for each method in each scene, the case in the
+/// middle of its parameter's range.
 pub(super) fn pictured(cases: &[Case]) -> HashSet<usize> {
     type Family<'a> = (&'a str, &'a str, &'a str);
     let mut families: BTreeMap<Family<'_>, Vec<(f64, &str, usize)>> = BTreeMap::new();
@@ -18,7 +18,7 @@ pub(super) fn pictured(cases: &[Case]) -> HashSet<usize> {
                 .push((value, &case.id, number));
         }
     }
-    // The id decides between equal values, in whatever order the cases are drawn.
+    // The id decides between equal values, so that the drawing order does not matter.
     let middle = |mut pictures: Vec<(f64, &str, usize)>| {
         pictures.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(b.1)));
         pictures

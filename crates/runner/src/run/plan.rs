@@ -1,4 +1,4 @@
-//! The input of a run and its result.
+//! The input and the result of a run.
 
 use crate::drawing::DRAW_TIMEOUT;
 use crate::launch::Launch;
@@ -10,18 +10,18 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use thiserror::Error;
 
-/// The cases and adapters of a run, and the folder it is written to.
+/// The cases and adapters of a run, and the folder that it is written to.
 pub struct Plan<'a> {
     /// The cases, each once, in drawing order.
     pub cases: &'a [Case],
-    /// The round trips that are drawn first on every adapter, recorded if they are among the cases:
-    /// [`round_trips`](crate::round_trips) of what was selected before sharding.
+    /// The round trips that are drawn first on every adapter, and recorded if they are among the cases:
+    /// [`round_trips`](crate::round_trips) of the selection before sharding.
     pub round_trips: &'a [Case],
-    /// All ids selected before sharding, if they are to be written to the folder.
+    /// All ids selected before sharding, if they must be written to the folder.
     pub selection: Option<&'a [String]>,
-    /// Each adapter's launch command, and the worker that is already running.
+    /// Each adapter's launch command, and its running worker.
     pub adapters: Vec<(Launch, Worker)>,
-    /// Adapters whose driver does not start, with the error: each of their cases is a Crash.
+    /// Adapters whose driver does not start, with the error. Each of their cases becomes a `Crash`.
     pub dead: Vec<(AdapterRecord, String)>,
     /// The limits and repetitions of drawing.
     pub options: Options,
@@ -29,7 +29,7 @@ pub struct Plan<'a> {
     pub expectations: &'a Expectations,
     /// The run folder.
     pub folder: &'a Path,
-    /// The reports that are removed from a run which is replaced.
+    /// The reports that are removed if a run is replaced.
     pub reports: ReportFiles,
     /// The header of the run.
     pub header: Header,
@@ -39,25 +39,25 @@ pub struct Plan<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// [`Options::recheck`] where nothing else is said.
+/// The default of [`Options::recheck`].
 const DEFAULT_RECHECK: u32 = 4;
 
-/// Counts of unexpected bad verdicts.
+/// The numbers of unexpected bad verdicts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rechecks {
-    /// Those that were checked again in a fresh process.
+    /// Verdicts that were checked again in a fresh process.
     pub done: u64,
-    /// Those that were not, since so many of their kind were confirmed before.
+    /// Verdicts that were not, because enough of their kind had been confirmed.
     pub left: u64,
 }
 
-/// The failures whose whole frames a run folder keeps.
+/// The failures whose complete frames a run folder keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KeptFrames {
     /// Every failure.
     #[default]
     All,
-    /// Those that nothing expects.
+    /// Failures that are not expected.
     New,
     /// No failure.
     None,
@@ -68,14 +68,15 @@ pub enum KeptFrames {
 pub struct Options {
     /// The number of workers that draw at the same time; at least one.
     pub jobs: usize,
-    /// The time that a case may take; four times that for methods and frame times.
+    /// The time that a case may take; methods and frame times may take four times as long.
     pub timeout: Duration,
-    /// MiB of memory that one worker may hold.
+    /// Memory that one worker may use, in MiB.
     pub memory: Option<u64>,
-    /// The number of times that each case is drawn, each but the first in a fresh process; at least one.
+    /// The number of times that each case is drawn, each time after the first in a fresh process; at least
+    /// one.
     pub repeat: u32,
-    /// The number of bad and unexpected verdicts of each kind and adapter that are checked again in a fresh
-    /// process and confirmed; with 0 none is checked.
+    /// The number of unexpected bad verdicts per kind and adapter that are checked again in a fresh process
+    /// and confirmed; 0 checks none.
     pub recheck: u32,
     /// The failures whose frames are kept.
     pub frames: KeptFrames,
@@ -103,7 +104,7 @@ pub struct RunSummary {
     pub unexpected: u64,
     /// Verdicts better than the expectations.
     pub improvements: u64,
-    /// Unexpected bad verdicts that were checked again, and that were not.
+    /// The numbers of unexpected bad verdicts that were checked again and that were not.
     pub rechecks: Rechecks,
     /// True if the run was stopped before it was complete.
     pub interrupted: bool,
@@ -120,7 +121,7 @@ impl RunSummary {
 /// Why a run could not be completed.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The run folder cannot be begun; nothing was drawn.
+    /// The run folder could not be started; nothing was drawn.
     #[error(transparent)]
     Folder(RecordError),
     /// The run folder can no longer be written to; the records written before are readable.

@@ -1,8 +1,9 @@
-//! Round trips: a format is uploaded and read back. Whatever is judged came through them, so a run draws those
-//! that its cases lean on before everything else, and draws no case whose round trip failed.
+//! Round trips: a format is uploaded and read back. Every judged frame was uploaded or read back this way,
+//! so a run first draws the round trips that its cases depend on, and draws no case whose round trip
+//! failed.
 //!
-//! Clears and draws block nothing: one that goes wrong is a Fail of its own, and other cases of the format still
-//! say something about the driver.
+//! Clears and draws block nothing: if one goes wrong, it is a `Fail` of its own, and other cases of the
+//! format still say something about the driver.
 
 use etalon_case::{Case, CaseError, Library, Profile};
 use etalon_frame::{ChannelMismatch, TextureFormat};
@@ -13,11 +14,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The start of the ids of round trips, before the format.
 const FAMILY: &str = "capabilities/round-trip/format=";
 
-/// Returns the round trips that the cases lean on, of each format the first that a library holds. A sharded run
-/// passes all selected cases, so that every shard draws the same round trips.
+/// Returns the round trips that the cases depend on: for each format, the first one in a library. A sharded
+/// run passes all selected cases, so that every shard draws the same round trips.
 ///
 /// # Errors
-/// When the case file of the round trips is broken.
+/// If the case file of the round trips is broken.
 pub fn round_trips(libraries: &[&Library], cases: &[Case]) -> Result<Vec<Case>, CaseError> {
     let mut wanted: BTreeSet<TextureFormat> = cases.iter().flat_map(leans_on).collect();
     let mut found = Vec::new();
@@ -33,7 +34,7 @@ pub fn round_trips(libraries: &[&Library], cases: &[Case]) -> Result<Vec<Case>, 
     Ok(found)
 }
 
-/// The format whose round trip a case is; `None` for all other cases.
+/// Returns the format that a case round-trips; `None` if it is not a round trip.
 fn format_of(case: &Case) -> Option<TextureFormat> {
     if !case.id.starts_with(FAMILY) {
         return None;
@@ -41,8 +42,8 @@ fn format_of(case: &Case) -> Option<TextureFormat> {
     case.scene.attachments.first().map(|a| a.format)
 }
 
-/// The colour formats that a case uploads or reads back. A round trip leans on nothing. Depth and stencil are
-/// never uploaded, so they have no round trip.
+/// Returns the colour formats that a case uploads or reads back. A round trip depends on no other. Depth
+/// and stencil are never uploaded, so they have no round trip.
 fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
     if format_of(case).is_some() {
         return BTreeSet::new();
@@ -59,13 +60,13 @@ fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
     formats
 }
 
-/// The outcome of an adapter's round trips.
+/// The result of an adapter's round trips.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RoundTrips {
     failed: BTreeMap<TextureFormat, Failed>,
-    /// Formats whose round trip the expectations skip, with their reason.
+    /// Formats whose round trip the expectations skip, with the reason.
     unchecked: BTreeMap<TextureFormat, String>,
-    /// Why the driver does not start any more.
+    /// Why the driver no longer starts.
     not_started: Option<String>,
 }
 
@@ -73,7 +74,7 @@ pub(super) struct RoundTrips {
 #[derive(Clone, Debug)]
 struct Failed {
     case: String,
-    /// The verdict, and the first wrong texel or the message.
+    /// The verdict, with the first wrong texel or the message.
     account: String,
     /// The reason why the failure is expected.
     expected: Option<String>,
@@ -84,14 +85,14 @@ struct Failed {
 pub(super) struct Blocked {
     /// The ids of the round trips that failed.
     pub(super) by: Vec<String>,
-    /// For people.
+    /// The message for people.
     pub(super) message: String,
-    /// The reason why it is expected, if all these failures are.
+    /// Why it is expected, if all these failures are.
     pub(super) expected: Option<String>,
 }
 
 impl RoundTrips {
-    /// Takes the record of a round trip.
+    /// Adds the record of a round trip.
     pub(super) fn take(&mut self, case: &Case, record: &Record) {
         let Some(format) = format_of(case) else {
             return;
@@ -114,12 +115,12 @@ impl RoundTrips {
         }
     }
 
-    /// Why the driver does not start any more; every other case is recorded so.
+    /// Returns why the driver no longer starts; every other case is recorded with this reason.
     pub(super) fn not_started(&self) -> Option<&str> {
         self.not_started.as_deref()
     }
 
-    /// Why a case is not drawn; `None` if it may be.
+    /// Returns why a case must not be drawn; `None` if it can be.
     pub(super) fn blocks(&self, case: &Case) -> Option<Blocked> {
         if self.failed.is_empty() {
             return None;
@@ -142,7 +143,7 @@ impl RoundTrips {
         })
     }
 
-    /// The note on a case that is drawn though a round trip that it leans on was skipped.
+    /// Returns the note on a case that is drawn although a round trip that it depends on was skipped.
     pub(super) fn note(&self, case: &Case) -> Option<String> {
         if self.unchecked.is_empty() {
             return None;
@@ -157,10 +158,10 @@ impl RoundTrips {
     }
 }
 
-/// True if a round trip did not show that the format comes back as it was uploaded. What the adapter does not
-/// support it does not offer, so that blocks nothing.
+/// Returns true if a round trip did not show that the format comes back as it was uploaded. An adapter does
+/// not offer a format that it does not support, so that blocks nothing.
 fn fails(record: &Record) -> bool {
-    // A validation message is an error of its own; here the picture decides.
+    // A validation message is a separate error; here the picture decides.
     let judged = record.texels.total > 0 && record.texels.open < record.texels.total;
     let right = record.verdict == Verdict::InternalError
         && !record.validation.is_empty()
@@ -169,7 +170,8 @@ fn fails(record: &Record) -> bool {
     record.verdict.is_bad() && !right
 }
 
-/// A failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, and 3 was due`.
+/// Describes a failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, expected
+/// 3`.
 fn account(record: &Record) -> String {
     let cause = match record.wrong.first() {
         Some(wrong) => wrong.channels.first().map(|channel| {
@@ -188,7 +190,7 @@ fn account(record: &Record) -> String {
             };
             let (x, y) = (wrong.x, wrong.y);
             format!(
-                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, and {expected} was due"
+                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, expected {expected}"
             )
         }),
         None => {

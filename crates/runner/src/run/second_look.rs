@@ -1,4 +1,4 @@
-//! The second look at a bad verdict: a fresh process confirms it, or shows what it depends on.
+//! Checking a bad verdict again: a fresh process confirms it, or shows what it depends on.
 
 use super::adapter_run::{AdapterRun, Observation};
 use crate::drawing::Drawing;
@@ -13,14 +13,15 @@ use std::time::{Duration, Instant};
 
 /// The time after which a search for the preceding cases is not narrowed further.
 const SEARCH_TIME: Duration = Duration::from_secs(120);
-/// The number of times that a cause found must be confirmed.
+/// The number of times that a cause must be confirmed.
 const CONFIRMATIONS: u32 = 5;
 /// The most cases that a record names.
 const MAX_NAMED: usize = 8;
 
-/// Draws a case again in fresh processes, if `--repeat` says so or its verdict is bad and unexpected. The
-/// result is Flaky where verdicts differ, unless the case goes wrong reproducibly after certain others,
-/// which the record then names. `make_room` is called before the first process starts. `None` when the run is stopped.
+/// Draws a case again in fresh processes, if `--repeat` asks for it, or if its verdict is bad and
+/// unexpected. If verdicts differ, the result is `Flaky`, unless the case fails reproducibly after certain
+/// other cases, which the record then names. Calls `make_room` before the first process starts. Returns
+/// `None` if the run is stopped.
 pub(super) fn confirm(
     run: &AdapterRun<'_, '_>,
     number: usize,
@@ -51,8 +52,8 @@ pub(super) fn confirm(
         run.queue.refuted(&Symptom::of(&first.record).broad());
     }
     if repeats.iter().all(|v| *v == verdict) {
-        // Which verdicts of a kind are checked depends on the order of drawing: records tell of it only where it
-        // changed something, so that they are the same in every run.
+        // Which verdicts of a kind are checked depends on the drawing order. Records mention a check only
+        // if it changed something, so that they are the same in every run.
         if options.repeat > 1 {
             first.record.repeats = repeats;
         }
@@ -99,7 +100,7 @@ pub(super) fn confirm(
     Some(worst)
 }
 
-/// True if a verdict is bad, not expected, and a fresh process may change it.
+/// Returns true if a verdict is bad and unexpected, and a fresh process could change it.
 fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u32) -> bool {
     let mut record = observed.record.clone();
     record.expect(run.shared.expectations, &run.queue.adapter);
@@ -120,7 +121,7 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u3
 /// The result of drawing a case in a fresh process.
 enum Redrawn {
     Observed(Box<Observation>),
-    /// No worker could be started, or it was lost before it came to the case.
+    /// No worker could be started, or it was lost before it reached the case.
     Unable,
     Stopped,
 }
@@ -151,7 +152,7 @@ fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> 
     worker.draw_case(number as u32, case, run.wait(case))
 }
 
-/// The cause of a verdict that a case does not get alone.
+/// Why a case has a verdict that it does not have alone.
 enum Cause {
     /// These cases, drawn before it in this order.
     Cases(Vec<usize>),
@@ -159,7 +160,7 @@ enum Cause {
     Stopped,
 }
 
-/// Searches the cases that must precede a case for its verdict, by halving those drawn before it.
+/// Searches for the cases that must precede a case for its verdict, by halving the cases drawn before it.
 fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[usize]) -> Cause {
     let start = Instant::now();
     let mut stopped = false;
@@ -175,7 +176,7 @@ fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[u
     let mut found = reproduces(&cause);
     while found && cause.len() > 1 && start.elapsed() < SEARCH_TIME {
         let middle = cause.len() / 2;
-        // The later half first: state left by a recent case is the likelier cause.
+        // Tries the later half first, because state left by a recent case is the likelier cause.
         if reproduces(&cause[middle..]) {
             cause.drain(..middle);
         } else if reproduces(&cause[..middle]) {
@@ -184,7 +185,7 @@ fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[u
             break;
         }
     }
-    // A flaky case may have gone wrong just then: it must go wrong after those cases and not without them,
+    // A flaky case may have failed by chance: it must fail after these cases and pass without them,
     // repeatedly.
     found = found && (0..CONFIRMATIONS).all(|_| reproduces(&cause) && !reproduces(&[]));
     if stopped || lock(&run.shared.error).is_some() {

@@ -13,7 +13,7 @@ use std::sync::{Mutex, RwLock};
 
 /// The state that all threads of a run share.
 pub(super) struct Shared<'a> {
-    /// The cases of the run, and behind them the round trips that are not among them.
+    /// The cases of the run, followed by the round trips that are not among them.
     pub(super) cases: Vec<&'a Case>,
     pub(super) options: Options,
     pub(super) expectations: &'a Expectations,
@@ -26,10 +26,10 @@ pub(super) struct Shared<'a> {
     pub(super) stop: &'a AtomicBool,
     pub(super) summary: Mutex<RunSummary>,
     pub(super) truths: Truths,
-    /// Held for reading while a thread draws or judges, for writing while one times frames: nothing else
-    /// may load the machine then.
+    /// Locked for reading while a thread draws or judges, and for writing while a thread times frames, so
+    /// that no other load disturbs the timing.
     pub(super) quiet: RwLock<()>,
-    /// Numbers of the method cases whose pictures are kept.
+    /// The indices of the method cases whose pictures are kept.
     pub(super) pictures: HashSet<usize>,
     /// The adapter whose pictures are kept.
     pub(super) picture_adapter: String,
@@ -37,7 +37,7 @@ pub(super) struct Shared<'a> {
 }
 
 impl Shared<'_> {
-    /// True if no more cases are to be drawn.
+    /// Returns true if no more cases must be drawn.
     pub(super) fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed) || lock(&self.error).is_some()
     }

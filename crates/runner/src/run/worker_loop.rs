@@ -1,6 +1,7 @@
-//! The loop of one thread: it has a worker draw cases of an adapter, round trips first, judges and records them.
+//! The loop of one thread: its worker draws cases of an adapter, round trips first, and the thread judges
+//! and records them.
 //!
-//! Requests are pipelined: while the worker draws the next cases, the thread judges the last one.
+//! Requests are pipelined: while the worker draws the next cases, the thread judges the previous one.
 
 use super::adapter_queue::AdapterQueue;
 use super::adapter_run::{AdapterRun, Observation};
@@ -29,9 +30,9 @@ struct Requested {
 pub(super) struct WorkerLoop<'s, 'a> {
     run: AdapterRun<'s, 'a>,
     supervisor: Supervisor,
-    /// The cases requested of the present worker, in order.
+    /// The cases requested from the current worker, in order.
     history: Vec<usize>,
-    /// The supervisor's generation that `history` belongs to.
+    /// The supervisor's generation to which `history` belongs.
     generation: u32,
 }
 
@@ -65,7 +66,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             return run.record_not_started(error);
         }
         let round_trips = queue.round_trips_or(|| {
-            // Whoever draws first has the worker that runs, and starts no second one beside it.
+            // The thread that draws first takes over the running worker, and does not start another one.
             self.supervisor.take_over(queue.take_running());
             self.draw_round_trips()
         });
@@ -75,7 +76,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         self.draw(&mut || queue.take(), &mut |_, record| run.record(record));
     }
 
-    /// Draws the adapter's round trips. Those that are selected are recorded.
+    /// Draws the adapter's round trips. Selected round trips are recorded.
     fn draw_round_trips(&mut self) -> RoundTrips {
         let run = self.run;
         let first = run.queue.first();
@@ -90,7 +91,8 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         found
     }
 
-    /// Draws the cases that `take` gives until it gives none or the run is stopped. `done` gets each record.
+    /// Draws the cases that `take` returns until it returns none, or until the run is stopped. `done` gets
+    /// each record.
     fn draw(
         &mut self,
         take: &mut dyn FnMut() -> VecDeque<usize>,
@@ -101,7 +103,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let mut taken: VecDeque<usize> = VecDeque::new();
         let mut requested: VecDeque<Requested> = VecDeque::new();
         while !shared.stopped() {
-            // Timing needs the machine to itself: it waits for this lock and keeps others from taking it.
+            // A thread that times frames waits for this lock and then keeps other threads from taking it.
             let busy = shared.quiet.read().unwrap_or_else(PoisonError::into_inner);
             loop {
                 if taken.is_empty() {
@@ -111,7 +113,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
                     break;
                 };
                 let timed = |number: usize| run.case(number).method.is_some();
-                // Nothing may be in flight while frames are timed.
+                // No other request may be in flight while frames are timed.
                 let alone = timed(number) || requested.front().is_some_and(|r| timed(r.number));
                 if requested.len() >= if alone { 1 } else { IN_FLIGHT } {
                     break;
@@ -175,7 +177,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         self.history.push(number);
     }
 
-    /// Requests the cases that were in flight behind one that cost the worker.
+    /// Requests again the cases that were in flight after the case that cost the worker.
     fn request_again(&mut self, requested: &mut VecDeque<Requested>) {
         for case in requested {
             self.request(case.number);
@@ -183,7 +185,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         }
     }
 
-    /// The cases that the worker drew before this one.
+    /// Returns the cases that the worker drew before this case.
     fn before(&self, number: usize) -> Vec<usize> {
         let index = self.history.iter().rposition(|n| *n == number);
         self.history[..index.unwrap_or(0)].to_vec()
@@ -198,7 +200,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         }
     }
 
-    /// Judges a drawing; `None` when the run is stopped.
+    /// Judges a drawing; returns `None` if the run is stopped.
     fn observe(&mut self, number: usize, drawing: Drawing) -> Option<Observation> {
         if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
             return None;
@@ -208,7 +210,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         Some(self.run.observe(number, drawing, report))
     }
 
-    /// Times a method case. A wrong picture has no time.
+    /// Times a method case. A wrong picture is not timed.
     fn time(&mut self, number: usize, record: &mut Record) {
         let run = self.run;
         let Ok(worker) = self.supervisor.running() else {

@@ -440,7 +440,7 @@ fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
     for (fault, due) in [
         (
             "wrong@read",
-            "is fail: texel 0,0 of color: channel 0 holds 1, and 0 was due",
+            "is fail: texel 0,0 of color: channel 0 holds 1, expected 0",
         ),
         ("abort@submit", "is crash: "),
         ("exit@read", "is crash: "),
