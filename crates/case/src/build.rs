@@ -191,7 +191,9 @@ impl CaseRef<'_> {
                 );
             }
             if e.texel[0] >= target.size[0] || e.texel[1] >= target.size[1] {
-                return Err(At::new("the texel is outside the attachment").key("texel").index(i));
+                return Err(At::new("the texel is outside the attachment")
+                    .key("texel")
+                    .index(i));
             }
             result.push(Expect {
                 attachment,
