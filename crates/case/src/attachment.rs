@@ -6,7 +6,7 @@ use crate::wire::{AttachmentWire, ClearWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Attachment, Contents, Scene};
 
-/// The largest width or height of an attachment that a case file may ask for.
+/// The maximum width and height of an attachment in a case file.
 pub(crate) const MAX_SIZE: u32 = 4096;
 
 /// Returns the size of attachments that do not give one.

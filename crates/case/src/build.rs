@@ -1,4 +1,4 @@
-//! Building a case from its place in a file.
+//! Building a case from its index in a file.
 
 use crate::attachment::read_back;
 use crate::case::{Case, Expect};

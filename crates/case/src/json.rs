@@ -4,7 +4,7 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor}
 use serde_json::{Map, Value};
 use std::fmt;
 
-/// Parses a text, which may begin with a byte order mark.
+/// Parses a JSON text, which can begin with a byte order mark.
 ///
 /// # Errors
 /// If it is not JSON, an object has a duplicate key, or a number overflows a 32-bit float; the error names

@@ -52,7 +52,7 @@ impl Image {
     }
 }
 
-/// Everything a scene asked to be read back.
+/// Everything that a scene reads back.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame {
     /// The images, in the order of the scene's `read` list, depth before stencil.

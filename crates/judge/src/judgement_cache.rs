@@ -94,7 +94,7 @@ impl JudgementCache {
             let Some((oldest, weight)) = cache.order.pop_front() else {
                 break;
             };
-            // The first set of an entry takes the entry's other sets with it.
+            // Removes the entry with all its sets, even if only the first is this old.
             cache.entries.remove(&oldest);
             cache.bytes = cache.bytes.saturating_sub(weight);
         }

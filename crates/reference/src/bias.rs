@@ -39,7 +39,8 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
             let lows = z.iter().map(|z| z.low);
             let low = if boxes.is_empty() || may_be_clipped(context, draw, boxes) {
-                // The rest may have any of its depths, and the greatest of them gives the exponent.
+                // The clipped polygon can have any of these depths, and its greatest depth gives the
+                // exponent.
                 lows.fold(f64::MAX, f64::min).max(0.0)
             } else {
                 lows.fold(0.0, f64::max)
@@ -136,7 +137,7 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
     }
     let error = context.rules.float_error.value() * ROUNDINGS;
     let all = z[0].hull(z[1]).hull(z[2]);
-    // The error of each vertex's depth, and the terms that it takes part in.
+    // The error of each vertex's depth: half its interval, plus the roundings of the terms that use it.
     let off = z.map(|z| (z.high - z.low) / 2.0 + (all.high - all.low) * error);
     // The plane that is 1 at one vertex and 0 at the others.
     let share = |vertex: usize| {

@@ -13,7 +13,7 @@ use std::ops::Range;
 /// The number of texels beyond a viewport that a primitive clipped by it can still touch.
 const BEYOND_VIEWPORT: i64 = 4;
 
-/// One primitive of a pass and the texels that it may touch.
+/// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]
 struct Reach {
     /// The draw within the pass.
@@ -81,7 +81,7 @@ impl PassSetup {
         &self.draws[reach.draw as usize][reach.primitive as usize]
     }
 
-    /// Returns a primitive's draw and its place in the draw's setup.
+    /// Returns a primitive's draw and its index in the draw's setup.
     pub(crate) fn member(&self, number: u32) -> (u32, u32) {
         let reach = &self.reaches[number as usize];
         (reach.draw, reach.primitive)

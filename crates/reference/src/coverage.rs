@@ -268,7 +268,7 @@ impl Walk<'_> {
     }
 }
 
-/// An edge of a triangle and the side of it on which the sample lies.
+/// An edge of a triangle, and the side of it that the sample is on.
 #[derive(Clone, Copy)]
 struct Edge {
     number: usize,

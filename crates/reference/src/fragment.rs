@@ -633,7 +633,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns whether the stored depth lies within the bounds (Vulkan, Depth Bounds Test).
+    /// Returns whether the stored depth is within the bounds (Vulkan, Depth Bounds Test).
     fn depth_bounds(
         &self,
         place: Place<'_>,

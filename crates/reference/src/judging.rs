@@ -589,8 +589,8 @@ impl Arithmetic for Judging<'_> {
         Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
-    /// The terms are as large as the viewport's depths. If the near depth is 0 there is only one term, or one
-    /// and the middle of the range.
+    /// The terms are as large as the viewport's depths. If the near depth is 0, the form with the near plane
+    /// has only one term.
     fn window_depth(&mut self, value: Range, range: [f32; 2]) -> Range {
         let error = self.error();
         let largest = f64::from(range[0].max(range[1]));
@@ -768,7 +768,7 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// Ignores a divisor of 0: no result of dividing by it is used.
+    /// If the divisor can be 0, only its positive values count: no blend divides by 0.
     fn blend_ratio(&mut self, encoding: ChannelEncoding, a: Range, b: Range) -> Range {
         let exact = a.zip(b, |a, b| {
             if a.may_be_nan() || b.may_be_nan() {

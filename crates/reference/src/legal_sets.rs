@@ -116,7 +116,7 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
     let counts = scene.attachments.iter().map(|a| a.samples);
     let positions = counts.filter_map(|n| Some((n, limits.sample_positions.get(&n)?.clone())));
     Limits {
-        // The rules hold what depends on these three.
+        // These three affect sets only through the rules.
         api: Api::Vulkan,
         version: ApiVersion::UNKNOWN,
         properties: BTreeSet::new(),

@@ -64,8 +64,8 @@ impl Notes<'_> {
     }
 }
 
-/// The primitives of a draw that give no fragment at the sample, with the reason; without a reason if they
-/// have notes of their own. Collected only if a story is being made.
+/// The primitives of a draw without a fragment at the sample, each with the reason, or `None` if it has notes
+/// of its own. Collected only if a story is being made.
 pub(crate) struct Skipped(pub(crate) Option<Vec<(u32, Option<Rejection>)>>);
 
 impl Skipped {

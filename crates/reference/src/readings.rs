@@ -10,8 +10,8 @@ use smallvec::{SmallVec, smallvec};
 pub(crate) struct OpenTexts {
     /// The contested clauses that matter to it.
     contested: SmallVec<[Contested; 2]>,
-    /// True if an index that may not be a restart points past the vertices, or if a line can go on beyond the
-    /// near or far plane: what is drawn then is not modelled.
+    /// True if an index that need not be a restart points past the vertices, or if a line can continue beyond
+    /// the near or far plane. What is drawn then is not modelled.
     pub(crate) vertices: bool,
 }
 

@@ -66,7 +66,7 @@ pub(crate) struct Forced {
     pub(crate) at: Sample,
     /// The draw, counted over the scene from 1.
     pub(crate) draw: u32,
-    /// The primitive's place in the draw.
+    /// The primitive's index in the draw.
     pub(crate) primitive: u32,
 }
 

@@ -69,9 +69,9 @@ state_enum! {
         Replace = "replace",
         /// All bits inverted.
         Invert = "invert",
-        /// Plus one, held at the largest value.
+        /// Plus one, clamped to the largest value.
         IncrementClamp = "increment-clamp",
-        /// Minus one, held at 0.
+        /// Minus one, clamped to 0.
         DecrementClamp = "decrement-clamp",
         /// Plus one, the largest value becoming 0.
         IncrementWrap = "increment-wrap",

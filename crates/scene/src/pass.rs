@@ -1,7 +1,7 @@
 //! Passes: their attachments, and what happens to these before, between and after the draws.
 //!
 //! Load and store operations are separate from the lists of attachments, and clear commands are separate from
-//! the draws, each with the index of the draw that it precedes. A pass without any thus looks as if they did
+//! the draws, each with the index of the draw that it precedes. A pass without any is the same as if they did
 //! not exist.
 
 use crate::draw::Draw;

@@ -377,7 +377,7 @@ shaders! {
     /// The vertex colour with its alpha weighted by the first texture coordinate (the distance from an edge
     /// in texels) plus a half, clamped to 0 to 1.
     EdgeAlpha = "edge_alpha" { uv: true },
-    /// The vertex colour, after as many steps of work as `params.back_color`'s red.
+    /// The vertex colour; first does as many steps of work as `params.back_color`'s red says.
     ExpensiveColor = "expensive_color" { params: true },
     /// As `expensive_color`; writes the fragment's own window depth as depth.
     ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },

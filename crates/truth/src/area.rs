@@ -151,7 +151,7 @@ impl Pieces<'_> {
         Some(())
     }
 
-    /// Adds a cell that `members` cover, and that the surfaces from `next` on may partly cover.
+    /// Adds a cell that `members` cover, and that the surfaces from `next` on can partly cover.
     fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
         let (known, layers) = (members.len(), self.layers);
         let mut rest = cell;

@@ -3,8 +3,9 @@
 use etalon_frame::{ChannelEncoding, Grade};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A permission with its citation and the evidence for what it forbids. It records being asked for, so that
-/// results computed under some rules can be reused for all rules that agree on the permissions asked for.
+/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for:
+/// results computed under some rules can then be reused under all rules that agree on the permissions asked
+/// for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Permission<T> {
     pub(super) value: T,
@@ -12,7 +13,7 @@ pub struct Permission<T> {
     pub citation: &'static str,
     /// The evidence for what the permission forbids beyond [`Permission::wide`].
     pub grade: Grade,
-    /// The permission by proven evidence alone; equal to the value if that is proven.
+    /// The permission without this evidence; equal to the value if the grade is proven.
     pub wide: T,
     asked: Asked,
 }
@@ -479,8 +480,8 @@ rules! {
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
-    /// How many fragments fewer than the diamond-exit rule gives a line may have; `None` if no specification
-    /// counts them.
+    /// The number of fragments that a line may have less than the diamond-exit rule gives it; `None` if no
+    /// specification counts them.
     lines_lack: Option<usize>,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
