@@ -784,7 +784,7 @@ mod tests {
         assert!(multisample(&masked, 1).is_err());
     }
 
-    /// Builds a scene with a draw with these keys to these attachments.
+    /// Builds a scene whose draw has these keys and draws to these attachments.
     fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{

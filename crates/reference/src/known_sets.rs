@@ -21,7 +21,7 @@ impl KnownSets {
         if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
-        // A clone records its own permissions, starting with none.
+        // A clone starts without recorded permissions, so it records those of this computation alone.
         let rules = rules.clone();
         let set = Arc::new(compute(&rules));
         self.0.push((rules.asked(), Arc::clone(&set)));

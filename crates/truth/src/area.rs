@@ -22,8 +22,8 @@ const HALVINGS: u32 = 8;
 /// The maximum number of stacked textured surfaces that are integrated exactly.
 const EXACT_TEXTURES: usize = 6;
 
-/// Points along a side for more textured surfaces than that, and points of the coarser rule that estimates
-/// the error.
+/// The numbers of points along a side for more textured surfaces: of the rule that is used, and of the
+/// coarser rule that the error is estimated with.
 const DENSE: [usize; 2] = [6, 4];
 
 /// An integral over a part of the picture.

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
     use oorandom::Rand64;
 
-    /// Returns the same by the definition.
+    /// Returns the divergence at a place, directly by its definition.
     fn divergence(values: &[f64], place: usize) -> f64 {
         let (before, after) = values.split_at(place);
         let mean = |a: &[f64], b: &[f64]| {
