@@ -1,4 +1,4 @@
-//! Attachments: clears, texels, names to indices.
+//! Attachments: clear values, texels, and look-up by name.
 
 use crate::codes::codes;
 use crate::error::At;
@@ -6,10 +6,10 @@ use crate::wire::{AttachmentWire, ClearWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Attachment, Contents, Scene};
 
-/// The largest width or height of an attachment that a case file may ask for.
+/// The maximum width and height of an attachment in a case file.
 pub(crate) const MAX_SIZE: u32 = 4096;
 
-/// The size of attachments that give none.
+/// Returns the size of attachments that do not give one.
 pub(crate) fn default_size(wire: &SceneWire) -> [u32; 2] {
     wire.attachments
         .values()
@@ -17,7 +17,7 @@ pub(crate) fn default_size(wire: &SceneWire) -> [u32; 2] {
         .unwrap_or([16, 16])
 }
 
-/// The index of the attachment of a name.
+/// Returns the index of the attachment with a name.
 pub(crate) fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> {
     attachments
         .iter()
@@ -39,11 +39,13 @@ pub(crate) fn attachment(
 ) -> Result<Attachment, At> {
     let size = wire.size.unwrap_or(size);
     if size.contains(&0) || size.iter().any(|s| *s > MAX_SIZE) {
-        return Err(At::new(format!("a side is 1 to {MAX_SIZE} texels long")).key("size"));
+        return Err(
+            At::new(format!("width and height must be 1 to {MAX_SIZE} texels")).key("size"),
+        );
     }
     let samples = wire.samples.unwrap_or(1);
     if ![1, 2, 4, 8, 16].contains(&samples) {
-        return Err(At::new("samples are 1, 2, 4, 8 or 16").key("samples"));
+        return Err(At::new("samples must be 1, 2, 4, 8 or 16").key("samples"));
     }
     let contents = match (&wire.clear, &wire.texels) {
         (Some(_), Some(_)) => {
@@ -98,7 +100,7 @@ fn clear(wire: &ClearWire, format: TextureFormat) -> Result<Contents, At> {
     if let Contents::DepthStencil { depth, .. } = contents
         && !(0.0..=1.0).contains(&depth)
     {
-        return Err(At::new("a cleared depth lies between 0 and 1"));
+        return Err(At::new("a cleared depth must be between 0 and 1"));
     }
     Ok(contents)
 }
@@ -133,7 +135,7 @@ fn texels(
         if length == due {
             return Ok(());
         }
-        let message = format!("{length} texels are given where the attachment has {due}");
+        let message = format!("{length} texels are given, the attachment has {due}");
         Err(At::new(message))
     };
     let list = |values: &[[f64; 4]], due: usize| -> Result<Vec<Vec<u32>>, At> {
@@ -180,17 +182,18 @@ fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
             let code = encoding.nearest_code(value);
             let found = encoding.value_of_order(encoding.order_of_code(code));
             let limit = encoding.value_of_order(encoding.max_order());
-            // A 32-bit float is what a decimal number means; a shorter one must be hit by that float exactly.
+            // A decimal number means the nearest 32-bit float; a shorter format must represent that float
+            // exactly.
             let hit = encoding == ChannelEncoding::Float32 || found as f32 == value as f32;
             if value.abs() > limit || !hit {
-                return Err(At::new(format!("the number is no {encoding}")));
+                return Err(At::new(format!("the number is not exactly a {encoding}")));
             }
             Ok(code)
         }
     }
 }
 
-/// The attachment of a name that is read back.
+/// Returns the attachment with a name, which must be read back.
 pub(crate) fn read_back(scene: &Scene, name: &str) -> Result<usize, At> {
     let mut read = scene.read.iter().copied();
     read.find(|index| scene.attachments[*index].name == name)

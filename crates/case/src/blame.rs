@@ -1,17 +1,18 @@
 //! The place in a case file that an error of one case comes from.
 //!
-//! A scene is checked with all values in their places, so an error leads to a key of the scene. The fault is the
-//! axis value's where `"$name"` stands there, or where the same scene builds with every other value tried.
+//! A scene is checked after all values have been substituted, so an error refers to a key of the scene. The
+//! axis value is at fault if `"$name"` is in that place, or if the same scene builds with every other value
+//! that is tried.
 
 use crate::error::At;
 use crate::file::CaseRef;
 use crate::place::Step;
 
-/// The most other values of an axis that are tried.
+/// The maximum number of other values of an axis that are tried.
 const TRIED: usize = 6;
 
 impl CaseRef<'_> {
-    /// Moves an error of this case to the axis value that causes it, if one does.
+    /// Moves an error of this case to the axis value that causes it, if there is one.
     pub(crate) fn blame(&self, at: At) -> At {
         if matches!(at.path.first(), Some(Step::Key(key)) if key == "axes" || key == "derived") {
             return at;
@@ -32,7 +33,7 @@ impl CaseRef<'_> {
         }
     }
 
-    /// The path of the value behind the `"$name"` that an error's path leads to.
+    /// Returns the path of the value behind the `"$name"` that an error's path leads to.
     fn by_placeholder(&self, at: &At) -> Option<Vec<Step>> {
         let file = self.file.json();
         let mut value = &file;
@@ -50,7 +51,7 @@ impl CaseRef<'_> {
         }
     }
 
-    /// The path of the value that a name stands for in this case.
+    /// Returns the path of the value that replaces a name in this case.
     fn origin(&self, name: &str) -> Option<Vec<Step>> {
         let wire = &self.file.wire;
         if wire.axes.contains_key(name) {
@@ -72,12 +73,13 @@ impl CaseRef<'_> {
         })
     }
 
-    /// The path of this case's value on an axis.
+    /// Returns the path of this case's value on an axis.
     fn own_value(&self, axis: &str) -> Vec<Step> {
         self.value_of(axis, self.file.positions(self.index)[axis])
     }
 
-    /// The path of a value of an axis: below `value` where it has a name, the whole axis where it is a range.
+    /// Returns the path of a value of an axis: below `value` if it has a name, the whole axis if that is a
+    /// range.
     fn value_of(&self, axis: &str, at: usize) -> Vec<Step> {
         let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
         if let Some(listed) = self.file.json()["axes"][axis].get(at) {
@@ -89,7 +91,7 @@ impl CaseRef<'_> {
         path
     }
 
-    /// The one axis of which every other value builds; `None` if there is none, or several.
+    /// Returns the only axis whose other values all build; `None` if there is no such axis, or several.
     fn by_other_values(&self) -> Option<String> {
         let lengths: Vec<(&String, usize)> = self
             .file
@@ -175,7 +177,7 @@ mod tests {
         );
         let error = first_error("rgba8unorm", "\"$rect\"", "\"less\"");
         assert_eq!((error.line, error.key.as_str()), (7, "axes.rect[1].value"));
-        // The pass refuses the attachment: the key is the pass's, the fault the format's.
+        // The pass refuses the attachment: the error is at the pass's key, the fault is the format's.
         let error = first_error("$format", "null", "\"less\"");
         assert_eq!((error.line, error.key.as_str()), (5, "axes.format[1]"));
         assert!(

@@ -1,4 +1,4 @@
-//! Building a case from its place in a file.
+//! Building a case from its index in a file.
 
 use crate::attachment::read_back;
 use crate::case::{Case, Expect};
@@ -21,7 +21,7 @@ impl CaseRef<'_> {
     /// Builds the case.
     ///
     /// # Errors
-    /// With file, line and key, when a value is of the wrong type or a state is impossible.
+    /// With file, line and key, if a value is of the wrong type or a state is impossible.
     pub fn build(&self) -> Result<Case, CaseError> {
         self.try_build().map_err(|at| {
             let blamed = self.blame(at);
@@ -75,7 +75,7 @@ impl CaseRef<'_> {
         })
     }
 
-    /// A scene drawn by a method.
+    /// Returns the case of a scene drawn by a method.
     pub(crate) fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
         let wire = &self.file.wire;
         let others = [
@@ -91,13 +91,11 @@ impl CaseRef<'_> {
             && wire.submissions.is_empty()
             && wire.judged_as.is_empty();
         if !alone {
-            return Err(
-                At::new("`method` stands alone, without a scene or relations").key("method"),
-            );
+            return Err(At::new("`method` excludes a scene and relations").key("method"));
         }
         let place: Vec<&str> = self.file.stem.split('/').collect();
         let ["methods", question, scene] = place[..] else {
-            let message = "a method's file is methods/<question>/<scene>.json";
+            let message = "the path of a method's file must be methods/<question>/<scene>.json";
             return Err(At::new(message).key("method"));
         };
         let positions = self.file.positions(self.index);
@@ -141,7 +139,7 @@ impl CaseRef<'_> {
         })
     }
 
-    /// The scene with all values in their places.
+    /// Returns the scene with all values substituted.
     pub(crate) fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
         let wire = &self.file.wire;
         let made = [
@@ -155,7 +153,7 @@ impl CaseRef<'_> {
             return Err(At::new("a case file needs a scene").key("scene"));
         };
         if let Some((other, _)) = given.next() {
-            return Err(At::new(format!("`{other}` stands instead of `{key}`")).key(other));
+            return Err(At::new(format!("`{other}` excludes `{key}`")).key(other));
         }
         let make = || -> Result<Value, At> {
             let value = substitute(value, values)?;
@@ -193,7 +191,9 @@ impl CaseRef<'_> {
                 );
             }
             if e.texel[0] >= target.size[0] || e.texel[1] >= target.size[1] {
-                return Err(At::new("the texel lies outside").key("texel").index(i));
+                return Err(At::new("the texel is outside the attachment")
+                    .key("texel")
+                    .index(i));
             }
             result.push(Expect {
                 attachment,

@@ -15,19 +15,20 @@ pub struct Case {
     pub id: String,
     /// The purpose, in a sentence.
     pub about: String,
-    /// The clauses that bind.
+    /// The clauses that bind the cases.
     pub spec: Vec<String>,
     /// The scene that adapters draw.
     pub scene: Scene,
-    /// Selftests: the scene that the frame is judged as; a Fail is due.
+    /// For selftests, the scene that the frame is judged as; a Fail is expected.
     pub judged_as: Option<Scene>,
-    /// The scene with changes, each drawn too.
+    /// Changed copies of the scene, all of them drawn too.
     pub variants: Vec<Variant>,
     /// The relation between the frames of scene and variants.
     pub relation: Option<Relation>,
     /// Literal values that must come back.
     pub expect: Vec<Expect>,
-    /// True if the case exists to be measured. Its picture may be large, so judging it takes a sample of the texels.
+    /// True if the case exists to be measured. Its picture can be large, so only a sample of its texels is
+    /// judged.
     pub measured: bool,
     /// The method of a method case, whose distance from the truth is measured.
     pub method: Option<Method>,
@@ -56,8 +57,8 @@ impl Case {
         std::iter::once(&self.scene).chain(variants)
     }
 
-    /// Returns the scenes that are prepared, each with the submissions before each reading of its frame. The
-    /// frames that are read stand in the order of [`Case::scenes`].
+    /// Returns the scenes that are prepared, each with the numbers of submissions before each reading of its
+    /// frame. The frames are read in the order of [`Case::scenes`].
     pub fn preparations(&self) -> impl Iterator<Item = (&Scene, Vec<u32>)> {
         let again = self.variants.iter().filter_map(|v| v.submissions);
         let own = std::iter::once(1).chain(again.map(NonZeroU32::get));
@@ -65,8 +66,8 @@ impl Case {
         std::iter::once((&self.scene, own.collect())).chain(others.map(|v| (&v.scene, vec![1])))
     }
 
-    /// Returns the number by which a frame's scene is judged: 0 for the case's own, also where it is read
-    /// again, else the variant's number plus 1.
+    /// Returns the index of the scene that a frame is judged by: 0 for the case's own, including when it is
+    /// read again, otherwise the variant's index plus 1.
     pub fn judged_index(&self, frame: usize) -> usize {
         let variant = frame.checked_sub(1).and_then(|v| self.variants.get(v));
         match variant {
@@ -75,14 +76,14 @@ impl Case {
         }
     }
 
-    /// Returns the requirements of the case, without repetition, in ascending order.
+    /// Returns the requirements of the case, in ascending order and without duplicates.
     pub fn requirements(&self) -> Vec<Requirement> {
         let all: BTreeSet<_> = self.scenes().flat_map(Scene::requirements).collect();
         all.into_iter().collect()
     }
 
-    /// Returns true if the case draws what a version of an API may require of every adapter. There, an
-    /// adapter that denies what its version requires fails.
+    /// Returns true if the case draws what some version of an API requires of every adapter. An adapter that
+    /// denies what its version requires then fails.
     pub fn is_requirement(&self) -> bool {
         self.id.starts_with("capabilities/required/")
     }

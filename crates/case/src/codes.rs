@@ -1,15 +1,15 @@
-//! Texels that tell rows, columns, channels and bits apart, computed from the format.
+//! Texels that distinguish rows, columns, channels and bits, computed from the format.
 //!
-//! A table of them in a case file would be long, and nobody could see that it misses a bit.
+//! A table of them in a case file would be long, and a missing bit would go unnoticed.
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
-/// The step from one texel's code to the next, per channel: odd, so that every code has its turn.
+/// The step from one texel's code to the next, per channel: odd, so that every code occurs.
 const STEPS: [u32; 4] = [1, 3, 5, 7];
 
-/// The codes of an attachment, texel by texel, row by row. Channels of integers take all their codes in
-/// turn, each at its own pace and each round from another start; floats take normal numbers of every
-/// exponent, of both signs where they have one.
+/// Returns the codes of an attachment, texel by texel, row by row. Integer channels go through all their
+/// codes, each at its own pace and from another start in each round; float channels take normal numbers of
+/// every exponent, of both signs if they have a sign.
 pub(crate) fn codes(format: TextureFormat, [width, height]: [u32; 2]) -> Vec<u32> {
     let channels = format.color_channels();
     let texels = 0..width.saturating_mul(height);
@@ -26,7 +26,7 @@ fn code(encoding: ChannelEncoding, channel: u32, texel: u32) -> u32 {
     match encoding {
         Unorm(bits) | Uint(bits) => integer(bits, channel, texel),
         Srgb8 => integer(8, channel, texel),
-        // -1 has two codes, which an API may exchange; the lower one is left out.
+        // -1 has two codes, which an API may exchange; the lower one is skipped.
         Snorm(bits) => match integer(bits, channel, texel) {
             lowest if lowest == 1 << (bits - 1) => lowest + 1,
             code => code,
@@ -44,7 +44,7 @@ fn integer(bits: u8, channel: u32, texel: u32) -> u32 {
     (place * step + round * 11 + channel * 85) % codes
 }
 
-/// A normal number: what becomes of others is open in places.
+/// Returns a normal number: the conversion of others is partly open.
 fn float(exponent_bits: u8, mantissa_bits: u8, signed: bool, channel: u32, texel: u32) -> u32 {
     let mixed = mixed(texel * STEPS.len() as u32 + channel);
     let mantissa = mixed & ((1 << mantissa_bits) - 1);
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// The size of the round trips.
+    /// The size that the round-trip test uses.
     const SIZE: [u32; 2] = [37, 29];
 
     #[test]
@@ -117,7 +117,7 @@ mod tests {
                     assert!(!same, "{format}: channels {a} and {b}");
                 }
             }
-            // A block of two by two texels moved or turned is seen anywhere.
+            // A moved or turned block of two by two texels is noticed anywhere.
             for y in 1..height {
                 for x in 1..width {
                     assert_ne!(texel(x, y), texel(x - 1, y), "{format} {x},{y}");

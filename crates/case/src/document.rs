@@ -1,8 +1,7 @@
-//! Cases as documents: what a case file without axes holds, with every value in its place.
+//! Cases as documents: the contents of a case file without axes, with every value substituted.
 //!
-//! A document is JSON and no structure of its own, since it is what a case file is: what is made of one is
-//! written as it stands and read like any other. Meshes keep their descriptions, so that a changed scene can
-//! still be read by people.
+//! A document is plain JSON, in the format of a case file: it is written as it is and read like any case
+//! file. Meshes keep their descriptions, so that people can still read a changed scene.
 
 use crate::case::Case;
 use crate::error::{At, CaseError};
@@ -13,11 +12,11 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 impl CaseRef<'_> {
-    /// Returns the case as the JSON of a case file that holds nothing else: axes, seeds and sequences have
-    /// become the scene that they stand for.
+    /// Returns the case as the JSON of a case file with only this case: axes, seeds and sequences are
+    /// replaced by the scene that they produce.
     ///
     /// # Errors
-    /// With file, line and key, when the case cannot be built, or a method's scene cannot be written.
+    /// With file, line and key, if the case cannot be built, or a method's scene cannot be written.
     pub fn document(&self) -> Result<Value, CaseError> {
         self.try_document()
             .map_err(|at| at.locate(self.file.name(), &self.file.text))
@@ -74,7 +73,7 @@ impl CaseRef<'_> {
 /// without `.json`.
 ///
 /// # Errors
-/// As from [`CaseFile::parse`] and [`CaseRef::build`]; the document holds one case.
+/// As from [`CaseFile::parse`] and [`CaseRef::build`]; the document must have exactly one case.
 pub fn build(id: &str, document: &Value) -> Result<Case, CaseError> {
     let name = format!("{id}.json");
     let file = CaseFile::parse(&name, &document.to_string())?;
@@ -85,7 +84,7 @@ pub fn build(id: &str, document: &Value) -> Result<Case, CaseError> {
             file: name,
             line: 0,
             key: "axes".to_owned(),
-            message: "a document holds one case".to_owned(),
+            message: "a document must have exactly one case".to_owned(),
         }),
     }
 }
@@ -96,7 +95,7 @@ mod tests {
     use crate::Library;
     use etalon_scene::Scene;
 
-    /// The scene with its attachments in ascending order of their names, as a case file has them.
+    /// Returns the scene with its attachments in ascending order of their names, as in a case file.
     fn sorted(scene: &Scene) -> Scene {
         let mut order: Vec<usize> = (0..scene.attachments.len()).collect();
         order.sort_by_key(|i| &scene.attachments[*i].name);
@@ -127,7 +126,7 @@ mod tests {
         let (mut scenes, mut left_out) = (0, 0);
         for reference in library.cases(Profile::Full) {
             let case = reference.build().expect("built-in cases build");
-            // Large ones say nothing new, and take long.
+            // Large scenes add nothing, and take long.
             let draws = || case.scene.passes.iter().flat_map(|p| &p.draws);
             let vertices: usize = draws().map(|d| d.mesh.vertices.len()).sum();
             if case.scene.bytes() > 1 << 14 || vertices > 500 {
@@ -140,9 +139,9 @@ mod tests {
                     assert_eq!(read.scene, sorted(&case.scene), "{}", case.id);
                     scenes += 1;
                 }
-                // Some methods use what case files are refused.
+                // Some methods use states that case files cannot express.
                 Ok(Err(error)) => assert!(case.method.is_some(), "{}: {error}", case.id),
-                // Codes of one value are not told apart.
+                // Codes with equal values cannot be distinguished.
                 Err(_) => left_out += 1,
             }
             if case.method.is_some() {

@@ -1,4 +1,4 @@
-//! Draws: defaults, names to indices, impossible states refused.
+//! Draws: applies defaults, resolves names to indices, and refuses impossible states.
 
 use crate::attachment::{MAX_SIZE, find};
 use crate::error::At;
@@ -12,7 +12,7 @@ use etalon_scene::{
     StencilState, Viewport,
 };
 
-/// The target of a draw, and the names that it can use.
+/// The attachments that a draw draws to, and the names that it can use.
 pub(crate) struct Target<'a> {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
@@ -43,7 +43,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
     }
     if wire.w.is_empty() {
-        return Err(At::new("a list of factors has one at least").key("w"));
+        return Err(At::new("`w` must not be empty").key("w"));
     }
     for (vertex, w) in mesh.vertices.iter_mut().zip(wire.w.iter().cycle()) {
         vertex.position = vertex.position.map(|v| v * w);
@@ -63,7 +63,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             let index = find(name, attachments)?;
             let attachment = &attachments[index];
             if !attachment.format.is_color() || attachment.samples != 1 {
-                let message = "is no colour attachment with one sample, so it cannot be read";
+                let message = "is not a single-sample colour attachment, so it cannot be read";
                 return Err(At::new(format!("`{name}` {message}")));
             }
             if target.bound.contains(&index) {
@@ -72,7 +72,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             }
             if attachment.format.is_integer() {
                 return Err(At::new(format!(
-                    "`{name}` holds integers, the shader reads floats"
+                    "`{name}` has integers, but the shader reads floats"
                 )));
             }
             if !wire.shader.samples_texture() && attachment.size != size {
@@ -94,7 +94,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     }
     if textures.len() != wire.shader.textures() {
         return Err(At::new(format!(
-            "shader {} fetches from {} textures, {} are given",
+            "shader {} reads {} textures, {} are given",
             wire.shader.name(),
             wire.shader.textures(),
             textures.len()
@@ -107,7 +107,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     check_pool(wire, target)?;
     let counters = counters(wire, target.counters).map_err(|e| e.key("counters"))?;
     if wire.early_tests.is_conservative() && !wire.shader.writes_depth() {
-        let message = "a promise about the written depth needs a shader that writes one";
+        let message = "a conservative depth needs a shader that writes depth";
         return Err(At::new(message).key("early_tests"));
     }
     multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
@@ -118,7 +118,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     if let Some([low, high]) = wire.depth_bounds
         && !(0.0 <= low && low <= high && high <= 1.0)
     {
-        return Err(At::new("bounds lie between 0 and 1, the lower first").key("depth_bounds"));
+        return Err(At::new("bounds must be between 0 and 1, the lower first").key("depth_bounds"));
     }
     let numbers = [
         wire.params.color,
@@ -161,13 +161,14 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     })
 }
 
-/// The greatest part of a clip-space position, which every API's floats hold (OpenGL 3.3, 2.1.1).
+/// The greatest magnitude of a clip-space coordinate: every API's floats can represent it (OpenGL 3.3,
+/// 2.1.1).
 const FARTHEST: f32 = 4_294_967_296.0;
 
-/// The farthest that texture coordinates may lie from 0.
+/// The greatest magnitude of texture coordinates.
 const FARTHEST_UV: f32 = 64.0;
 
-/// Checks which samples are drawn.
+/// Checks the state that decides which samples are drawn.
 fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
     // With one sample, these two change nothing in any API.
     let rest = Multisample {
@@ -176,46 +177,46 @@ fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
         ..*state
     };
     if samples == 1 && rest != Multisample::default() {
-        let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
+        let message = "with a single sample, OpenGL ignores this state and Vulkan obeys it; use several samples";
         return Err(At::new(message));
     }
     let share = |v: f32| (0.0..=1.0).contains(&v);
     if !state.min_sample_shading.is_none_or(share) {
-        let message = "a share of the samples lies between 0 and 1";
+        let message = "a share of the samples must be between 0 and 1";
         return Err(At::new(message).key("min_sample_shading"));
     }
     if !state.sample_coverage.is_none_or(|c| c.value.is_finite()) {
-        let message = "a share of the samples is a finite number";
+        let message = "a share of the samples must be a finite number";
         return Err(At::new(message).key("value").key("sample_coverage"));
     }
     Ok(())
 }
 
-/// Checks that patches are whole triangles, and that no attribute has to pass the tessellator.
+/// Checks that patches are whole triangles, and that no attribute would have to pass through the tessellator.
 fn tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
     if wire.tessellation.is_none() {
         return Ok(());
     }
     if wire.topology != PrimitiveTopology::TriangleList {
-        return Err(At::new("patches are made of a triangle-list"));
+        return Err(At::new("tessellation requires `triangle-list`"));
     }
     let count = mesh.indices.as_ref().map_or(mesh.vertices.len(), Vec::len);
     if !count.is_multiple_of(3) || mesh.indices.iter().flatten().any(|i| *i == RESTART) {
         return Err(At::new(
-            "patches have three vertices each, and no restart between them",
+            "patches must have three vertices each, without restarts between them",
         ));
     }
     if !wire.shader.passes_position_alone() {
         return Err(At::new(format!(
-            "the evaluation shader hands on positions alone, and {} reads attributes",
+            "the evaluation shader passes on only positions, but shader {} reads attributes",
             wire.shader.name()
         )));
     }
     Ok(())
 }
 
-/// Checks that something is clipped by distances, and that it is no outline: which edges of a clipped
-/// polygon are drawn no text says.
+/// Checks that enabled clip distances exist, and that no outline is clipped: no specification says which
+/// edges of a clipped polygon are drawn.
 fn clip_distances(wire: &DrawWire) -> Result<(), At> {
     let count = wire.shader.clip_distances();
     if wire.clip_distances != u8::MAX && u32::from(wire.clip_distances) >> count != 0 {
@@ -223,22 +224,23 @@ fn clip_distances(wire: &DrawWire) -> Result<(), At> {
         return Err(At::new(message).key("clip_distances"));
     }
     if count > 0 && wire.polygon_mode != PolygonMode::Fill {
-        let message = "the outline of what clip distances leave is open";
+        let message = "no specification defines the outline of a polygon clipped by distances";
         return Err(At::new(message).key("polygon_mode"));
     }
     if count > 0 && wire.instances.is_some() {
-        let message = "clip distances are made of the vertex colour, and instances have their own";
+        let message = "clip distances come from the vertex colour, but instances have their own";
         return Err(At::new(message).key("instances"));
     }
     Ok(())
 }
 
-/// Checks that no outline reaches behind the eye: which edges of a clipped polygon are drawn no text says.
+/// Checks that no outline reaches behind the eye: no specification says which edges of a clipped polygon are
+/// drawn.
 fn check_outlines(mode: PolygonMode, mesh: &Mesh) -> Result<(), At> {
     let behind = mesh.vertices.iter().any(|v| v.position[3] <= 0.0);
     if mode != PolygonMode::Fill && behind {
         return Err(At::new(
-            "the outline of what reaches behind the eye is open",
+            "no specification defines the outline of a polygon that reaches behind the eye",
         ));
     }
     Ok(())
@@ -268,41 +270,40 @@ fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(
         PrimitiveTopology::TriangleFan,
     ];
     if !triangles.contains(&wire.topology) || wire.polygon_mode != PolygonMode::Fill {
-        return Err(At::new("textures are sampled on filled triangles alone"));
+        return Err(At::new("only filled triangles can sample textures"));
     }
     if target.samples > 1 {
         return Err(At::new(
-            "of several samples, attributes may stand for any point of the texel; give the pass one",
+            "with several samples, attributes may be those of any point of the texel; use a single sample",
         ));
     }
     let filterable = |format: TextureFormat| !matches!(format, TextureFormat::Rgba32Float);
     let format = |t: &usize| target.attachments[*t].format;
     if !textures.iter().map(format).all(filterable) {
-        return Err(At::new("not every driver filters 32-bit floats"));
+        return Err(At::new("not every driver can filter 32-bit floats"));
     }
     Ok(())
 }
 
-/// Checks that a shader that uses the pool has one of the size of its pass, as its parameters say.
+/// Checks that a shader that uses the pool has a pool of its pass's size, and parameters that say so.
 fn check_pool(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
     if !wire.shader.uses_pool() {
         return Ok(());
     }
     let name = wire.shader.name();
     if target.pool.is_none_or(|pool| pool.size != target.size) || target.samples > 1 {
-        let message =
-            format!("{name} uses the scene's pool: it has the size of the pass, and one sample");
+        let message = format!("{name} needs a pool of the pass's size, and a single sample");
         return Err(At::new(message).key("shader"));
     }
     let [width, height, ..] = wire.params.color.0;
     if [width, height] != target.size.map(|side| side as f32) {
-        let message = format!("{name} reads the size of the picture from red and green");
+        let message = format!("for {name}, red and green must be the size of the picture");
         return Err(At::new(message).key("color").key("params"));
     }
     Ok(())
 }
 
-/// The counters that a draw adds to.
+/// Returns the counters that a draw adds to.
 fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
     let mut result: Vec<usize> = Vec::new();
     for (i, name) in wire.counters.iter().enumerate() {
@@ -316,7 +317,7 @@ fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
             };
             if result.iter().any(clash) {
                 return Err(At::new(
-                    "a draw has one counter of a kind, and one occlusion query",
+                    "a draw can have one counter of each kind, and one occlusion query",
                 ));
             }
             Ok(index)
@@ -326,7 +327,7 @@ fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
     let runs = |i: &usize| all[*i].kind == CounterKind::ShaderRuns;
     if result.iter().any(runs) != wire.shader.counts_runs() {
         return Err(At::new(format!(
-            "a counter of shader runs belongs to a shader that counts, and such a shader needs one; \
+            "a counter of shader runs needs a shader that counts its runs, and such a shader needs one; \
              {} is asked for",
             wire.shader.name()
         )));
@@ -334,31 +335,31 @@ fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
     Ok(result)
 }
 
-/// Integers are written by shaders that write integers, unblended.
+/// Checks that only shaders that write integers write to integer formats, without blending.
 fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget]) -> Result<(), At> {
     for (index, color) in target.color.iter().zip(targets) {
         let format = target.attachments[*index].format;
         if format.is_integer() != wire.shader.writes_integers() {
             return Err(At::new(format!(
-                "shader {} does not write what {format} holds",
+                "shader {} does not write the type of {format}",
                 wire.shader.name()
             ))
             .key("shader"));
         }
         if format.is_integer() && color.blend.is_some() {
-            return Err(At::new("integers are not blended").key("blend"));
+            return Err(At::new("integers cannot be blended").key("blend"));
         }
     }
     let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
     if wire.shader.writes_integers() && !wire.params.color.0.iter().all(whole) {
-        return Err(At::new("integers from 0 to 255 are written")
+        return Err(At::new("integers must be from 0 to 255")
             .key("color")
             .key("params"));
     }
     Ok(())
 }
 
-/// Refuses what no specification pins: vertices far out, and written depths out of range.
+/// Refuses what no specification defines: vertices far out, and written depths out of range.
 fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     for vertex in &mesh.vertices {
         if vertex
@@ -367,32 +368,34 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
             .any(|v| v.is_nan() || v.abs() > FARTHEST)
         {
             return Err(At::new(format!(
-                "a part of a clip-space position lies between -{FARTHEST} and {FARTHEST}"
+                "coordinates in clip space must be between -{FARTHEST} and {FARTHEST}"
             )));
         }
         let [x, y, _, w] = vertex.position;
         if [x, y, w] == [0.0; 3] {
-            return Err(At::new("a vertex in the eye has no place in the picture"));
+            return Err(At::new(
+                "a vertex at the eye has no position in the picture",
+            ));
         }
         if vertex.uv.iter().any(|v| v.abs() > FARTHEST_UV) {
             return Err(At::new(format!(
-                "texture coordinates lie between -{FARTHEST_UV} and {FARTHEST_UV}"
+                "texture coordinates must be between -{FARTHEST_UV} and {FARTHEST_UV}"
             ))
             .key("uv"));
         }
         if shader == Shader::Centroid && vertex.uv[0] < 0.0 {
-            let message = "the shader `centroid` wants a first texture coordinate not below 0";
+            let message = "the shader `centroid` requires a non-negative first texture coordinate";
             return Err(At::new(message).key("uv"));
         }
         let written = shader.depth_from_vertex_color();
         if written && !(0.0..=1.0).contains(&vertex.color[0]) {
-            return Err(At::new("a written depth lies between 0 and 1"));
+            return Err(At::new("a written depth must be between 0 and 1"));
         }
     }
     Ok(())
 }
 
-/// Checks the texture from which a shader takes its sample mask, and perhaps its depth.
+/// Checks the texture that gives a shader its sample mask, and perhaps its depth.
 fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
     let Some(texture) = texture else {
         return Ok(());
@@ -400,7 +403,7 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
     let texels = match &texture.contents {
         Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
         _ => {
-            let message = "a sample mask comes from uploaded texels of rgba32float";
+            let message = "a sample mask must come from uploaded texels of rgba32float";
             return Err(At::new(message));
         }
     };
@@ -412,11 +415,11 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
         return Ok(());
     }
     Err(At::new(
-        "a sample mask is a whole number from 0 to 65535, and a written depth lies between 0 and 1",
+        "a sample mask must be an integer from 0 to 65535, and a written depth between 0 and 1",
     ))
 }
 
-/// Checks the texture from which a shader takes its stencil references, and perhaps its depth.
+/// Checks the texture that gives a shader its stencil references, and perhaps its depth.
 fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
     const MOST: f32 = 65535.0;
     let Some(texture) = texture else {
@@ -425,7 +428,7 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
     let texels = match &texture.contents {
         Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
         _ => {
-            let message = "a stencil reference comes from uploaded texels of rgba32float";
+            let message = "a stencil reference must come from uploaded texels of rgba32float";
             return Err(At::new(message));
         }
     };
@@ -438,11 +441,11 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
         return Ok(());
     }
     Err(At::new(
-        "a stencil reference is a whole number from -65535 to 65535, and a written depth lies between 0 and 1",
+        "a stencil reference must be an integer from -65535 to 65535, and a written depth between 0 and 1",
     ))
 }
 
-/// True if a draw can change depth or stencil.
+/// Returns true if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
         let operations = [face.fail_op, face.depth_fail_op, face.pass_op];
@@ -454,7 +457,7 @@ pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
             .is_some_and(|s| changes(&s.front) || changes(&s.back))
 }
 
-/// The bits of a write mask's letters: bit 0 red to bit 3 alpha.
+/// Returns the bits of a write mask's letters: bit 0 is red, bit 3 alpha.
 pub(crate) fn write_mask(letters: &str) -> Result<u8, At> {
     let mut mask = 0;
     for letter in letters.chars() {
@@ -462,7 +465,7 @@ pub(crate) fn write_mask(letters: &str) -> Result<u8, At> {
             Some(bit) if mask & (1 << bit) == 0 => mask |= 1 << bit,
             _ => {
                 return Err(At::new(
-                    "a write mask is made of the letters r, g, b, a, each at most once",
+                    "a write mask consists of the letters r, g, b, a, each at most once",
                 ));
             }
         }
@@ -482,11 +485,11 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
         return Ok(vec![one(wire.blend, &wire.write_mask)?; count]);
     };
     if wire.blend.is_some() || wire.write_mask != "rgba" {
-        return Err(At::new("`targets` stands instead of `blend` and `write_mask`").key("targets"));
+        return Err(At::new("`targets` excludes `blend` and `write_mask`").key("targets"));
     }
     if list.len() != count {
         return Err(At::new(format!(
-            "{} targets are given where the pass has {count} colour attachments",
+            "{} targets are given, the pass has {count} colour attachments",
             list.len()
         ))
         .key("targets"));
@@ -496,20 +499,22 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
         .collect()
 }
 
-/// Checks what advanced blending is done to, and what stands beside it.
+/// Checks the target of advanced blending, and the state that it excludes.
 fn check_advanced(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
     if wire.advanced_blend.is_none() {
         return Ok(());
     }
     if wire.blend.is_some() || wire.targets.is_some() || wire.logic.is_some() {
-        let message = "advanced blending stands instead of `blend`, `targets` and `logic`";
+        let message = "advanced blending excludes `blend`, `targets` and `logic`";
         return Err(At::new(message));
     }
     let [index] = target.color else {
-        return Err(At::new("advanced blending takes one colour attachment"));
+        return Err(At::new(
+            "advanced blending needs exactly one colour attachment",
+        ));
     };
     if wire.shader.has_second_source() {
-        return Err(At::new("advanced blending takes one source"));
+        return Err(At::new("advanced blending needs a single source"));
     }
     let format = target.attachments[*index].format;
     if format.is_integer() || format == TextureFormat::Rgba8Snorm {
@@ -539,16 +544,16 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
             .any(|c| c.src_factor.is_second_source() || c.dst_factor.is_second_source())
     });
     if second && !wire.shader.has_second_source() {
-        let message = "a factor of the second source needs a shader that gives one";
+        let message = "a factor of the second source needs a shader that writes one";
         return Err(At::new(message).key("shader"));
     }
     if wire.logic.is_some() && targets.iter().any(|t| t.blend.is_some()) {
-        return Err(At::new("a logic operation stands instead of blending").key("logic"));
+        return Err(At::new("a logic operation excludes blending").key("logic"));
     }
     Ok(())
 }
 
-/// Refuses what asks for the colours of a fragment shader where there is none.
+/// Refuses states that need a fragment shader's colours in a draw without one.
 fn check_shaderless(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
     let refuse = |message: &str, key| Err(At::new(message.to_owned()).key(key));
     if targets.iter().any(|t| t.write_mask != 0) {
@@ -569,24 +574,24 @@ fn check_shaderless(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> 
     Ok(())
 }
 
-/// The viewport's width and height: what meshes that are given in texels measure themselves by.
+/// Returns the viewport's width and height, in which meshes in texels are measured.
 fn viewport_texels(viewport: &Viewport) -> [u32; 2] {
     let [_, _, width, height] = viewport.area();
     [width, height].map(|v| v.round().max(1.0) as u32)
 }
 
-/// The viewport, or the whole attachments.
+/// Returns the viewport, by default the whole attachments.
 fn viewport(wire: &DrawWire, size: [u32; 2]) -> Result<Viewport, At> {
     let viewport = wire.viewport.unwrap_or(Viewport::whole(size));
     let [x, y, w, h] = viewport.rect;
     let far = MAX_SIZE as f32;
     let fits = |v: f32| v.abs() <= far;
     if !(w > 0.0 && h != 0.0 && [x, y, w, h].into_iter().all(fits)) {
-        let message = format!("a viewport has a width and a height, none above {MAX_SIZE}");
+        let message = format!("a viewport needs a width and a height, neither above {MAX_SIZE}");
         return Err(At::new(message).key("rect").key("viewport"));
     }
     if viewport.depth.iter().any(|d| !(0.0..=1.0).contains(d)) {
-        return Err(At::new("window depths lie between 0 and 1")
+        return Err(At::new("window depths must be between 0 and 1")
             .key("depth")
             .key("viewport"));
     }
@@ -617,7 +622,7 @@ mod tests {
     use etalon_scene::{AdvancedBlend, SampleCoverage};
     use serde_json::{Value, json};
 
-    /// The fault of a draw with a texture of this format and these texels, all alike.
+    /// Returns the error of a draw with a texture of this format, all of whose texels have this value.
     fn fault(draw: Value, format: &str, texel: [f64; 4]) -> Option<String> {
         let values = [texel; 4];
         let scene = json!({
@@ -674,7 +679,7 @@ mod tests {
         }
     }
 
-    /// What is wrong with a scene of one draw.
+    /// Returns the error of a scene with one draw.
     fn wrong(draw: Value) -> Option<String> {
         let scene = json!({
             "attachments": { "color": { "format": "rgba8unorm" } },
@@ -745,7 +750,7 @@ mod tests {
             (json!({ "polygon_mode": "line" }), "the outline"),
             (json!({ "instances": { "colors": [1] } }), "have their own"),
         ] {
-            let said = draw(keys).expect("it is impossible");
+            let error = draw(keys).expect("it is impossible");
             assert!(said.contains(words), "{said}");
         }
     }
@@ -779,7 +784,7 @@ mod tests {
         assert!(multisample(&masked, 1).is_err());
     }
 
-    /// Builds a draw with these keys to these attachments.
+    /// Builds a scene whose draw has these keys and draws to these attachments.
     fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
@@ -806,21 +811,13 @@ mod tests {
         let with = |keys: &str| format!("{flat},{keys}");
         let one = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
         for (color, keys, due) in [
-            (
-                r#"["color"]"#,
-                with(r#""logic":"xor""#),
-                "stands instead of",
-            ),
+            (r#"["color"]"#, with(r#""logic":"xor""#), "excludes"),
             (
                 r#"["color"]"#,
                 with(&format!(r#""blend":{{"color":{one},"alpha":{one}}}"#)),
-                "stands instead of",
+                "excludes",
             ),
-            (
-                r#"["color"]"#,
-                with(r#""targets":[{}]"#),
-                "stands instead of",
-            ),
+            (r#"["color"]"#, with(r#""targets":[{}]"#), "excludes"),
             (
                 r#"["color","other"]"#,
                 both.to_owned(),

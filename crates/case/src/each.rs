@@ -1,6 +1,6 @@
-//! List items that stand for several: `{ "each": { "top": [0, 4] }, "texels": [0, "$top", 16, 16] }`.
+//! List items that unroll to several: `{ "each": { "top": [0, 4] }, "texels": [0, "$top", 16, 16] }`.
 //!
-//! They are unrolled as soon as a file is read, so everything made from it counts the unrolled items.
+//! They are unrolled as soon as a file is read, so all later indices count the unrolled items.
 
 use crate::error::At;
 use crate::place::EACH;
@@ -8,7 +8,7 @@ use crate::values::{is_word, replace, typed};
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The most items that those of a file may stand for.
+/// The maximum number of items that a file's lists can unroll to.
 const MOST: usize = 1 << 16;
 
 /// Replaces each list item that has the key `each` by one item per value.
@@ -23,9 +23,9 @@ pub(crate) fn unroll(file: &mut Value) -> Result<(), At> {
 }
 
 struct Unrolling {
-    /// The names of axes, derived values and the items around.
+    /// The names of axes, derived values and enclosing items.
     taken: Vec<String>,
-    /// The items so far.
+    /// The number of unrolled items so far.
     items: usize,
 }
 
@@ -61,7 +61,7 @@ impl Unrolling {
         Ok(())
     }
 
-    /// The items that one stands for.
+    /// Returns the items that an item unrolls to.
     fn items(&mut self, item: &Value, each: &Value) -> Result<Vec<Value>, At> {
         let lists: BTreeMap<String, Vec<Value>> = typed(each).map_err(|e| e.key(EACH))?;
         let Some((first, count)) = lists.iter().map(|(name, list)| (name, list.len())).next()
@@ -70,13 +70,13 @@ impl Unrolling {
         };
         for (name, list) in &lists {
             let message = if !is_word(name) {
-                "a name is made of letters, digits, '-', '_' and '.'".to_owned()
+                "a name consists of letters, digits, '-', '_' and '.'".to_owned()
             } else if self.taken.contains(name) {
-                "an axis, a derived value or an item around has this name already".to_owned()
+                "an axis, a derived value or an enclosing item already has this name".to_owned()
             } else if list.is_empty() {
                 "a value is missing".to_owned()
             } else if list.len() != count {
-                format!("`{first}` has {count} values, and this {}", list.len())
+                format!("`{first}` has {count} values, and this has {}", list.len())
             } else {
                 continue;
             };
@@ -84,7 +84,7 @@ impl Unrolling {
         }
         self.items += count;
         if self.items > MOST {
-            let message = format!("the items of a file stand for {MOST} at most");
+            let message = format!("the lists of a file can unroll to at most {MOST} items");
             return Err(At::new(message).key(EACH));
         }
         let mut used = BTreeSet::new();
@@ -119,7 +119,7 @@ mod tests {
         value
     }
 
-    /// The error of a file whose pass has these draws, below line 4.
+    /// Returns the error of a file whose pass has these draws, below line 4.
     fn error(draws: &str) -> CaseError {
         let text = format!(
             r#"{{ "about": "t", "spec": ["t"], "axes": {{ "compare": ["less", "greater"] }},
@@ -191,16 +191,16 @@ mod tests {
             (
                 r#"{ "n": [1, 2], "z": [1] }"#,
                 ".z",
-                "`n` has 2 values, and this 1",
+                "`n` has 2 values, and this has 1",
             ),
             (
                 r#"{ "z": [0], "idle": [1] }"#,
                 ".idle",
                 "nothing uses these values",
             ),
-            (r#"{ "a b": [1] }"#, ".a b", "a name is made of letters"),
-            (r#"{ "compare": [1] }"#, ".compare", "has this name already"),
-            (r#"{ "other": [1] }"#, ".other", "has this name already"),
+            (r#"{ "a b": [1] }"#, ".a b", "a name consists of letters"),
+            (r#"{ "compare": [1] }"#, ".compare", "already has this name"),
+            (r#"{ "other": [1] }"#, ".other", "already has this name"),
         ] {
             let draw = format!(
                 r#"{{ "each": {each}, "mesh": {{ "kind": "full", "z": "$z" }}, "shader": "uniform_color" }}"#
@@ -211,7 +211,7 @@ mod tests {
             { "each": { "z": [0, 1] }, "mesh": { "kind": "full", "z": "$z" },
               "targets": [{ "each": { "z": ["r"] }, "write_mask": "$z" }], "shader": "uniform_color" }"#;
         let key = "scene.passes[0].draws[1].targets[0].each.z";
-        refused(inner, 7, key, "an item around has this name already");
+        refused(inner, 7, key, "an enclosing item already has this name");
     }
 
     #[test]
@@ -223,10 +223,7 @@ mod tests {
             list = json!([{ "each": { &name: hundred }, "n": format!("${name}"), "list": list }]);
         }
         let error = unroll(&mut list).expect_err("is refused");
-        assert!(
-            error.message.contains("stand for 65536 at most"),
-            "{error:?}"
-        );
+        assert!(error.message.contains("at most 65536"), "{error:?}");
     }
 
     #[test]
@@ -253,7 +250,7 @@ mod tests {
             &format!("{place}.depth.write"),
             "expected a boolean",
         );
-        // The item behind one that stands for two.
+        // The item after one that unrolls to two.
         let wrong = draws("\"$other\"", "true");
         refused(
             &wrong,

@@ -10,11 +10,11 @@ use thiserror::Error;
 pub struct CaseError {
     /// The file.
     pub file: String,
-    /// The line, from 1; 0 where no line can be named.
+    /// The line, from 1; 0 if the error has no line.
     pub line: usize,
     /// The key: `scene.passes[0].draws[1].depth.compare`.
     pub key: String,
-    /// The error and, where it helps, the remedy.
+    /// The error and, if it helps, the remedy.
     pub message: String,
 }
 
@@ -47,7 +47,7 @@ impl At {
         }
     }
 
-    /// Puts a step before the path.
+    /// Prepends a step to the path.
     pub(crate) fn below(mut self, step: Step) -> Self {
         self.path.insert(0, step);
         self
@@ -61,7 +61,7 @@ impl At {
         self.below(Step::Index(index))
     }
 
-    /// From an error of typed parsing.
+    /// Converts an error of typed parsing.
     pub(crate) fn from_typed(error: serde_path_to_error::Error<serde_json::Error>) -> Self {
         use serde_path_to_error::Segment;
         let path = error
@@ -74,7 +74,7 @@ impl At {
             })
             .collect();
         let message = error.into_inner().to_string();
-        // serde_json appends a position that is only right for whole files.
+        // serde_json appends a position that is correct only for whole files.
         let message = match message.rfind(" at line ") {
             Some(end) => message[..end].to_owned(),
             None => message,
@@ -82,7 +82,7 @@ impl At {
         Self { path, message }
     }
 
-    /// With file and line.
+    /// Adds file and line.
     pub(crate) fn locate(self, file: &str, text: &str) -> CaseError {
         let place = Place::new(text, &self.path);
         CaseError {
@@ -97,7 +97,7 @@ impl At {
     }
 }
 
-/// A path as text: `scene.passes[0].draws`.
+/// Returns a path as text: `scene.passes[0].draws`.
 fn key_of(path: &[Step]) -> String {
     let mut key = String::new();
     for step in path {

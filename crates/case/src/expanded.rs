@@ -1,4 +1,4 @@
-//! A case's scene as JSON, with all values in their places; and a file's scene before, with the values that go there.
+//! A case's scene as JSON with all values substituted; and a file's scene before that, with the values.
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef};
@@ -6,15 +6,15 @@ use crate::values::substitute;
 use serde_json::{Map, Value, json};
 
 impl CaseRef<'_> {
-    /// The file.
+    /// Returns the file.
     pub fn file(&self) -> &CaseFile {
         self.file
     }
 
-    /// Returns the scene of the case, or what it is made from, as JSON under its key.
+    /// Returns the scene of the case, or the value that it is made from, as JSON under its key.
     ///
     /// # Errors
-    /// When a name stands for nothing.
+    /// If a name has no value.
     pub fn expanded(&self) -> Result<Value, CaseError> {
         let key = self.file.scene_key();
         let value = substitute(self.file.scene_value(), &self.values());
@@ -24,8 +24,8 @@ impl CaseRef<'_> {
 }
 
 impl CaseFile {
-    /// Returns what the cases have in common: `about`, `spec`, the key of the scene, the scene with `"$name"` for
-    /// values, each axis as pairs of name and value, and what follows from axes.
+    /// Returns what the cases have in common: `about`, `spec`, the key of the scene, the scene with `"$name"`
+    /// for values, each axis as pairs of name and value, and the derived values.
     pub fn template(&self) -> Value {
         let wire = &self.wire;
         let axes: Map<String, Value> = wire

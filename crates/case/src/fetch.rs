@@ -1,13 +1,13 @@
-//! A draw's path to the pipeline: what a draw call can say of its mesh, and what it cannot.
+//! How a draw's vertices reach the pipeline: checks that the draw call can express it.
 
 use crate::error::At;
 use crate::wire::{FetchWire, InstancesWire};
 use etalon_scene::{Fetch, IndexFormat, MAX_VERTICES, Mesh, PrimitiveTopology, RESTART_16};
 
-/// The most unused vertices, indices or instances.
+/// The maximum number of unused vertices, indices or instances.
 const MOST_UNUSED: u32 = 1 << 20;
 
-/// The path of a mesh, and the mesh with all its instances.
+/// Returns how a mesh is fetched, and the mesh with all its instances.
 pub(crate) fn fetch(
     mesh: Mesh,
     topology: PrimitiveTopology,
@@ -37,7 +37,7 @@ pub(crate) fn fetch(
     Ok((mesh.instanced(&colors), fetch))
 }
 
-/// Checks that offsets belong to the kind of draw.
+/// Checks that the offsets apply to this kind of draw.
 fn offsets(mesh: &Mesh, wire: FetchWire) -> Result<(), At> {
     let of_indices = [
         ("base_vertex", wire.base_vertex != 0),
@@ -58,12 +58,12 @@ fn offsets(mesh: &Mesh, wire: FetchWire) -> Result<(), At> {
         wire.first_vertex,
     ];
     if unused.iter().any(|n| *n > MOST_UNUSED) {
-        return Err(At::new(format!("an offset is {MOST_UNUSED} at most")));
+        return Err(At::new(format!("an offset must be at most {MOST_UNUSED}")));
     }
     Ok(())
 }
 
-/// Checks that indices fit into 16 bits. The greatest ends strips, and a vertex in lists.
+/// Checks that indices fit into 16 bits. The greatest one restarts strips, but is a vertex in lists.
 fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<(), At> {
     let moved = base.min(0).unsigned_abs();
     let all = mesh.indices.iter().flatten();
@@ -78,19 +78,19 @@ fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<
     let greatest = all.filter(|i| **i != u32::MAX).max().copied().unwrap_or(0);
     if greatest + moved > most {
         return Err(At::new(format!(
-            "an index is {most} at most, {} is given",
+            "indices must be at most {most}, {} is given",
             greatest + moved
         )));
     }
     Ok(())
 }
 
-/// The number of instances.
+/// Returns the number of instances.
 fn parts(wire: &InstancesWire) -> usize {
     wire.count.map_or(wire.colors.len(), |n| n as usize)
 }
 
-/// Checks that several meshes in a row are the mesh several times.
+/// Checks that the mesh repeated in one list draws the same as the mesh drawn several times.
 fn repeatable(
     mesh: &Mesh,
     topology: PrimitiveTopology,
@@ -100,7 +100,7 @@ fn repeatable(
     let none = parts == 0 || instances.colors.is_empty();
     if none || parts * mesh.vertices.len() > MAX_VERTICES || instances.first > MOST_UNUSED {
         return Err(At::new(
-            "an instance at least, and no more vertices than a mesh may have",
+            "at least one instance is needed, and in total at most as many vertices as a mesh can have",
         ));
     }
     if instances
@@ -119,7 +119,7 @@ fn repeatable(
     let whole = size.is_some_and(|size| mesh.vertices.len().is_multiple_of(size));
     if mesh.indices.is_none() && !whole {
         return Err(At::new(
-            "instances of a strip, and of incomplete primitives, need indices",
+            "instances of strips or of incomplete primitives need indices",
         ));
     }
     Ok(())

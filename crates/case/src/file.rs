@@ -1,4 +1,4 @@
-//! Case files: the product of the axes, and the cases it stands for.
+//! Case files, and the cases that the product of their axes gives.
 
 use crate::each::unroll;
 use crate::error::{At, CaseError};
@@ -10,20 +10,19 @@ use etalon_frame::without_mark;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 
-/// The most cases that one file may stand for.
+/// The maximum number of cases of a file.
 const MAX_CASES: usize = 1 << 20;
 
-/// The axis of the methods.
+/// The name of the axis of methods.
 pub(crate) const METHOD: &str = "method";
 
-/// The share of each file's product of axes.
+/// The part of each file's product of axes that is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Profile {
-    /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
-    /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two, of those
-    /// that say `"quick": { "where": … }` the cases with these values, of those that say `"quick": { "any": [ … ] }`
-    /// the cases with the values of any row; of all others everything. Files of methods give all methods at
-    /// some values of the other axes.
+    /// The part that the file's `quick` selects. `"pairwise"`: enough cases that every two values of every
+    /// two axes occur together. `{ "each": 2 }`: enough that every value occurs in two cases. `{ "where": …
+    /// }`: the cases with these values. `{ "any": [ … ] }`: the cases with the values of any row. Without
+    /// `quick`, everything. Files of methods keep all methods, at some values of the other axes.
     #[default]
     Quick,
     /// Everything.
@@ -40,7 +39,7 @@ pub struct CaseFile {
     count: usize,
 }
 
-/// One case of a file, by its place in the product of the axes.
+/// One case of a file, by its index in the product of the axes.
 #[derive(Clone, Copy, Debug)]
 pub struct CaseRef<'a> {
     pub(crate) file: &'a CaseFile,
@@ -51,8 +50,8 @@ impl CaseFile {
     /// Parses a case file. `name` is the path below the cases folder, with `.json`.
     ///
     /// # Errors
-    /// With file, line and key, when the text is not JSON, a key is unknown or an axis is unusable.
-    /// Scenes are checked by [`CaseRef::build`].
+    /// With file, line and key, if the text is not JSON, a key is unknown or an axis is unusable. Scenes are
+    /// checked by [`CaseRef::build`].
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         let text = without_mark(text);
         let fail = |at: At| at.locate(name, text);
@@ -76,7 +75,7 @@ impl CaseFile {
             let bad = |message: &str| fail(At::new(message).key(axis).key("axes"));
             if !is_word(axis) {
                 return Err(bad(
-                    "an axis's name is made of letters, digits, '-', '_' and '.'",
+                    "an axis's name consists of letters, digits, '-', '_' and '.'",
                 ));
             }
             if values.is_empty() {
@@ -87,12 +86,12 @@ impl CaseFile {
                 let bad = |message: String| fail(At::new(message).index(i).key(axis).key("axes"));
                 if !is_word(&value.name) {
                     return Err(bad(format!(
-                        "`{}` would stand in ids: letters, digits, '-', '_', '+' and '.' only; give it a name",
+                        "`{}` would be part of ids, which allow only letters, digits, '-', '_', '+' and '.'; give it a name",
                         value.name
                     )));
                 }
                 if !names.insert(value.name.as_str()) {
-                    return Err(bad(format!("`{}` is named twice", value.name)));
+                    return Err(bad(format!("the name `{}` occurs twice", value.name)));
                 }
             }
             count = count
@@ -103,7 +102,7 @@ impl CaseFile {
         for (name, derived) in &wire.derived {
             if wire.axes.contains_key(name) {
                 return Err(fail(
-                    At::new("an axis has this name already")
+                    At::new("an axis already has this name")
                         .key(name)
                         .key("derived"),
                 ));
@@ -149,7 +148,7 @@ impl CaseFile {
             && let Some(quick) = &wire.quick
             && !quick.takes_all_of(METHOD)
         {
-            let message = "methods are compared at the same parameters, so that the quick profile takes all of them: \
+            let message = "methods are compared at the same parameters, so the quick profile must take all of them: \
                            `{ \"where\": … }` or `{ \"any\": [ … ] }`, without `method`";
             return Err(fail(At::new(message).key("quick")));
         }
@@ -162,30 +161,30 @@ impl CaseFile {
         })
     }
 
-    /// The file as JSON with its lists unrolled.
+    /// Returns the file as JSON with its lists unrolled.
     pub(crate) fn json(&self) -> Value {
         let mut file = serde_json::from_str(&self.text).unwrap_or_default();
-        // Parsing the file has shown that they can be.
+        // Parsing the file has shown that they can be unrolled.
         let _unrolled = unroll(&mut file);
         file
     }
 
-    /// True if the cases draw by methods.
+    /// Returns true if the cases draw by methods.
     pub(crate) fn is_method(&self) -> bool {
         !self.wire.method.is_null()
     }
 
-    /// Returns true if the cases exist to be measured: methods, and what lies in the area `perf`.
+    /// Returns true if the cases exist to be measured: methods, and everything in the area `perf`.
     pub fn is_measured(&self) -> bool {
         self.is_method() || self.name.starts_with("perf/")
     }
 
-    /// The file's path below the cases folder.
+    /// Returns the file's path below the cases folder.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The cases of a profile, the last axis (in alphabetical order) varying fastest.
+    /// Returns the cases of a profile; the last axis (in alphabetical order) varies fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         let indices: Vec<usize> = match (profile, &self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
@@ -203,14 +202,14 @@ impl CaseFile {
         indices.into_iter().map(one)
     }
 
-    /// True if the case at a place of the product has these values.
+    /// Returns true if the case at an index of the product has these values.
     fn has(&self, index: usize, due: &BTreeMap<String, String>) -> bool {
         let at = self.positions(index);
         due.iter()
             .all(|(axis, name)| self.wire.axes[axis][at[axis.as_str()]].name == *name)
     }
 
-    /// Places in the product of a covering array's rows, ascending.
+    /// Returns the indices in the product of a covering array's rows, ascending.
     fn covering(&self, cover: Cover) -> Vec<usize> {
         let lengths: Vec<usize> = self.wire.axes.values().map(|axis| axis.len()).collect();
         let index = |row: &Vec<usize>| {
@@ -233,13 +232,13 @@ impl CaseFile {
 }
 
 impl CaseRef<'_> {
-    /// True if the case exists to be measured.
+    /// Returns true if the case exists to be measured.
     pub fn is_measured(&self) -> bool {
         self.file.is_measured()
     }
 
-    /// The stable id: the file's path and each axis with its value, in alphabetical order, but the
-    /// method of a method case first.
+    /// Returns the stable id: the file's path and each axis with its value, in alphabetical order, except
+    /// that the method of a method case comes first.
     pub fn id(&self) -> String {
         let mut id = self.file.stem.clone();
         let mut axes: Vec<(&str, usize)> = self.file.positions(self.index).into_iter().collect();
@@ -255,7 +254,7 @@ impl CaseRef<'_> {
         id
     }
 
-    /// The value of each axis and derived value.
+    /// Returns the value of each axis and derived value.
     pub(crate) fn values(&self) -> BTreeMap<&str, &Value> {
         let wire = &self.file.wire;
         let positions = self.file.positions(self.index);

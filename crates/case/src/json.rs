@@ -1,13 +1,14 @@
-//! JSON as people write it: a key that stands twice, and a number that no 32-bit float holds, are errors and no values.
+//! JSON as people write it: duplicate keys, and numbers that overflow a 32-bit float, are errors.
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 use std::fmt;
 
-/// Parses a text, which may begin with a byte order mark.
+/// Parses a JSON text, which can begin with a byte order mark.
 ///
 /// # Errors
-/// If it is not JSON, an object has a key twice, or a number overflows a 32-bit float; with the line.
+/// If it is not JSON, an object has a duplicate key, or a number overflows a 32-bit float; the error names
+/// the line.
 pub fn parse_json(text: &str) -> Result<Value, serde_json::Error> {
     let strict: Strict = serde_json::from_str(etalon_frame::without_mark(text))?;
     Ok(strict.0)
@@ -69,7 +70,7 @@ impl<'de> Visitor<'de> for StrictVisitor {
         let mut values = Map::new();
         while let Some(key) = map.next_key::<String>()? {
             if values.contains_key(&key) {
-                return Err(A::Error::custom(format!("the key `{key}` stands twice")));
+                return Err(A::Error::custom(format!("duplicate key `{key}`")));
             }
             let Strict(value) = map.next_value()?;
             values.insert(key, value);
@@ -98,7 +99,7 @@ mod tests {
         for (text, words) in [
             (
                 "{ \"a\": 1,\n \"b\": { \"a\": 1,\n \"a\": 2 } }",
-                "the key `a` stands twice at line 3",
+                "duplicate key `a` at line 3",
             ),
             ("[1,\n1e39]", "1e39 overflows a 32-bit float at line 2"),
             ("[-1e39]", "-1e39 overflows"),

@@ -1,6 +1,6 @@
 //! Case files: parsing, axes, expansion, ids and the JSON schema.
 //!
-//! A [`Library`] holds case files, compiled in or from a folder. Each file expands into
+//! A [`Library`] is a set of case files, compiled in or read from a folder. Each file expands into
 //! [`CaseRef`]s, whose ids cost nothing; [`CaseRef::build`] makes the [`Case`] with its scene.
 
 mod attachment;

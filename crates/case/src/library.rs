@@ -1,4 +1,4 @@
-//! All case files at hand.
+//! Sets of case files.
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
@@ -16,10 +16,10 @@ pub struct Library {
 }
 
 impl Library {
-    /// The case files that were compiled in. They are parsed once per process.
+    /// Returns the case files that were compiled in. They are parsed once per process.
     ///
     /// # Errors
-    /// If one of them is broken; a test holds that none is.
+    /// If one of them is broken; a test ensures that all parse.
     pub fn built_in() -> Result<Self, CaseError> {
         static PARSED: OnceLock<Library> = OnceLock::new();
         if let Some(library) = PARSED.get() {
@@ -32,7 +32,7 @@ impl Library {
         Ok(PARSED.get_or_init(|| Self { files }).clone())
     }
 
-    /// All files ending in `.json` below a folder.
+    /// Returns all files ending in `.json` below a folder.
     ///
     /// # Errors
     /// If a folder or file cannot be read or a file is broken.
@@ -43,7 +43,7 @@ impl Library {
         Ok(Self { files })
     }
 
-    /// All files ending in `.json` below a folder, each with its own error.
+    /// Returns all files ending in `.json` below a folder, each as a result of its own.
     pub fn read_each(folder: &Path) -> Vec<Result<CaseFile, CaseError>> {
         let mut names = Vec::new();
         if let Err(error) = collect(folder, "", &mut Vec::new(), &mut names) {
@@ -57,21 +57,21 @@ impl Library {
         names.into_iter().map(read).collect()
     }
 
-    /// The files.
+    /// Returns the files.
     pub fn files(&self) -> &[CaseFile] {
         &self.files
     }
 
-    /// The cases of a profile, file by file.
+    /// Returns the cases of a profile, file by file.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         self.files.iter().flat_map(move |file| file.cases(profile))
     }
 }
 
-/// Reads a file. A pipe would be waited for.
+/// Reads a regular file. Reading a pipe would block.
 fn text_of(path: &Path) -> io::Result<String> {
     if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::other("it is no file"));
+        return Err(io::Error::other("it is not a regular file"));
     }
     fs::read_to_string(path)
 }
@@ -85,10 +85,11 @@ fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     }
 }
 
-/// Files of folders that a command recorded into, whose other files are no cases.
+/// Files that mark folders into which a command recorded; their other files are not cases.
 const RECORDED: [&str; 2] = ["run.jsonl", "bench.jsonl"];
 
-/// Collects the names of the files below a folder. `above` are the folders around it, without links.
+/// Collects the names of the files below a folder. `above` is the chain of enclosing folders, with links
+/// resolved.
 fn collect(
     folder: &Path,
     prefix: &str,
@@ -98,7 +99,7 @@ fn collect(
     let label = folder.display().to_string();
     let real = fs::canonicalize(folder).map_err(|e| unreadable(&label, &e))?;
     if above.contains(&real) {
-        let back = "it is a link to a folder that it lies in; remove it";
+        let back = "it is a link to one of its own parent folders; remove it";
         return Err(unreadable(&label, &io::Error::other(back)));
     }
     above.push(real);
@@ -222,7 +223,7 @@ mod tests {
             let built = case.build().expect("built-in cases build");
             assert_eq!(built.id, case.id());
             assert!(!built.id.contains([' ', ',']), "{}", built.id);
-            assert!(ids.insert(built.id.clone()), "{} stands twice", built.id);
+            assert!(ids.insert(built.id.clone()), "{} occurs twice", built.id);
             let selftest = built.area() == "selftest";
             assert_eq!(built.judged_as.is_some(), selftest, "{}", built.id);
         }

@@ -1,6 +1,6 @@
-//! Warnings on a case file that builds: what it says and does not use, and what it uses and does not say.
+//! Warnings on a case file that builds: names that are unused, and parameters that are used but not given.
 //!
-//! They need no judge, so that `--cases` can afford them. `etalon check` adds those that need one.
+//! They need no judge, so `--cases` can afford them. `etalon check` adds the warnings that need one.
 
 use crate::error::{At, CaseError};
 use crate::file::{CaseFile, METHOD, Profile};
@@ -8,15 +8,15 @@ use etalon_scene::Shader;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// The most cases of a file whose draws are looked at.
+/// The maximum number of cases of a file whose draws are inspected.
 const LOOKED_AT: usize = 256;
 
-/// The most warnings of a file, each of which is looked for in the whole text.
+/// The maximum number of warnings of a file; locating each one searches the whole text.
 const MOST: usize = 64;
 
 impl CaseFile {
-    /// Returns the first warnings, in no case an error: axes and derived values that nothing uses, and draws whose shader
-    /// reads a parameter that the file does not give.
+    /// Returns the first warnings; none of them is an error. They concern axes and derived values that
+    /// nothing uses, and draws whose shader reads a parameter that the file does not give.
     pub fn warnings(&self) -> Vec<CaseError> {
         let mut all = self.unused();
         all.extend(self.missing_params());
@@ -28,7 +28,7 @@ impl CaseFile {
             .collect()
     }
 
-    /// Returns the key that holds the scene, or what it is made from.
+    /// Returns the key of the scene, or of the value that it is made from.
     pub fn scene_key(&self) -> &'static str {
         let wire = &self.wire;
         let made = [
@@ -41,7 +41,7 @@ impl CaseFile {
         given.map_or("scene", |(key, _)| key)
     }
 
-    /// Returns a warning at a key of the file; a number is a place in a list.
+    /// Returns a warning at a key of the file; a number is an index into a list.
     pub fn warning(&self, keys: &[&str], message: impl Into<String>) -> CaseError {
         let steps = keys.iter().rev();
         let at = steps.fold(At::new(message), |at, key| match key.parse() {
@@ -81,7 +81,7 @@ impl CaseFile {
         for (name, axis) in &wire.axes {
             if !used.contains(name) {
                 let message = format!(
-                    "nothing uses this axis, so its {} values are the same case again: write \"${name}\" where it \
+                    "nothing uses this axis, so its {} values give the same case: write \"${name}\" where it \
                      belongs, or remove it",
                     axis.len()
                 );
@@ -91,7 +91,7 @@ impl CaseFile {
         found
     }
 
-    /// Draws whose shader reads a parameter that is not given, and so is 0.
+    /// Returns warnings about draws whose shader reads a parameter that is not given and is therefore 0.
     fn missing_params(&self) -> Vec<At> {
         let mut found = Vec::new();
         if self.is_method() || !self.wire.random.is_null() || !self.wire.states.is_null() {
@@ -109,7 +109,7 @@ impl CaseFile {
                     .unwrap_or_default()
             };
             for (p, pass) in list(&scene, "passes").iter().enumerate() {
-                // Without a colour to write it to, only a discard by it can show.
+                // Without a written colour, a parameter is visible only if the shader discards by it.
                 let colors = !list(pass, "color").is_empty();
                 for (d, draw) in list(pass, "draws").iter().enumerate() {
                     let masked = draw.get("write_mask").is_some_and(|mask| mask == "");
@@ -118,7 +118,7 @@ impl CaseFile {
                             continue;
                         }
                         let message = format!(
-                            "the shader {shader} reads `params.{name}`, which is not given and so is 0: give it, be it \
+                            "the shader {shader} reads `params.{name}`, which is not given and is therefore 0: give it, even if it is \
                              [0, 0, 0, 0]"
                         );
                         let at = At::new(message);
@@ -136,7 +136,7 @@ impl CaseFile {
     }
 }
 
-/// The parameters that a draw's shader reads and the draw does not give.
+/// Returns the parameters that a draw's shader reads and the draw does not give.
 fn unset(draw: &Value) -> Vec<(Shader, &'static str)> {
     let shader: Option<Shader> = draw
         .get("shader")

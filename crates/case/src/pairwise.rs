@@ -1,23 +1,23 @@
-//! Covering arrays: few rows of a product in which every two values of every two axes meet, or in
-//! which every value stands a number of times.
+//! Covering arrays: a few rows of a product in which every two values of every two axes occur together, or in
+//! which every value occurs a number of times.
 
 use std::collections::HashSet;
 
-/// Two values that meet: axis and position of the one, axis and position of the other.
+/// Two values that occur together: axis and position of the first, axis and position of the second.
 type Pair = (usize, usize, usize, usize);
 
-/// The coverage that rows must reach.
+/// The coverage that the rows must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cover {
-    /// Each pair of values of each two axes, at least once.
+    /// Each pair of values of any two axes, at least once.
     Pairs,
     /// Each value this many times, or as often as the product allows.
     Each(usize),
 }
 
-/// Rows over axes of these lengths that cover what is asked for, none of them twice: greedy and the
-/// same in every run. Values that follow from no pair are those used least, so that all stand
-/// about equally often and beside different others.
+/// Returns distinct rows that cover `cover` over axes of these lengths, chosen greedily and
+/// deterministically. Values that no open pair determines are the least used ones, so that all occur about
+/// equally often and together with different others.
 pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
     let mut state = State::new(lengths);
     match cover {
@@ -66,7 +66,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Takes rows until each value stands in so many, or in all that there are.
+    /// Adds rows until each value occurs in `times` of them, or in all possible rows.
     fn each(&mut self, times: usize) {
         if self.lengths.is_empty() {
             self.rows.push(Vec::new());
@@ -95,9 +95,9 @@ impl<'a> State<'a> {
         self.rows.push(row);
     }
 
-    /// A row that holds these values and, axis by axis, the value that meets most open pairs; of
-    /// equals the one used least, of these the first from a place that differs by axis, so that two
-    /// axes with the same values do not always show the same one.
+    /// Returns a row with the fixed values. Axis by axis, it takes the value that covers most open pairs;
+    /// among equals, the least used one; among these, the first from a start that differs by axis, so that
+    /// two axes with the same values do not always show the same one.
     fn row(&self, fixed: &[(usize, usize)]) -> Vec<usize> {
         let mut row: Vec<Option<usize>> = vec![None; self.lengths.len()];
         for (axis, value) in fixed {
@@ -169,11 +169,11 @@ mod tests {
                 for (axis, length) in lengths.iter().enumerate() {
                     for value in 0..*length {
                         let found = rows.iter().filter(|r| r[axis] == value).count();
-                        // A value of one axis meets no more than all of the others.
+                        // A value of one axis can occur only with each combination of the others.
                         let expected = times.min(all / length).min(3);
                         assert!(
                             found >= expected,
-                            "{lengths:?}: value {value} of axis {axis} stands {found} times"
+                            "{lengths:?}: value {value} of axis {axis} occurs {found} times"
                         );
                     }
                 }

@@ -1,4 +1,4 @@
-//! Load and store operations and clear commands of a pass: impossible ones refused.
+//! Load and store operations and clear commands of a pass: parses them and refuses impossible ones.
 
 use crate::draw::write_mask;
 use crate::error::At;
@@ -6,7 +6,7 @@ use crate::wire::{ClearCommandWire, ClearMaskWire, PassWire};
 use etalon_frame::TextureFormat;
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, PassOperations, StoreOperation};
 
-/// The parts of a pass that its operations and clears name.
+/// The parts of a pass that its operations and clears refer to.
 pub(crate) struct PassTarget {
     pub(crate) size: [u32; 2],
     /// The formats of the colour attachments.
@@ -59,7 +59,7 @@ pub(crate) fn operations(wire: &PassWire, target: &PassTarget) -> Result<PassOpe
             return Err(At::new(format!("the pass has no {name}")).key(name));
         }
         if wire.depth_stencil_read_only {
-            let message = "the pass promises to write neither depth nor stencil";
+            let message = "the pass declares that it writes neither depth nor stencil";
             return Err(At::new(message).key(name));
         }
     }
@@ -80,7 +80,7 @@ pub(crate) fn clears(wire: &PassWire, target: &PassTarget) -> Result<Vec<Clear>,
                 return Err(At::new(message).key("before"));
             }
             if all.last().is_some_and(|last| last.before > one.before) {
-                let message = "clears before earlier draws come first";
+                let message = "clears must be in the order of the draws that they precede";
                 return Err(At::new(message).key("before"));
             }
             Ok(Clear {
@@ -104,7 +104,7 @@ fn clear_target(
         return clear_depth_stencil(wire, read_only, target);
     };
     if wire.depth.is_some() || wire.stencil.is_some() {
-        let message = "colour is cleared apart from depth and stencil";
+        let message = "colour is cleared separately from depth and stencil";
         return Err(At::new(message).key("color"));
     }
     let format = color_at(target, location).map_err(|e| e.key("color"))?;
@@ -115,7 +115,7 @@ fn clear_target(
     let write_mask = match &wire.write_mask {
         None => Ok(0b1111),
         Some(ClearMaskWire::Channels(letters)) => write_mask(letters),
-        Some(_) => Err(At::new("the mask of colours has letters of rgba")),
+        Some(_) => Err(At::new("the mask of colours consists of letters of rgba")),
     };
     Ok(ClearTarget::Color {
         location,
@@ -130,7 +130,7 @@ fn clear_depth_stencil(
     target: &PassTarget,
 ) -> Result<ClearTarget, At> {
     if wire.value.is_some() {
-        return Err(At::new("`value` is that of a `color`").key("value"));
+        return Err(At::new("`value` belongs to `color`").key("value"));
     }
     let (depth, stencil) = (wire.depth, wire.stencil);
     let aspects = [
@@ -142,7 +142,7 @@ fn clear_depth_stencil(
             return Err(At::new(format!("the pass has no {name}")).key(name));
         }
         if cleared && read_only {
-            let message = "the pass promises to write neither depth nor stencil";
+            let message = "the pass declares that it writes neither depth nor stencil";
             return Err(At::new(message).key(name));
         }
     }
@@ -151,14 +151,14 @@ fn clear_depth_stencil(
     }
     let (depth_write, stencil_write_mask) = match (&wire.write_mask, depth, stencil) {
         (_, None, None) => {
-            return Err(At::new("a clear names a `color`, `depth` or `stencil`"));
+            return Err(At::new("a clear needs a `color`, `depth` or `stencil`"));
         }
         (None, ..) => (true, 0xff),
         (Some(ClearMaskWire::Depth(write)), Some(_), None) => (*write, 0xff),
         (Some(ClearMaskWire::Stencil(bits)), None, Some(_)) => (true, *bits),
         (Some(ClearMaskWire::Both { depth, stencil }), Some(_), Some(_)) => (*depth, *stencil),
         _ => {
-            let message = "the mask of depth is true or false, that of stencil a number of 8 bits, \
+            let message = "the mask of depth is true or false, and of stencil an 8-bit number, \
                            that of both {\"depth\": …, \"stencil\": …}";
             return Err(At::new(message).key("write_mask"));
         }
@@ -172,17 +172,17 @@ fn clear_depth_stencil(
 }
 
 fn color_at(target: &PassTarget, location: usize) -> Result<TextureFormat, At> {
-    let missing = || At::new("there is no colour attachment at this place");
+    let missing = || At::new("there is no colour attachment at this location");
     target.color.get(location).copied().ok_or_else(missing)
 }
 
 fn color_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
     let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
     if format.is_integer() && !value.iter().all(whole) {
-        return Err(At::new("integers from 0 to 255 are cleared"));
+        return Err(At::new("integers must be from 0 to 255"));
     }
     if !value.iter().all(|v| v.is_finite()) {
-        return Err(At::new("a cleared colour is finite"));
+        return Err(At::new("a cleared colour must be finite"));
     }
     Ok(())
 }
@@ -191,10 +191,10 @@ fn depth_value(value: f32) -> Result<(), At> {
     if (0.0..=1.0).contains(&value) {
         return Ok(());
     }
-    Err(At::new("a cleared depth lies between 0 and 1"))
+    Err(At::new("a cleared depth must be between 0 and 1"))
 }
 
-/// Returns the rectangle of a clear, which lies inside the attachments.
+/// Returns the rectangle of a clear, which must be inside the attachments.
 fn rect(wire: &ClearCommandWire, size: [u32; 2]) -> Result<Option<[u32; 4]>, At> {
     let Some([x, y, w, h]) = wire.rect else {
         return Ok(None);
@@ -231,7 +231,7 @@ mod tests {
             .map_err(|e| e.to_string())
     }
 
-    /// A pass of no draws with these keys.
+    /// Returns a pass without draws, with these keys.
     fn with(keys: &str) -> String {
         format!(r#""color":["color","integer"],"depth_stencil":"depth","draws":[],{keys}"#)
     }
@@ -301,19 +301,19 @@ mod tests {
         let color = r#""clears":[{"before":0,"color":2,"value":[0,0,0,0]}]"#;
         refused(
             &with(color),
-            "clears[0].color: there is no colour attachment at this place",
+            "clears[0].color: there is no colour attachment at this location",
         );
         let color = r#""operations":{"color":[{},{},{}]}"#;
         refused(
             &with(color),
-            "operations.color[2]: there is no colour attachment at this place",
+            "operations.color[2]: there is no colour attachment at this location",
         );
     }
 
     #[test]
     fn a_read_only_pass_neither_clears_nor_discards() {
         let read_only = |keys: &str| with(&format!(r#""depth_stencil_read_only":true,{keys}"#));
-        let due = "promises to write neither depth nor stencil";
+        let due = "declares that it writes neither depth nor stencil";
         refused(
             &read_only(r#""operations":{"depth":{"load":{"clear":1}}}"#),
             due,
@@ -348,17 +348,17 @@ mod tests {
             (
                 "many",
                 r#""to":"many","depth":"min""#,
-                "to: several samples are resolved to one",
+                "to: a resolve goes from several samples to one",
             ),
             (
                 "depth",
                 r#""to":"depth","depth":"min""#,
-                "to: several samples are resolved",
+                "to: a resolve goes from several samples",
             ),
             (
                 "many",
                 r#""to":"depth","stencil":"average""#,
-                "stencil: stencil has no average",
+                "stencil: stencil cannot be averaged",
             ),
             ("many", r#""to":"depth""#, "a mode for `depth` or `stencil`"),
             (
@@ -384,24 +384,24 @@ mod tests {
             (r#"{"before":1,"depth":1}"#, "before: the pass has 0 draws"),
             (
                 r#"{"before":0}"#,
-                "a clear names a `color`, `depth` or `stencil`",
+                "a clear needs a `color`, `depth` or `stencil`",
             ),
             (r#"{"before":0,"color":0}"#, "needs a `value`"),
             (
                 r#"{"before":0,"depth":1,"value":[0,0,0,0]}"#,
-                "`value` is that of a `color`",
+                "`value` belongs to `color`",
             ),
             (
                 r#"{"before":0,"depth":2}"#,
-                "depth: a cleared depth lies between 0 and 1",
+                "depth: a cleared depth must be between 0 and 1",
             ),
             (
                 r#"{"before":0,"color":1,"value":[0,0,0.5,0]}"#,
-                "value: integers from 0 to 255",
+                "value: integers must be from 0 to 255",
             ),
             (
                 r#"{"before":0,"color":0,"value":[0,0,0,0],"depth":1}"#,
-                "apart from depth",
+                "separately from depth",
             ),
             (
                 r#"{"before":0,"depth":1,"rect":[1,1,4,1]}"#,
@@ -435,19 +435,16 @@ mod tests {
             r#""color":["color"],"draws":[{draw}],"clears":[
                {{"before":1,"color":0,"value":[0,0,0,0]}},{{"before":0,"color":0,"value":[0,0,0,0]}}]"#
         );
-        refused(
-            &turned,
-            "clears[1].before: clears before earlier draws come first",
-        );
+        refused(&turned, "clears[1].before: clears must be in the order");
         let operations = r#""operations":{"color":[{},{"load":{"clear":[0,0,256,0]}}]}"#;
         refused(
             &with(operations),
-            "operations.color[1].load.clear: integers from 0 to 255",
+            "operations.color[1].load.clear: integers must be from 0 to 255",
         );
         let operations = r#""operations":{"depth":{"load":{"clear":-1}}}"#;
         refused(
             &with(operations),
-            "operations.depth.load.clear: a cleared depth lies",
+            "operations.depth.load.clear: a cleared depth must be",
         );
     }
 }

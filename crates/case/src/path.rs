@@ -1,7 +1,7 @@
 //! Paths that a scene cannot take.
 //!
-//! A value applies to those attachments and draws that it can apply to. A scene without any is refused,
-//! since its case would say something that no driver executes.
+//! A value applies only to attachments and draws to which it can apply. A scene with none is refused, since
+//! its case would claim to test something that no driver executes.
 
 use crate::error::At;
 use etalon_frame::{
@@ -22,14 +22,14 @@ pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
     Ok(())
 }
 
-/// The reason why a value applies to nothing in the scene.
+/// Returns the reason why a value applies to nothing in the scene.
 fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let any = |holds: &dyn Fn(usize, &Attachment) -> bool| {
         let mut all = scene.attachments.iter().enumerate();
         all.any(|(index, attachment)| holds(index, attachment))
     };
     let read = |index: usize, a: &Attachment| a.samples == 1 && scene.read.contains(&index);
-    // What a blit might round.
+    // Formats whose values a blit might round.
     let normalized = |a: &Attachment| {
         let mut channels = a.format.color_channels().iter();
         channels.any(|e| !e.is_float() && !matches!(e, ChannelEncoding::Uint(_)))
@@ -42,7 +42,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let (applies, reason) = match value {
         PathValue::Layers(_) => (
             layered() && draws().next().is_some(),
-            "there is no draw, or one that counts, stores or is tessellated",
+            "there is no draw, or a draw counts, stores or is tessellated",
         ),
         PathValue::Target(_) if layered() => (false, "passes have layers"),
         PathValue::Resolves(_) => (
@@ -54,9 +54,9 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     .passes
                     .iter()
                     .any(|p| p.moved_resolves(&scene.path).next().is_some()),
-            "no color is resolved, passes have layers, or colors are others than 0 and 1 that fill texels",
+            "no color is resolved, passes have layers, or a color is not 0 or 1 over whole texels",
         ),
-        // Only the last stage before rasterization chooses a viewport, and no restart parts patches.
+        // Only the last stage before rasterization chooses a viewport, and patches cannot be restarted.
         PathValue::Viewport(PathViewport::Array) | PathValue::Draws(PathDraws::Restart)
             if tessellated =>
         {
@@ -66,7 +66,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
         PathValue::Start(PathStart::Transfer) => return None,
         PathValue::Start(_) => (
             made().attachments != scene.attachments,
-            "no attachment is drawn to first, from a clear value that is kept exactly",
+            "no attachment is first drawn to, with a clear value that is stored exactly",
         ),
         PathValue::Draws(
             PathDraws::Direct
@@ -100,7 +100,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             without.path.draws = PathDraws::Direct;
             (
                 called(&made()) != called(&without.on_path()),
-                "every draw is called so already, or cannot be",
+                "every draw already has such a call, or cannot have one",
             )
         }
         PathValue::Target(PathTarget::MipLevel) => (
@@ -115,15 +115,15 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             any(&|i, a| {
                 a.samples == 1 && a.format.is_color() && !draws().any(|d| d.textures.contains(&i))
             }),
-            "no attachment is of colour with a single sample, and not fetched from",
+            "no single-sample colour attachment is without fetches",
         ),
         PathValue::End(PathEnd::Blit) => (
             any(&|i, a| read(i, a) && !normalized(a)),
-            "no attachment with a single sample is read back, of floats, integers, depth or stencil",
+            "no single-sample attachment of floats, integers, depth or stencil is read back",
         ),
         PathValue::End(PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart) => (
             any(&|i, a| read(i, a) && !normalized(a) && a.size[0] > 1 && a.size[1] > 1),
-            "no attachment with a single sample and several rows and columns is read back, of floats, integers, depth \
+            "no single-sample attachment with several rows and columns is read back, of floats, integers, depth \
              or stencil",
         ),
         PathValue::End(PathEnd::BlitLinear) => (
@@ -135,11 +135,11 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     .iter()
                     .all(|p| p.resolve.iter().all(Option::is_none))
                 && any(&|i, a| read(i, a) && a.format.is_color()),
-            "colors are others than 0 and 1, or none with a single sample are read back",
+            "a color is neither 0 nor 1, or no single-sample color attachment is read back",
         ),
         PathValue::End(PathEnd::ReadBuffer) => (
             any(&|i, a| read(i, a) && a.format.is_color() && drawn(i)),
-            "no color attachment with a single sample is drawn to and read back",
+            "no single-sample color attachment is drawn to and read back",
         ),
         PathValue::End(PathEnd::ShaderRead) => (
             any(&|i, a| {
@@ -147,7 +147,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     && a.format != TextureFormat::Rgba8Snorm
                     && a.format != TextureFormat::Rgba8UnormSrgb
             }),
-            "no attachment with a single sample is read back whose codes a shader sees",
+            "no single-sample attachment is read back whose codes a shader sees",
         ),
         PathValue::End(PathEnd::Part) => (
             any(&|i, a| read(i, a) && a.size.iter().any(|side| *side > 11)),
@@ -186,7 +186,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     scene.path.end,
                     PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
                 ),
-            "no attachment is of color, or it is blitted, which converts integers to integers alone",
+            "there is no color attachment, or it is blitted, which converts integers only to integers",
         ),
         PathValue::Pass(_)
         | PathValue::Target(_)
@@ -204,7 +204,7 @@ fn is_zero_or_one(value: &f32) -> bool {
     *value == 0.0 || *value == 1.0
 }
 
-/// True if a color attachment begins with zeros and ones.
+/// Returns true if the initial contents of an attachment are only zeros and ones, or not colors.
 fn has_two_values(attachment: &Attachment) -> bool {
     match &attachment.contents {
         Contents::Color(value) => value.iter().all(is_zero_or_one),
@@ -213,7 +213,7 @@ fn has_two_values(attachment: &Attachment) -> bool {
     }
 }
 
-/// True if a draw stores zeros and ones as colors.
+/// Returns true if a draw stores only zeros and ones as colors.
 fn writes_two_values(draw: &Draw) -> bool {
     let replaces = |target: &ColorTarget| target.blend.is_none() && target.advanced.is_none();
     draw.shader == Shader::UniformColor
@@ -222,7 +222,7 @@ fn writes_two_values(draw: &Draw) -> bool {
         && draw.targets.iter().all(replaces)
 }
 
-/// True if a draw fills whole texels, all samples of each: by a triangle far beyond its viewport.
+/// Returns true if a draw fills all samples of whole texels, by a triangle far beyond its viewport.
 fn fills_texels(draw: &Draw) -> bool {
     let corner = |vertex: &Vertex| {
         let [x, y, _, w] = vertex.position;
@@ -250,7 +250,7 @@ fn fills_texels(draw: &Draw) -> bool {
         && draw.stencil.is_none()
 }
 
-/// True if a pass clears colors to zeros and ones.
+/// Returns true if a pass clears colors only to zeros and ones.
 fn clears_to_two_values(pass: &Pass) -> bool {
     let loads = (0..pass.color.len())
         .filter_map(|location| pass.color_operations(location).load.clear_value());
@@ -305,7 +305,7 @@ mod tests {
             if value.to_string() == "views=srgb" {
                 scene["attachments"]["color"]["format"] = json!("rgba8unorm");
             }
-            // The values of this shader are its parameters, which is what one of the paths asks for.
+            // The shader's values are its parameters, which one of the paths requires.
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
                 json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);

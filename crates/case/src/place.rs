@@ -1,13 +1,13 @@
 //! The place in a file's text that a path leads to.
 //!
-//! A path counts unrolled items of lists ([`crate::each`]), and so leads to the item that stands for them, or to the
-//! value in its `each` that is wrong.
+//! A path counts unrolled list items ([`crate::each`]). It leads to the item that unrolls to them, or to the
+//! wrong value in its `each`.
 
 use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
-/// The key of the values.
+/// The key of the values that an item unrolls with.
 pub(crate) const EACH: &str = "each";
 
 /// A step of a path into a JSON document.
@@ -21,14 +21,14 @@ pub(crate) enum Step {
 pub(crate) struct Place {
     /// The line, from 1; 0 if the text is not JSON.
     pub(crate) line: usize,
-    /// The path through the file as it is written.
+    /// The path in the file as written.
     pub(crate) path: Vec<Step>,
-    /// The path of the `"$name"` that stands for a value of an `each`.
+    /// The path of the `"$name"` that was replaced by a value of an `each`.
     pub(crate) used: Option<Vec<Step>>,
 }
 
 impl Place {
-    /// Returns the place of the value at a path, or as near above it as the path leads.
+    /// Returns the place of the value at a path, or of its nearest existing ancestor.
     pub(crate) fn new(text: &str, path: &[Step]) -> Self {
         let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
         let parsed = parsed.ok().and_then(|parsed| parsed.value);
@@ -46,7 +46,7 @@ impl Place {
         let mut steps = path.iter();
         loop {
             if let Some(at) = bound.iter().position(|b| b.is_named_by(value)) {
-                // An item's value can name those of the items around it.
+                // An item's value can refer to names of the items around it.
                 bound.truncate(at + 1);
                 let Some(named) = bound.pop() else { break };
                 bound.truncate(named.around);
@@ -82,12 +82,12 @@ impl Place {
     }
 }
 
-/// A name of an `each`, and its value in one of the items.
+/// A name in an `each`, and its value in one of the items.
 struct Bound<'a> {
     name: &'a str,
     value: &'a Value<'a>,
     path: Vec<Step>,
-    /// The number of names that the items around have.
+    /// The number of names bound by the enclosing items.
     around: usize,
 }
 
@@ -97,25 +97,26 @@ impl Bound<'_> {
     }
 }
 
-/// Where a property and its value start.
+/// Returns the start of a property, and its value.
 fn property<'a>(object: &'a Object<'a>, key: &str) -> Option<(usize, &'a Value<'a>)> {
     let mut properties = object.properties.iter();
     let found = properties.find(|p| p.name.as_str() == key)?;
     Some((found.start(), &found.value))
 }
 
-/// The `each` of a list's item.
+/// Returns the `each` of a list item.
 fn each<'a>(item: &'a Value<'a>) -> Option<&'a Object<'a>> {
     let (_, value) = property(item.as_object()?, EACH)?;
     value.as_object()
 }
 
-/// The place of an unrolled item in a list as it is written, and its number among those that the item stands for.
+/// Returns the index, in the list as written, of an unrolled item, and its number among the items that this
+/// one unrolls to.
 fn item(list: &Array, mut index: usize, bound: &[Bound]) -> Option<(usize, usize)> {
     for (place, item) in list.elements.iter().enumerate() {
         let first = each(item).and_then(|each| each.properties.first());
         let values = first.and_then(|first| values(&first.value, bound));
-        // A wrong `each` is one item.
+        // An item with a wrong `each` counts as one.
         let count = values.map_or(1, |(list, _)| list.elements.len().max(1));
         if index < count {
             return Some((place, index));
@@ -125,7 +126,7 @@ fn item(list: &Array, mut index: usize, bound: &[Bound]) -> Option<(usize, usize
     None
 }
 
-/// The list of a name's values, which can be a value of an item around; and the path of that.
+/// Returns the list of a name's values, and its path if it comes from an enclosing item.
 fn values<'a>(
     value: &'a Value<'a>,
     bound: &[Bound<'a>],

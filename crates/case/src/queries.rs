@@ -1,11 +1,11 @@
-//! Scopes of queries that a scene cannot have.
+//! Query scopes that a scene cannot have.
 
 use crate::error::At;
 use etalon_frame::PathCommands;
 use etalon_scene::{Draw, Pass, QueryScope, Scene};
 use std::collections::BTreeSet;
 
-/// Checks that a scope of queries changes something, and that a query over passes encloses whole ones.
+/// Checks that a query scope changes something, and that a query over passes encloses whole passes.
 pub(crate) fn check_queries(scene: &Scene) -> Result<(), At> {
     let scope = scene.query_scope;
     if scope == QueryScope::Draw {
@@ -33,11 +33,11 @@ pub(crate) fn check_queries(scene: &Scene) -> Result<(), At> {
             .all(|two| named(&two[0]) == named(&two[1]))
     };
     if !made.passes.iter().all(is_whole) {
-        return Err(At::new("the draws of a pass name the same counters"));
+        return Err(At::new("the draws of a pass must use the same counters"));
     }
     if scene.path.commands == PathCommands::Several {
         return Err(At::new(
-            "a query ends in the command buffer in which it began",
+            "a query must end in the command buffer in which it began",
         ));
     }
     Ok(())
@@ -48,7 +48,7 @@ mod tests {
     use crate::resolve::parse_scene;
     use serde_json::{Value, json};
 
-    /// A scene of passes whose draws name these counters.
+    /// Returns a scene of passes whose draws use these counters.
     fn scene(queries: &str, path: Value, passes: &[&[&[&str]]]) -> Value {
         let draw = |counters: &&[&str]| json!({ "mesh": { "kind": "full" }, "shader": "uniform_color", "counters": counters });
         let pass = |draws: &&[&[&str]]| json!({ "color": ["color"], "draws": draws.iter().map(draw).collect::<Vec<_>>() });

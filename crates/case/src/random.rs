@@ -1,9 +1,8 @@
-//! Scenes made from a seed: several draws with all state different and nothing at its default.
+//! Random scenes from a seed: several draws with all their states different and none at its default.
 //!
-//! A scene is made as the JSON that a case file would hold, so that whoever looks at one can copy it
-//! out and change it by hand. Inputs keep to what can be proven: written depths are 0, 1 or far
-//! apart, samples lie clear of edges, alpha is 0 or 1 where it decides on coverage, and colours lie
-//! clear of where rounding is open (see [`Palette`]).
+//! A scene is made as the JSON of a case file, so that people can copy and edit it. Inputs are limited to
+//! what can be proven: written depths are 0, 1 or far apart, samples are away from edges, alpha is 0 or 1 if
+//! it decides coverage, and colours avoid values whose rounding is open (see [`Palette`]).
 
 use etalon_frame::SplitMix64;
 use etalon_scene::{
@@ -17,20 +16,20 @@ use serde_json::{Value, json};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Flavor {
-    /// Depth, stencil, blending, culling, masks, scissor and viewport, as every API has them.
+    /// Depth, stencil, blending, culling, masks, scissor and viewport, in the form that every API has.
     Common,
-    /// The same over four samples, with sample masks and alpha to coverage.
+    /// The same with four samples, sample masks and alpha to coverage.
     Multisample,
-    /// [`Flavor::Common`] with what only some APIs have, one such thing in a scene: separate
-    /// stencil masks, two sources, logic operations, depth bounds, depth clamp, reversed depth.
+    /// [`Flavor::Common`] plus one state per scene that only some APIs have: separate stencil masks, two
+    /// sources, logic operations, depth bounds, depth clamp or reversed depth.
     Extended,
     /// [`Flavor::Common`] with shaders that write the stencil reference.
     Exported,
-    /// [`Flavor::Common`] with any w: vertices in front of the eye, behind it and in its plane.
+    /// [`Flavor::Common`] with any w: vertices in front of the eye, behind it, and in its plane.
     Perspective,
 }
 
-/// Something that only some APIs have.
+/// A state that only some APIs have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Extra {
     Nothing,
@@ -45,16 +44,17 @@ enum Extra {
     Perspective,
 }
 
-/// The colours of a scene, of which few codes are legal.
+/// The colours of a scene, for which few codes are legal.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Palette {
-    /// Sums of powers of two, of which no multiple by `2^b - 1` is nearly an integer: two codes each.
+    /// Sums of powers of two. Their multiples by `2^b - 1` are never nearly integers, so two codes are legal
+    /// for each.
     Normalized,
-    /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits: a logic operation
+    /// Values between two codes that differ only in the last bit, for 8 and for 10 bits: a logic operation
     /// carries no more than that bit into the result.
     Bits,
-    /// Exact in floats, as are their products, and of different factors, so that few differences are
-    /// nearly 0 and so small that many codes are legal; textures hold such values too.
+    /// Values that are exact in floats, as are their products. Their factors differ, so few differences are
+    /// nearly 0, where many codes would be legal. Textures have such values too.
     Float,
 }
 
@@ -67,7 +67,7 @@ impl Palette {
         }
     }
 
-    /// Returns a value near an 8-bit code that a 16-bit float holds.
+    /// Returns a value near an 8-bit code that is exact in a 16-bit float.
     fn near(self, code: u32) -> f64 {
         match self {
             Self::Normalized | Self::Float => {
@@ -90,10 +90,10 @@ impl Palette {
     }
 }
 
-/// The size of all attachments, a side.
+/// The width and height of all attachments.
 const SIZE: u32 = 16;
 
-/// Factors of positions: w, from the first vertex of each primitive on or throughout a mesh.
+/// Factors of positions: the w of a mesh's vertices in turn, repeated over the mesh.
 const FACTORS: [&[f64]; 7] = [
     &[1.0],
     &[2.0, 0.5, 8.0],
@@ -114,9 +114,9 @@ const BEHIND: [[[f64; 3]; 3]; 6] = [
     [[2.0, 2.0, 1.0], [-3.0, -2.0, -1.0], [-2.0, -3.0, -1.0]],
 ];
 
-/// The scene of a seed. A seed always gives the same scene: ids name it.
+/// Returns the scene of a seed. A seed must always give the same scene, because ids contain it.
 pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
-    // Neighbouring seeds of the flavours share nothing.
+    // Flavours with the same seed share nothing.
     let mut dice = Dice(SplitMix64(seed ^ (0x9e37_79b9 * (flavor as u64 + 1))));
     let samples = if flavor == Flavor::Multisample { 4 } else { 1 };
     let extra = match flavor {
@@ -140,7 +140,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
         "rgb10a2unorm",
         "rgba16float",
     ]);
-    // Of the 10-bit format and of floats not every driver resolves or counts samples alike.
+    // Drivers differ in resolving and counting samples of the 10-bit format and of floats.
     let color = if samples > 1 { "rgba8unorm" } else { color };
     let depth = *dice.of(&["depth24plus-stencil8", "depth32float-stencil8"]);
     let palette = match (color, extra) {
@@ -180,7 +180,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     scene
 }
 
-/// True if the viewport must keep the depths that a shader writes.
+/// Returns true if the viewport must not change the depths that a shader writes.
 fn writes_depth(shader: &str) -> bool {
     matches!(shader, "flat_color_depth" | "exported_depth")
 }
@@ -189,10 +189,10 @@ struct Maker {
     samples: u32,
     extra: Extra,
     palette: Palette,
-    /// True if alpha is 0 or 1: of two bits, all between would be legal as thirds, and as a factor carry
-    /// that into the colours.
+    /// True if alpha is 0 or 1. With two bits of alpha, values in between would be legal as different thirds,
+    /// and as a factor they would carry that into the colours.
     whole_alpha: bool,
-    /// One reference for all draws of a scene or none would ever be equal.
+    /// One reference for all draws of a scene; otherwise none would ever be equal.
     reference: u32,
     dice: Dice,
 }
@@ -247,7 +247,7 @@ impl Maker {
             Extra::DepthClamp => draw["depth_clamp"] = true.into(),
             Extra::Perspective => {
                 draw["w"] = json!(self.dice.of(&FACTORS));
-                // What the first draw lays out covers the viewport.
+                // The first draw's mesh covers the viewport.
                 if index > 0 && self.dice.range(0, 1) == 0 {
                     draw["mesh"] = self.reaching_behind(shader);
                 }
@@ -265,8 +265,8 @@ impl Maker {
         draw
     }
 
-    /// Bands across or down with depths and windings of their own; of several samples the whole, so
-    /// that no sample lies near an edge.
+    /// Returns bands across or down with depths and windings of their own; with several samples, a whole
+    /// quad, so that no sample is near an edge.
     fn mesh(&mut self, shader: &str, index: u32) -> Value {
         let written = shader == "flat_color_depth";
         if self.samples > 1 {
@@ -297,8 +297,8 @@ impl Maker {
         json!({ "kind": kind, "values": values, "z": z, "windings": windings })
     }
 
-    /// A triangle with a vertex behind the eye, or in its plane: the lines of its edges keep away from texel centres
-    /// of viewports of any size, since they lie outside of them.
+    /// Returns a triangle with a vertex behind the eye, or in its plane. The lines of its edges are outside
+    /// the viewport, so they avoid its texel centres, whatever its size.
     fn reaching_behind(&mut self, shader: &str) -> Value {
         let written = shader == "flat_color_depth";
         let value = if written {
@@ -317,12 +317,12 @@ impl Maker {
         json!({ "kind": "vertices", "positions": positions, "values": [value] })
     }
 
-    /// A written depth: two of them are the same or far apart.
+    /// Returns a depth to be written: two such depths are equal or far apart.
     fn depth(&mut self) -> f64 {
         *self.dice.of(&[0.0, 0.0, 0.21, 0.4, 0.62, 0.83, 1.0, 1.0])
     }
 
-    /// A clip-space depth, never near a plane that clips.
+    /// Returns a clip-space depth, never near a clipping plane.
     fn vertex_depth(&mut self) -> f64 {
         if self.extra == Extra::DepthClamp {
             return *self.dice.of(&[-0.75, 0.0, 0.3, 0.7, 1.0, 1.75]);
@@ -340,7 +340,7 @@ impl Maker {
         }
     }
 
-    /// None over several samples: a driver's bug there would hide all others.
+    /// Returns a scissor rectangle; none with several samples, where a driver's bug would hide all others.
     fn scissor(&mut self) -> Value {
         match self.samples {
             1 => json!(self.rect()),
@@ -348,7 +348,7 @@ impl Maker {
         }
     }
 
-    /// A rectangle of at least 11 texels a side that is not the whole.
+    /// Returns a rectangle of at least 11 texels a side that is not the whole.
     fn rect(&mut self) -> [u32; 4] {
         let (x, y) = (self.dice.range(0, 4), self.dice.range(0, 4));
         let side = |dice: &mut Dice, start| dice.range(11, SIZE - start - u32::from(start == 0));
@@ -356,7 +356,7 @@ impl Maker {
         [x, y, w, h]
     }
 
-    /// Channels of 0, 1 and values between; alpha 0 or 1 where several samples hang on it.
+    /// Returns channels of 0, 1 and values in between; alpha is 0 or 1 with several samples.
     fn color(&mut self) -> Value {
         let values = self.palette.values();
         let mut color = [0, 0, 0, 0].map(|_| *self.dice.of(&values));
@@ -395,8 +395,8 @@ impl Maker {
         json!({ "format": "rgba16float", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
     }
 
-    /// Stencil references, of which many are the scene's in the bits that count, written depths, and what
-    /// decides on a discard.
+    /// Returns texels of stencil references (many equal the scene's in the relevant bits), written depths,
+    /// and values that decide a discard.
     fn references(&mut self) -> Value {
         let own = self.reference;
         let values: Vec<Value> = (0..SIZE)
@@ -418,7 +418,7 @@ impl Maker {
 
     fn compare(&mut self) -> CompareFunction {
         use CompareFunction as Is;
-        // What draws something stands more than once, or pictures would stay empty.
+        // Functions that let something pass occur more than once; otherwise pictures would stay empty.
         *self.dice.of(&[
             Is::Less,
             Is::LessEqual,
@@ -473,7 +473,7 @@ impl Maker {
             ])
         };
         let second = self.extra == Extra::DualSource;
-        // Constant alpha as a colour's factor is not every API's.
+        // Not every API has constant alpha as a factor for colours.
         let usable = |factor: &BlendFactor, is_color: bool| {
             (second || !factor.is_second_source())
                 && !(is_color
@@ -505,7 +505,7 @@ impl Maker {
     }
 }
 
-/// Choices by chance, which may never change.
+/// Random choices, which must never change.
 struct Dice(SplitMix64);
 
 impl Dice {
@@ -513,13 +513,13 @@ impl Dice {
         self.0.roll()
     }
 
-    /// A number from `low` to `high`, both included.
+    /// Returns a number from `low` to `high`, both included.
     fn range(&mut self, low: u32, high: u32) -> u32 {
         let span = u64::from(high.saturating_sub(low)) + 1;
         low + (self.roll() % span) as u32
     }
 
-    /// One of a list.
+    /// Returns an element of a list.
     fn of<'l, T>(&mut self, list: &'l [T]) -> &'l T {
         &list[(self.roll() % list.len() as u64) as usize]
     }

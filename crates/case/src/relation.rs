@@ -13,20 +13,20 @@ use std::collections::BTreeMap;
 /// Pictures that must be the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
-    /// The reason why they must.
+    /// The reason why they must be the same.
     pub invariance: Invariance,
-    /// Left, top, width and height of the texels that are compared; `None` is all.
+    /// Left, top, width and height of the texels that are compared; `None` for all.
     pub within: Option<[u32; 4]>,
-    /// The colour channels that are compared: bit 0 red to bit 3 alpha.
+    /// The mask of the colour channels that are compared: bit 0 is red, bit 3 alpha.
     pub channels: u8,
     /// The offset of the variants' pictures in texels, to the right and down.
     pub offset: [i32; 2],
-    /// Indices of the attachments of each frame that are compared with each other; empty where
-    /// the variants' frames are compared with the scene's own.
+    /// Indices of the attachments of each frame that are compared with each other; empty if the variants'
+    /// frames are compared with the scene's own.
     pub attachments: Vec<usize>,
 }
 
-/// The relation of the frames of a scene that is submitted again.
+/// The relation between the frames of a scene that is submitted several times.
 const REPEATED: Relation = Relation {
     invariance: Invariance::Repeat,
     within: None,
@@ -43,19 +43,19 @@ pub(crate) fn relation(
     variants: &[Variant],
 ) -> Result<Option<Relation>, At> {
     if value.is_null() {
-        // The same scene again gives the same frame by itself.
+        // A scene that is submitted again must give the same frame, even without a relation.
         let is_again = |variant: &Variant| variant.submissions.is_some();
         return match variants {
             [] => Ok(None),
             again if again.iter().all(is_again) => Ok(Some(REPEATED)),
             _ => Err(At::new(
-                "variants need a relation, or nothing is asserted of them",
+                "variants need a relation, or nothing is asserted about them",
             )),
         };
     }
     let wire: RelationWire = typed(&substitute(value, values)?)?;
     if wire.same != Invariance::Repeat && variants.iter().any(|v| v.submissions.is_some()) {
-        let message = "a scene that is submitted again stays the same by `repeat`";
+        let message = "a scene that is submitted again needs the relation `repeat`";
         return Err(At::new(message).key("same"));
     }
     let mut attachments = Vec::new();
@@ -75,7 +75,9 @@ pub(crate) fn relation(
         return Err(At::new(message).key("attachments"));
     }
     if attachments.len() < 2 && variants.is_empty() {
-        return Err(At::new("a relation needs variants or two attachments"));
+        return Err(At::new(
+            "a relation needs variants or at least two attachments",
+        ));
     }
     let shape = |scene: &Scene| -> Vec<_> {
         let read = scene.read.iter().map(|i| &scene.attachments[*i]);

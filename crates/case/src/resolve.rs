@@ -1,4 +1,4 @@
-//! Scenes and passes: defaults, names to indices, impossible states refused.
+//! Scenes and passes: applies defaults, resolves names to indices, and refuses impossible states.
 
 use crate::attachment::{attachment, default_size, find};
 use crate::draw::{Target, draw, writes_depth_stencil};
@@ -12,10 +12,10 @@ use crate::wire::{DepthStencilResolveWire, PassWire, SceneWire};
 use etalon_scene::{Attachment, Counter, DepthStencilResolve, Pass, Pool, ResolveMode, Scene};
 use serde_json::Value;
 
-/// The most counters of a scene.
+/// The maximum number of counters of a scene.
 const MAX_COUNTERS: usize = 64;
 
-/// The most draws of a scene as a file has them, `tiles` apart.
+/// The maximum number of draws of a scene in a file, before `tiles` multiplies them.
 const MAX_DRAWS: usize = 1 << 16;
 
 /// Parses and checks a scene.
@@ -31,7 +31,7 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
         attachments.push(attachment);
     }
     if wire.counters.len() > MAX_COUNTERS {
-        let message = format!("a scene has {MAX_COUNTERS} counters at most");
+        let message = format!("a scene can have at most {MAX_COUNTERS} counters");
         return Err(At::new(message).key("counters"));
     }
     let counters: Vec<Counter> = wire
@@ -45,7 +45,7 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
     check_pool(wire).map_err(|e| e.key("pool"))?;
     let draws: usize = wire.passes.iter().map(|pass| pass.draws.len()).sum();
     if draws > MAX_DRAWS {
-        let message = format!("a scene has {MAX_DRAWS} draws at most, and this has {draws}");
+        let message = format!("a scene can have at most {MAX_DRAWS} draws, and this has {draws}");
         return Err(At::new(message).key("passes"));
     }
     let mut passes = Vec::new();
@@ -58,7 +58,7 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
     for (i, name) in wire.read.iter().enumerate() {
         let index = find(name, &attachments).map_err(|e| e.index(i).key("read"))?;
         if read.contains(&index) {
-            return Err(At::new(format!("`{name}` is named twice"))
+            return Err(At::new(format!("`{name}` occurs twice"))
                 .index(i)
                 .key("read"));
         }
@@ -81,7 +81,7 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
     Ok(scene)
 }
 
-/// Checks that a pool has room, is not too large and is used.
+/// Checks that a pool has room, is not too large, and is used.
 fn check_pool(wire: &SceneWire) -> Result<(), At> {
     let draws = || wire.passes.iter().flat_map(|pass| &pass.draws);
     let used = draws().any(|draw| draw.shader.uses_pool());
@@ -89,7 +89,7 @@ fn check_pool(wire: &SceneWire) -> Result<(), At> {
         None => Ok(()),
         Some(_) if !used => Err(At::new("no shader uses it")),
         Some(pool) if pool.nodes == 0 || pool.bytes() > Pool::MOST_BYTES => Err(At::new(format!(
-            "a pool has at least one node, and {} bytes at most",
+            "a pool needs at least one node, and at most {} bytes",
             Pool::MOST_BYTES
         ))),
         Some(_) => Ok(()),
@@ -110,7 +110,7 @@ fn pass(
                 return Err(At::new(format!("`{name}` is not a colour attachment")));
             }
             if color.contains(&index) {
-                return Err(At::new(format!("`{name}` is named twice")));
+                return Err(At::new(format!("`{name}` occurs twice")));
             }
             Ok(index)
         };
@@ -177,7 +177,7 @@ fn pass(
             let draw = draw(&one, &target).map_err(|e| e.index(i).key("draws"))?;
             if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
                 return Err(
-                    At::new("the pass promises to write neither depth nor stencil")
+                    At::new("the pass declares that it writes neither depth nor stencil")
                         .index(i)
                         .key("draws"),
                 );
@@ -203,7 +203,7 @@ fn pass(
     })
 }
 
-/// The resolve of depth and stencil, with modes that the format has.
+/// Returns the resolve of depth and stencil, after checking that the format has its modes.
 fn depth_stencil_target(
     wire: &DepthStencilResolveWire,
     depth_stencil: Option<usize>,
@@ -215,7 +215,7 @@ fn depth_stencil_target(
     let to = find(&wire.to, attachments).map_err(|e| e.key("to"))?;
     let target = &attachments[to];
     if source.samples < 2 || target.samples != 1 {
-        return Err(At::new("several samples are resolved to one").key("to"));
+        return Err(At::new("a resolve goes from several samples to one").key("to"));
     }
     if (source.format, source.size) != (target.format, target.size) {
         return Err(At::new(format!(
@@ -234,10 +234,10 @@ fn depth_stencil_target(
         }
     }
     if wire.stencil == ResolveMode::Average {
-        return Err(At::new("stencil has no average").key("stencil"));
+        return Err(At::new("stencil cannot be averaged").key("stencil"));
     }
     if [wire.depth, wire.stencil] == [ResolveMode::None; 2] {
-        return Err(At::new("a resolve has a mode for `depth` or `stencil`"));
+        return Err(At::new("a resolve needs a mode for `depth` or `stencil`"));
     }
     Ok(DepthStencilResolve {
         to,
@@ -257,14 +257,14 @@ fn resolve_targets(
         let check = || -> Result<usize, At> {
             let target = find(name, attachments)?;
             let Some(source) = color.get(i).map(|c| &attachments[*c]) else {
-                return Err(At::new("there is no colour attachment at this place"));
+                return Err(At::new("there is no colour attachment at this location"));
             };
             let target_is = &attachments[target];
             if source.samples < 2 || target_is.samples != 1 {
-                return Err(At::new("several samples are averaged to one"));
+                return Err(At::new("a resolve goes from several samples to one"));
             }
             if resolve.contains(&Some(target)) {
-                return Err(At::new(format!("`{name}` is named twice")));
+                return Err(At::new(format!("`{name}` occurs twice")));
             }
             if (source.format, source.size) != (target_is.format, target_is.size) {
                 return Err(At::new(format!(

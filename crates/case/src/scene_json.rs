@@ -1,8 +1,8 @@
 //! Scenes written as the JSON of a case file.
 //!
-//! A scene that was read from a case file has lost its meshes' descriptions, and one that a method made never
-//! had any: meshes are written vertex by vertex. What has its default is left out, so that the keys of the
-//! JSON are the states of the scene.
+//! A scene that was read from a case file no longer has its meshes' descriptions, and a scene made by a
+//! method never had any: meshes are written vertex by vertex. Defaults are left out, so that the keys of the
+//! JSON are exactly the states of the scene.
 
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{
@@ -14,12 +14,12 @@ use etalon_scene::{CullMode, FrontFace, PassOperations};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// Returns the scene as a case file writes it, so that [`build()`](crate::build()) gives the same scene again, with its
-/// attachments in ascending order of their names.
+/// Returns the scene as JSON for a case file, such that [`build()`](crate::build()) gives the same scene
+/// again, with its attachments in ascending order of their names.
 ///
 /// # Errors
-/// When a case file cannot say it: a number that is not finite, or a texel's
-/// code that is not the only one of its value.
+/// If a case file cannot express it: a number that is not finite, or a texel's code whose value has a second
+/// code.
 pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
     let mut attachments = Map::new();
     for attachment in &scene.attachments {
@@ -69,7 +69,7 @@ impl Keys {
     }
 }
 
-/// Returns plain data as JSON. Numbers are written as short as their 32 bits allow.
+/// Returns plain data as JSON. Numbers are written as short as 32-bit floats allow.
 fn plain(value: &impl Serialize) -> Value {
     shortened(serde_json::to_value(value).unwrap_or_default())
 }
@@ -85,14 +85,14 @@ fn shortened(value: Value) -> Value {
     }
 }
 
-/// Returns the shortest number that is this one in 32 bits.
+/// Returns the shortest number that is equal in 32 bits.
 fn short(value: f32) -> Value {
     if value.fract() == 0.0 && value.abs() < 1e9 && !(value == 0.0 && value.is_sign_negative()) {
         return json!(value as i64);
     }
     let text = value.to_string();
     let parsed = text.parse::<f64>().ok();
-    // A decimal between two floats may round twice.
+    // A decimal between two floats can be rounded twice.
     let same = parsed.filter(|v| (*v as f32).to_bits() == value.to_bits());
     json!(same.unwrap_or(f64::from(value)))
 }
@@ -101,7 +101,7 @@ fn shorts(values: &[f32]) -> Value {
     values.iter().copied().map(short).collect()
 }
 
-/// Returns four values, as one number where they are alike.
+/// Returns four values, as one number if they are equal.
 fn splat(values: [f32; 4]) -> Value {
     let bits = values.map(f32::to_bits);
     if bits.iter().all(|b| *b == bits[0]) {
@@ -129,7 +129,7 @@ fn attachment(attachment: &Attachment) -> Result<Value, &'static str> {
             return Err("a clear value is not finite");
         }
         Contents::Color(color) => keys.add("clear", shorts(color)),
-        // The part that a format lacks keeps its default, for which there is no word.
+        // A part that the format lacks keeps its default, which cannot be written.
         Contents::DepthStencil { depth, stencil } => {
             if (depth.to_bits(), *stencil) != (1.0_f32.to_bits(), 0) {
                 let clear = match (format.has_depth(), format.has_stencil()) {
@@ -145,14 +145,13 @@ fn attachment(attachment: &Attachment) -> Result<Value, &'static str> {
     Ok(keys.done())
 }
 
-/// Returns uploaded codes as the values of a case file: as columns or rows where all rows or columns are
-/// alike.
+/// Returns uploaded codes as the values of a case file: as columns or rows if all rows or columns are equal.
 fn texels(attachment: &Attachment, codes: &[u32]) -> Result<Value, &'static str> {
     let encodings = attachment.format.color_channels();
     let value = |(encoding, code): (&ChannelEncoding, &u32)| {
         let order = encoding.order_of_code(*code);
         if encoding.code_of_order(order) != *code || encoding.is_nan(*code) {
-            return Err("a texel's code has another one of the same value");
+            return Err("two codes decode to the same value");
         }
         Ok(match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 | ChannelEncoding::Ufloat(_) => {
@@ -387,7 +386,7 @@ fn face(face: &StencilFace) -> Value {
     keys.done()
 }
 
-/// Adds blending and write masks: once where all targets have the same.
+/// Adds blending and write masks: only once if all targets have the same.
 fn targets(draw: &Draw, keys: &mut Keys) {
     let Some(first) = draw.targets.first() else {
         return;
@@ -413,7 +412,7 @@ fn targets(draw: &Draw, keys: &mut Keys) {
     keys.add("targets", all.collect::<Vec<_>>());
 }
 
-/// Adds the mesh, of which instances are equal parts, and its path.
+/// Adds the mesh, which consists of one equal part per instance, and its fetch.
 fn mesh(draw: &Draw, keys: &mut Keys) {
     let Fetch {
         index,
@@ -439,7 +438,7 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
         .iter()
         .all(|v| v.color.map(f32::to_bits) == color.map(f32::to_bits));
     if instances > 0 {
-        // Instances have their own.
+        // Instances have colours of their own.
     } else if !alike {
         let colors = own.iter().map(|v| splat(v.color));
         mesh.add("values", colors.collect::<Vec<_>>());
@@ -451,7 +450,7 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
         mesh.add("uv", uv.collect::<Vec<_>>());
     }
     if let Some(all) = indices {
-        // Restarts part the instances.
+        // Restart indices separate the instances.
         let length = (all.len() + 1) / parts - usize::from(instances > 0);
         let length = if instances == 0 { all.len() } else { length };
         let indices = all[..length].iter().map(|i| match *i {

@@ -5,8 +5,8 @@ use crate::wire::FileWire;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
-/// The JSON schema of a case file. Below `scene`, `judged_as` and `expect`, any value may also be
-/// the name of an axis or derived value: `"$name"`. Any object in a list may have the key `each`.
+/// Returns the JSON schema of a case file. Below `scene`, `judged_as` and `expect`, any value may also be the
+/// name of an axis or derived value: `"$name"`. Any object in a list may have the key `each`.
 pub fn schema() -> Value {
     let mut root = schemars::schema_for!(FileWire).to_value();
     let mut items = BTreeSet::new();
@@ -24,7 +24,7 @@ pub fn schema() -> Value {
     root
 }
 
-/// Collects the names of the definitions that items of lists have.
+/// Collects the names of the definitions that list items refer to.
 fn item_types(schema: &Value, found: &mut BTreeSet<String>) {
     match schema {
         Value::Object(map) => {
@@ -43,7 +43,7 @@ fn admit_each(schema: &mut Value) {
         let mut list = json!({ "type": "array", "minItems": 1 });
         wrap(&mut list);
         let each = json!({
-            "description": "Lists of equal length: the item stands for one per value, which replaces `\"$name\"`.",
+            "description": "Lists of equal length: the item unrolls to one item per value, which replaces `\"$name\"`.",
             "type": "object",
             "minProperties": 1,
             "additionalProperties": list
@@ -74,7 +74,7 @@ fn admit_placeholders(schema: &mut Value) {
 
 fn wrap_all(properties: &mut Map<String, Value>) {
     for (name, value) in properties.iter_mut() {
-        // The tag of a tagged union stays literal, else no branch could be told from another.
+        // The tag of a tagged union stays literal; otherwise its branches could not be distinguished.
         if name != "kind" {
             wrap(value);
         }

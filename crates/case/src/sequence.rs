@@ -1,21 +1,21 @@
-//! Scenes of draws that take turns between two states: what one draw leaves to the next.
+//! Scenes of draws that alternate between two states, to test what one draw leaves behind for the next.
 //!
-//! The states are changes to one common draw, so that a file spells out the one thing in which they
-//! differ. Every way to separate the draws (in one pass, in passes, on two framebuffers) is made from
-//! the same steps: only then does a difference between the pictures come from the separation.
+//! The states are changes to one common draw, so a file contains only the difference between them. Every way
+//! to separate the draws (in one pass, in passes, on two framebuffers) is made from the same steps, so a
+//! difference between the pictures can only come from the separation.
 
 use crate::error::At;
 use crate::wire::{Across, SequenceWire};
 use serde_json::{Map, Value, json};
 use std::slice::from_ref;
 
-/// The end of the names of the second framebuffer's attachments.
+/// The suffix of the names of the second framebuffer's attachments.
 const OTHER: &str = "-other";
 
-/// The scene of a sequence.
+/// Returns the scene of a sequence.
 pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
     if wire.steps.len() < 2 {
-        return Err(At::new("a sequence has two steps at least").key("steps"));
+        return Err(At::new("a sequence needs at least two steps").key("steps"));
     }
     let steps: Vec<Value> = wire
         .steps
@@ -35,7 +35,7 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
             rename(&mut pass);
         }
         let object = pass.as_object_mut();
-        let object = object.ok_or_else(|| At::new("a pass is an object").key("pass"))?;
+        let object = object.ok_or_else(|| At::new("a pass must be an object").key("pass"))?;
         object.insert("draws".to_owned(), json!(draws));
         Ok(pass)
     };
@@ -60,7 +60,7 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
                     read.push(other);
                 }
             }
-            // Both are laid out first: between the steps, nothing else sets state.
+            // Both framebuffers are prepared first, so that nothing else sets state between the steps.
             if !wire.prepare.is_empty() {
                 passes.push(pass(&wire.prepare, false)?);
                 passes.push(pass(&wire.prepare, true)?);
@@ -79,8 +79,8 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
     }))
 }
 
-/// Changes a value as a JSON merge patch does: objects member by member, `null` takes a member away,
-/// anything else stands in its place (RFC 7396).
+/// Changes a value by a JSON merge patch: objects member by member, `null` removes a member, anything else
+/// replaces the value (RFC 7396).
 fn merge(value: &mut Value, change: &Value) {
     let Value::Object(change) = change else {
         *value = change.clone();
@@ -99,7 +99,7 @@ fn merge(value: &mut Value, change: &Value) {
     }
 }
 
-/// The names of the attachments that a pass draws or resolves to.
+/// Returns the names of the attachments that a pass draws or resolves to.
 fn bound(pass: &Value) -> Vec<String> {
     let lists = ["color", "resolve"].map(|key| pass[key].as_array());
     let listed = lists.into_iter().flatten().flatten();
@@ -107,7 +107,7 @@ fn bound(pass: &Value) -> Vec<String> {
     all.filter_map(Value::as_str).map(str::to_owned).collect()
 }
 
-/// Makes a pass one of the second framebuffer.
+/// Moves a pass to the second framebuffer.
 fn rename(pass: &mut Value) {
     let other = |value: &mut Value| {
         if let Some(name) = value.as_str() {
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(compares(&draw.passes[0]), expected);
         let z = |i: usize| draw.passes[0].draws[i].mesh.vertices[0].position[2];
         assert_eq!([z(1), z(2), z(3)], [0.0, 0.25, 0.0]);
-        // What a step leaves out is the common draw's.
+        // Keys that a step leaves out come from the common draw.
         assert!(draw.passes[0].draws[1].depth.is_some_and(|d| !d.write));
 
         let pass = made("pass");

@@ -1,14 +1,13 @@
-//! A scene of many draws, each with a state of its own: what changing state costs.
+//! A scene of many draws, each with its own state, to measure the cost of changing state.
 //!
-//! Every draw has a cell of the attachment to itself, so that the picture shows each draw's state by
-//! itself, whatever the others were.
+//! Every draw has a cell of the attachment to itself, so that the picture shows each draw's state separately.
 
 use crate::error::At;
 use crate::wire::StatesWire;
 use etalon_scene::{BlendFactor, CompareFunction};
 use serde_json::{Value, json};
 
-/// The cells side by side and one above the other.
+/// The number of cells across and down.
 const CELLS: [u32; 2] = [25, 20];
 
 /// The factors of the source.
@@ -34,7 +33,7 @@ const DESTINATION: [BlendFactor; 5] = [
     BlendFactor::OneMinusDst,
 ];
 
-/// Depth tests that all pass; `None` is off.
+/// Depth tests that all pass; `None` turns the test off.
 const DEPTH: [Option<(CompareFunction, bool)>; 5] = [
     None,
     Some((CompareFunction::Less, true)),
@@ -43,18 +42,21 @@ const DEPTH: [Option<(CompareFunction, bool)>; 5] = [
     Some((CompareFunction::Always, false)),
 ];
 
-/// The most draws: as many as there are states.
+/// The maximum number of draws, which is the number of states.
 const MOST: u32 = 500;
 
-/// A number without a common divisor with [`MOST`]: steps of it meet every state once, and change
-/// several things at each.
+/// A number coprime to [`MOST`]: stepping by it reaches every state once, and each step changes several
+/// things.
 const STRIDE: u32 = 137;
 
-/// The scene of so many draws.
+/// Returns the scene with this many draws.
 pub(crate) fn scene(wire: &StatesWire) -> Result<Value, At> {
     let StatesWire { count, size } = *wire;
     if !(1..=MOST).contains(&count) {
-        return Err(At::new(format!("1 to {MOST} draws differ in state")).key("count"));
+        return Err(At::new(format!(
+            "the count must be 1 to {MOST}, the number of states"
+        ))
+        .key("count"));
     }
     if size[0] < CELLS[0] || size[1] < CELLS[1] {
         let message = format!("{} by {} cells do not fit", CELLS[0], CELLS[1]);

@@ -1,20 +1,20 @@
 //! One draw for each tile of the attachments: thousands of draws in a line of a case file.
 //!
-//! Every draw has a tile to itself, so that one that is lost, or kept from a batch before, shows there
-//! and nowhere else.
+//! Every draw has a tile to itself, so that a draw that is lost, or left over from an earlier batch, shows
+//! there and nowhere else.
 
 use crate::error::At;
 use crate::wire::{DrawWire, TileBy, TilesWire};
 use etalon_scene::{MeshSource, Viewport};
 
-/// The most draws of a pass that are made of one.
+/// The maximum number of draws that one draw of a pass can become.
 const MOST: u32 = 10_000;
 
-/// The step of the colours from row to row: no tile has the colour of its eight neighbours where there
-/// are thirteen colours.
+/// The offset of the colours from row to row: with thirteen colours, no tile has the colour of one of its
+/// eight neighbours.
 const ROW: usize = 5;
 
-/// The draws of a description: itself, or one for each tile.
+/// Returns the draws of a description: the draw itself, or one for each tile.
 pub(crate) fn tiles(wire: &DrawWire, size: [u32; 2]) -> Result<Vec<DrawWire>, At> {
     let Some(tiles) = &wire.tiles else {
         return Ok(vec![wire.clone()]);
@@ -26,7 +26,7 @@ fn each(wire: &DrawWire, tiles: &TilesWire, size: [u32; 2]) -> Result<Vec<DrawWi
     let [width, height] = tiles.size;
     if width == 0 || height == 0 || tiles.colors.is_empty() {
         return Err(At::new(
-            "a tile has a width and a height, and one colour at least",
+            "a tile needs a width and a height, and at least one colour",
         ));
     }
     let [left, top] = tiles.origin;
@@ -34,7 +34,7 @@ fn each(wire: &DrawWire, tiles: &TilesWire, size: [u32; 2]) -> Result<Vec<DrawWi
     let [columns, rows] = [rest[0].div_ceil(width), rest[1].div_ceil(height)];
     if columns.saturating_mul(rows) > MOST {
         return Err(At::new(format!(
-            "{columns} by {rows} tiles are more than {MOST}"
+            "{columns} by {rows} are more than {MOST} tiles"
         )));
     }
     let mut draws = Vec::new();
@@ -52,7 +52,7 @@ fn each(wire: &DrawWire, tiles: &TilesWire, size: [u32; 2]) -> Result<Vec<DrawWi
             match tiles.by {
                 TileBy::Mesh => {
                     let MeshSource::Full { z, value, winding } = wire.mesh else {
-                        return Err(At::new("tiles of a mesh are parts of `full`"));
+                        return Err(At::new("tiles by mesh need the mesh `full`"));
                     };
                     draw.mesh = MeshSource::Rect {
                         texels: [x, y, x + w, y + h],

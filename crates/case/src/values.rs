@@ -1,4 +1,4 @@
-//! Values of case files: types, and names of axes that stand for values.
+//! Values of case files: typed parsing, and substitution of names.
 
 use crate::error::At;
 use serde::de::DeserializeOwned;
@@ -31,7 +31,7 @@ pub(crate) fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Resu
     })
 }
 
-/// Replaces every string `"$name"` by what a function returns for the name.
+/// Replaces every string `"$name"` by the result of a function.
 pub(crate) fn replace(
     value: &Value,
     named: &mut dyn FnMut(&str) -> Result<Value, At>,
@@ -41,7 +41,7 @@ pub(crate) fn replace(
             None => value.clone(),
             Some(name) => named(name)?,
         },
-        // Texels are long lists of numbers.
+        // Skips texels, which are long lists of numbers.
         Value::Array(list) if list.iter().all(Value::is_number) => value.clone(),
         Value::Array(list) => Value::Array(
             list.iter()

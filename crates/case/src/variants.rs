@@ -9,28 +9,29 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
-/// A scene with changes, or the case's own scene read again.
+/// A changed scene, or the case's own scene read again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
     /// Its name in records.
     pub name: String,
     /// The scene that adapters draw.
     pub scene: Scene,
-    /// The number of further submissions of the case's own prepared scene behind which this frame is read;
-    /// `None` for a scene that is prepared by itself.
+    /// The number of further submissions of the case's own prepared scene after which this frame is read;
+    /// `None` for a scene that is prepared separately.
     pub submissions: Option<NonZeroU32>,
 }
 
-/// The frames of a scene that is submitted again and again.
+/// Returns the frames of a scene that is submitted several times.
 pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Vec<Variant>, At> {
     let mut all: Vec<Variant> = Vec::new();
     for (i, number) in submissions.iter().enumerate() {
         let name = format!("{number}-more");
         if all.iter().any(|v| v.name == name) {
-            return Err(At::new(format!("{number} stands twice")).index(i));
+            return Err(At::new(format!("{number} occurs twice")).index(i));
         }
         if number.get() > MOST_SUBMISSIONS {
-            let message = format!("a scene is submitted {MOST_SUBMISSIONS} times more at most");
+            let message =
+                format!("a scene can be submitted at most {MOST_SUBMISSIONS} further times");
             return Err(At::new(message).index(i));
         }
         all.push(Variant {
@@ -42,16 +43,16 @@ pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Ve
     Ok(all)
 }
 
-/// The most submissions between two readings.
+/// The maximum number of submissions between two readings.
 const MOST_SUBMISSIONS: u32 = 1024;
 
-/// The value of a scene at a JSON pointer.
+/// Returns the value of a scene at a JSON pointer.
 fn value_at<'v>(scene: &'v mut Value, pointer: &str) -> Result<&'v mut Value, At> {
     let missing = || At::new("the scene has no value at this JSON pointer");
     scene.pointer_mut(pointer).ok_or_else(missing)
 }
 
-/// Changes a scene: JSON pointers and what stands there instead.
+/// Changes a scene: each value at a JSON pointer is replaced.
 pub(crate) fn patch(
     scene: &mut Value,
     changes: &BTreeMap<String, Value>,
@@ -68,7 +69,7 @@ pub(crate) fn patch(
     Ok(())
 }
 
-/// The scene with a variant's changes.
+/// Returns the scene with a variant's changes.
 pub(crate) fn variant_scene(
     scene: &Value,
     wire: &VariantWire,
@@ -80,12 +81,12 @@ pub(crate) fn variant_scene(
         let mut permute = || -> Result<(), At> {
             let items = value_at(&mut changed, pointer)?
                 .as_array_mut()
-                .ok_or_else(|| At::new("this is no list"))?;
+                .ok_or_else(|| At::new("this is not a list"))?;
             let mut seen = order.clone();
             seen.sort_unstable();
             if !seen.into_iter().eq(0..items.len()) {
                 return Err(At::new(format!(
-                    "an order names each of the {} items once, from 0",
+                    "an order must list each of the {} items once, counted from 0",
                     items.len()
                 )));
             }
@@ -135,12 +136,12 @@ mod tests {
     #[test]
     fn submissions_that_make_no_sense_are_refused() {
         for (more, words) in [
-            (r#""submissions":[1,1]"#, "1 stands twice"),
+            (r#""submissions":[1,1]"#, "1 occurs twice"),
             (r#""submissions":[5000]"#, "1024 times"),
             (r#""submissions":[0]"#, "nonzero"),
             (
                 r#""submissions":[1],"relation":{"same":"contents"}"#,
-                "by `repeat`",
+                "relation `repeat`",
             ),
         ] {
             let error = case(more).expect_err(more);

@@ -1,7 +1,7 @@
 //! The shape of a case file.
 //!
-//! These types parse and compute nothing: the scene model has no defaults, and its types need not
-//! follow the file's spelling.
+//! These types only parse: the scene model has no defaults, and its types need not follow the file's
+//! spelling.
 
 mod axis;
 mod fetch;

@@ -1,27 +1,27 @@
-//! The distance of a frame's codes from the ideal ones, legal or not.
+//! The distance of a frame's codes from the ideal ones, whether they are legal or not.
 
 use crate::encoding::ChannelEncoding;
 use crate::format::Aspect;
 use crate::legal::{CodeInterval, ImageInfo, TexelSet, WorldBox};
 use serde::{Deserialize, Serialize};
 
-/// The distance of a code that stands for no finite value, in codes.
+/// The distance, in codes, of a code that stands for no finite value.
 const NOT_FINITE: f64 = 4_294_967_296.0;
 
-/// The distance of one aspect's channels from the ideal, which is the middle of the yardstick's
-/// interval. Distances are in codes: where the ideal value lies halfway between two codes, both are
-/// half a code away. A float's code is its step at the ideal value, and never less than its step
-/// just below 1, so that noise around 0 does not outweigh everything else.
+/// The distance of one aspect's channels from the ideal, which is the middle of the yardstick's interval.
+/// Distances are in codes: if the ideal value is halfway between two codes, both are half a code away. For
+/// floats, a code is the step at the ideal value, but never less than the step just below 1, so that noise
+/// around 0 does not outweigh everything else.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// The aspect.
     pub aspect: Aspect,
-    /// The encoding of the channels, whose codes are counted; none in records of older versions, which hold
-    /// codes of several together.
+    /// The encoding of the channels, whose codes are counted; `None` in records of older versions, which add
+    /// up codes of several encodings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub encoding: Option<ChannelEncoding>,
-    /// Channels of samples of which the yardstick asserts something.
+    /// The number of channel values about which the yardstick asserts something.
     pub channels: u64,
     /// Their mean distance.
     pub mean: f64,
@@ -30,7 +30,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// True if figures are of the same aspect and encoding, so that they can be added.
+    /// Returns true if both figures are of the same aspect and encoding, so that they can be added.
     pub fn is_alike(&self, other: &Self) -> bool {
         (self.aspect, self.encoding) == (other.aspect, other.encoding)
     }
@@ -64,7 +64,7 @@ struct MeasuredChannel<'a> {
 }
 
 impl<'a> Distances<'a> {
-    /// Nothing yet, of the images of one group in the order of their channels.
+    /// Returns empty sums for the images of one group, in the order of their channels.
     pub(crate) fn new(images: &[(usize, &'a ImageInfo)]) -> Self {
         let of = |info: &'a ImageInfo| {
             info.channels.iter().map(move |encoding| MeasuredChannel {
@@ -81,7 +81,7 @@ impl<'a> Distances<'a> {
         }
     }
 
-    /// Adds so many samples of equal codes, held against the nearest of the outcomes that the yardstick knows.
+    /// Adds `times` samples with equal codes, compared with the nearest outcome of the yardstick.
     pub(crate) fn add(&mut self, yardstick: &TexelSet, orders: &[i64], times: u64) {
         let world = match yardstick.worlds.as_slice() {
             [] => return,
@@ -145,7 +145,7 @@ fn distance(encoding: ChannelEncoding, interval: CodeInterval, order: i64) -> f6
         return 0.0;
     }
     let Some(mantissa) = mantissa(encoding) else {
-        // Halves of codes, which are whole numbers.
+        // The sum of halves of codes is exact in integers.
         return (2 * order - interval.low - interval.high).unsigned_abs() as f64 / 2.0;
     };
     let [low, high, actual] =
@@ -160,7 +160,7 @@ fn distance(encoding: ChannelEncoding, interval: CodeInterval, order: i64) -> f6
     }
 }
 
-/// Returns the number of bits of a float that follow its leading one.
+/// Returns the number of a float's bits that follow the leading one.
 fn mantissa(encoding: ChannelEncoding) -> Option<u8> {
     match encoding {
         ChannelEncoding::Float16 => Some(10),
@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(distance(float, at(1.0), next(1.0)), 1.0);
         assert_eq!(distance(float, at(0.5), next(0.5)), 1.0);
         assert_eq!(distance(float, at(1000.0), next(1000.0)), 1.0);
-        // A tenth of a millionth around zero is no thousand million steps away.
+        // A value 2^-24 from zero is one step away, not a thousand million steps.
         assert_eq!(distance(float, at(0.0), order(2_f32.powi(-24))), 1.0);
         assert_eq!(
             distance(float, at(-0.25), order(0.25)),
@@ -299,7 +299,7 @@ mod tests {
             ]
         );
         assert!(!result[0].is_alike(&result[1]));
-        // As shares of what the encodings can hold they compare.
+        // As shares of the encodings' ranges, the distances are comparable.
         assert_eq!(
             result[0].max / ChannelEncoding::Unorm(8).range(),
             2.0 / 255.0

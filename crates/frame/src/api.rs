@@ -1,4 +1,4 @@
-//! The APIs.
+//! The graphics APIs.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -18,7 +18,7 @@ pub enum Api {
 }
 
 impl Api {
-    /// The name of the API's rules: `vulkan`, `opengl`, `opengl-es`, `webgpu`.
+    /// Returns the name of the API's rules: `vulkan`, `opengl`, `opengl-es`, `webgpu`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Vulkan => "vulkan",

@@ -1,5 +1,6 @@
-//! Codes between processes: in a binary format the bytes of the narrowest width that holds them all, in a
-//! readable one a list of numbers. A number at a time costs more than drawing a small picture does.
+//! Serialization of codes between processes: in a binary format, as bytes of the narrowest width that fits
+//! all codes; in a human-readable one, as a list of numbers. Writing numbers one at a time costs more than
+//! drawing a small picture.
 
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -54,7 +55,7 @@ impl<'de> Visitor<'de> for Bytes {
     }
 }
 
-/// Returns the codes of so many bytes each; `None` where a part of one is left.
+/// Returns the codes of `N` bytes each; `None` if a part of a code is left over.
 fn wide<const N: usize>(bytes: &[u8], code: impl Fn([u8; N]) -> u32) -> Option<Vec<u32>> {
     let (codes, rest) = bytes.as_chunks::<N>();
     rest.is_empty()

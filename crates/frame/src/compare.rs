@@ -1,4 +1,4 @@
-//! A frame held against its legal set and the yardstick.
+//! Comparison of a frame with its legal set and the yardstick.
 
 use crate::accuracy::{Accuracy, Distances};
 use crate::band::Band;
@@ -39,7 +39,7 @@ pub struct WrongTexel {
     pub y: u32,
     /// Sample within the texel.
     pub sample: u32,
-    /// The worst band left.
+    /// The worst band that the sample is outside of.
     pub band: Band,
     /// The channels that are wrong.
     pub channels: Vec<ChannelMismatch>,
@@ -55,7 +55,7 @@ pub struct TexelCounts {
     pub wrong: u64,
     /// Legal samples outside the yardstick.
     pub imprecise: u64,
-    /// Samples of which the legal set asserts nothing.
+    /// Samples about which the legal set asserts nothing.
     pub open: u64,
 }
 
@@ -64,16 +64,16 @@ pub struct TexelCounts {
 pub struct Comparison {
     /// Counts over all samples.
     pub texels: TexelCounts,
-    /// The first wrong samples, failures before imprecise ones, as many as asked for.
+    /// The first wrong samples, failures before imprecise ones, up to the requested number.
     pub wrong: Vec<WrongTexel>,
     /// Every counter.
     pub counters: Vec<CounterOutcome>,
-    /// The distance from the yardstick's middle, per aspect that was read back.
+    /// The distance from the yardstick's middle, for each aspect that was read back.
     pub accuracy: Vec<Accuracy>,
 }
 
 impl Comparison {
-    /// The worst band that a sample or a counter fell out of.
+    /// Returns the worst band that a sample or a counter is outside of.
     pub fn worst(&self) -> Option<Band> {
         let texels = if self.texels.wrong > 0 {
             Some(Band::Fail)
@@ -87,10 +87,10 @@ impl Comparison {
     }
 }
 
-/// Holds a frame against both bands, keeping the first `keep` samples that leave one.
+/// Compares a frame with both bands, keeping the first `keep` samples that are outside one.
 ///
 /// # Errors
-/// If the frame's images are not those that the legal set speaks of.
+/// If the frame's images are not those of the legal set.
 pub fn compare(
     frame: &Frame,
     legal: &LegalSet,
@@ -113,7 +113,7 @@ pub fn compare(
             let n = info.channels.len();
             &frame.images[*i].codes[at * n..(at + 1) * n]
         };
-        // Code by code: a sample has too few for a comparison of memory to be worth its call.
+        // Compares code by code: a sample has too few codes for a call of `memcmp` to pay off.
         let same = |at: usize| {
             images.iter().all(|i| {
                 let mut both = codes(i, at).iter().zip(codes(i, at - 1));
@@ -126,7 +126,7 @@ pub fn compare(
         while let (Some((end, allowed)), Some((ideal_end, tight))) =
             (sets.peek().copied(), ideals.peek().copied())
         {
-            // Most samples equal the one before them, in what they hold and in what they may hold.
+            // Most samples equal the previous one, both in their codes and in their legal set.
             let most = end.min(ideal_end);
             let next = (at + 1..most).find(|next| !same(*next)).unwrap_or(most);
             let run = at..next;
@@ -184,8 +184,9 @@ pub fn compare(
 }
 
 impl LegalSet {
-    /// Holds one sample of a frame, whose images are the set's, against another set: column, row and sample of the images
-    /// of one size and sample count. `None` if it is legal.
+    /// Compares one sample of a frame, whose images are the set's, with another set. The shape selects the
+    /// images of one size and sample count; the sample is given by column, row and sample. Returns `None` if
+    /// it is legal.
     pub fn refused(
         &self,
         frame: &Frame,

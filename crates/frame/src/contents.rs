@@ -1,4 +1,4 @@
-//! Contents of attachments and ranges of values, as stories hold them.
+//! Contents of attachments and ranges of values, as stored in stories.
 
 use crate::encoding::ChannelEncoding;
 use crate::format::Aspect;
@@ -17,7 +17,7 @@ pub struct Contents {
     pub codes: Vec<Codes>,
 }
 
-/// The codes that a channel can hold. Written as `[encoding, low, high]`.
+/// The codes that a channel can have, written as `[encoding, low, high]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(
     from = "(ChannelEncoding, i64, i64)",
@@ -67,7 +67,7 @@ impl Codes {
         channels.map(|(e, orders)| Self::new(*e, orders)).collect()
     }
 
-    /// True if there is one code.
+    /// Returns true if there is only one code.
     pub fn is_exact(&self) -> bool {
         self.low == self.high
     }
@@ -75,8 +75,8 @@ impl Codes {
 
 /// A closed range of values; an end can be infinite or NaN.
 ///
-/// Written as text, `0.5` or `0.5..0.75`, and read back bit for bit: JSON has no infinities, and its readers can be off
-/// by a unit in the last place.
+/// Written as text, `0.5` or `0.5..0.75`, and read back bit for bit: JSON has no infinities, and JSON readers
+/// can be off by a unit in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// The lowest value.

@@ -1,4 +1,4 @@
-//! Counters, and the counts that are legal.
+//! Counters and their legal counts.
 
 use crate::band::Band;
 use crate::state_enum;
@@ -9,19 +9,19 @@ use std::fmt;
 state_enum! {
     /// The kind of a counter.
     CounterKind {
-        /// Samples that passed all tests, exactly: a precise occlusion query.
+        /// The exact number of samples that passed all tests: a precise occlusion query.
         SamplesPassed = "samples-passed",
-        /// 1 when any sample passed all tests, else 0: an occlusion query that is not precise.
+        /// 1 if any sample passed all tests, otherwise 0: an occlusion query that is not precise.
         AnySamplesPassed = "any-samples-passed",
-        /// Runs of the fragment shader that counted themselves in a storage buffer.
+        /// The number of fragment shader runs that counted themselves in a storage buffer.
         ShaderRuns = "shader-runs",
-        /// Runs of the fragment shader as the pipeline statistics tell them.
+        /// The number of fragment shader runs that the pipeline statistics report.
         FragmentInvocations = "fragment-invocations",
     }
 }
 
 impl CounterKind {
-    /// True if it is an occlusion query, of which a draw has one at most.
+    /// Returns true for an occlusion query; a draw has at most one of these.
     pub fn is_occlusion(self) -> bool {
         matches!(self, Self::SamplesPassed | Self::AnySamplesPassed)
     }
@@ -30,19 +30,19 @@ impl CounterKind {
 /// The legal values of one counter, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CountRange {
-    /// At least so many.
+    /// The least legal count.
     pub low: u64,
-    /// At most so many; `None` where nothing limits it.
+    /// The greatest legal count; `None` if there is no limit.
     pub high: Option<u64>,
 }
 
 impl CountRange {
-    /// True if the count is legal.
+    /// Returns true if the count is legal.
     pub fn contains(self, count: u64) -> bool {
         self.low <= count && self.high.is_none_or(|high| count <= high)
     }
 
-    /// True if every count of this kind is legal, so that nothing is asserted.
+    /// Returns true if every count of this kind is legal, so that nothing is asserted.
     pub fn is_open(self, kind: CounterKind) -> bool {
         let all = match kind {
             CounterKind::AnySamplesPassed => self.high.is_none_or(|high| high >= 1),
@@ -51,7 +51,7 @@ impl CountRange {
         self.low == 0 && all
     }
 
-    /// True if exactly one count is legal.
+    /// Returns true if exactly one count is legal.
     pub fn is_exact(self) -> bool {
         self.high == Some(self.low)
     }
@@ -67,7 +67,7 @@ impl fmt::Display for CountRange {
     }
 }
 
-/// The counts of one counter that the rules allow.
+/// The counts that the rules allow for one counter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CounterSet {
     /// The counter's name in the scene.
@@ -78,7 +78,7 @@ pub struct CounterSet {
     pub range: CountRange,
 }
 
-/// One counter held against both bands.
+/// A counter compared with both bands.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CounterOutcome {
@@ -86,20 +86,20 @@ pub struct CounterOutcome {
     pub name: String,
     /// The kind of count.
     pub kind: CounterKind,
-    /// At least so many are legal.
+    /// The least legal count.
     pub low: u64,
-    /// At most so many are legal; absent where nothing limits it.
+    /// The greatest legal count; absent if there is no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub high: Option<u64>,
     /// The count that came back.
     pub actual: u64,
-    /// The worst band that the count fell out of.
+    /// The worst band that the count is outside of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band: Option<Band>,
 }
 
 impl CounterOutcome {
-    /// Holds a count against what is legal and what the yardstick wants.
+    /// Compares a count with its legal range and the yardstick's.
     pub fn new(legal: &CounterSet, yardstick: CountRange, actual: u64) -> Self {
         let band = if !legal.range.contains(actual) {
             Some(Band::Fail)
@@ -118,7 +118,7 @@ impl CounterOutcome {
         }
     }
 
-    /// The legal counts.
+    /// Returns the legal counts.
     pub fn range(&self) -> CountRange {
         CountRange {
             low: self.low,
@@ -126,7 +126,7 @@ impl CounterOutcome {
         }
     }
 
-    /// True if anything was asserted of the counter.
+    /// Returns true if anything was asserted about the counter.
     pub fn is_asserted(&self) -> bool {
         !self.range().is_open(self.kind)
     }

@@ -10,12 +10,12 @@ pub struct Distance {
     pub rmse: f64,
     /// The largest difference of any channel.
     pub max: f64,
-    /// Mean of the FLIP difference (Andersson and others 2020) at 67 pixels per degree, 0 to 1. FLIP
-    /// takes 8-bit sRGB: values are held to 0 to 1 and rounded to codes as they are, without the sRGB
-    /// curve, as if a display showed them so.
+    /// Mean of the FLIP difference (Andersson and others 2020) at 67 pixels per degree, 0 to 1. FLIP takes
+    /// 8-bit sRGB: values are clamped to 0 to 1 and rounded to codes without the sRGB curve, as if a display
+    /// showed them that way.
     pub flip: f64,
     /// Share of texels that differ by more than 2 of 255 in some channel, 0 to 1.
     pub wrong: f64,
-    /// The largest error of the truth itself in any channel of any texel: 0 where it is closed form.
+    /// The largest error of the truth itself in any channel of any texel: 0 if it is in closed form.
     pub truth_error: f64,
 }

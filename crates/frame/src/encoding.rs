@@ -4,33 +4,33 @@ use half::f16;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The encoding of one channel: which code stands for which value.
+/// The encoding of one channel: the mapping between codes and values.
 ///
-/// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that
-/// grows with the value the code stands for, one step per neighbouring code, so that intervals of
-/// values are intervals of integers and distances are counted in codes (ULPs for floats).
+/// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that grows
+/// with the code's value, by one per neighbouring code, so that intervals of values are intervals of
+/// integers, and distances are counted in codes (ULPs for floats).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ChannelEncoding {
-    /// Unsigned normalized integer of so many bits: code `c` stands for `c / (2^bits - 1)`.
+    /// Unsigned normalized integer of this many bits: code `c` has the value `c / (2^bits - 1)`.
     Unorm(u8),
-    /// Signed normalized integer of so many bits in two's complement: code `c` stands for
-    /// `max(c / (2^(bits - 1) - 1), -1)`, so -1 has two codes.
+    /// Signed normalized integer of this many bits in two's complement: code `c` has the value `max(c /
+    /// (2^(bits - 1) - 1), -1)`, so -1 has two codes.
     Snorm(u8),
-    /// 8-bit unsigned normalized integer that holds a linear value in sRGB (IEC 61966-2-1).
+    /// 8-bit unsigned normalized integer that encodes a linear value in sRGB (IEC 61966-2-1).
     Srgb8,
-    /// Unsigned integer of so many bits.
+    /// Unsigned integer of this many bits.
     Uint(u8),
     /// IEEE 754 binary16.
     Float16,
     /// IEEE 754 binary32.
     Float32,
-    /// Unsigned float of 5 exponent bits and so many mantissa bits.
+    /// Unsigned float of 5 exponent bits and this many mantissa bits.
     Ufloat(u8),
 }
 
 impl ChannelEncoding {
-    /// The width of a code in bits.
+    /// Returns the width of a code in bits.
     pub fn bits(self) -> u32 {
         match self {
             Self::Unorm(bits) | Self::Snorm(bits) | Self::Uint(bits) => u32::from(bits),
@@ -41,13 +41,13 @@ impl ChannelEncoding {
         }
     }
 
-    /// All bits of a code.
+    /// Returns the mask of a code's bits.
     pub fn mask(self) -> u32 {
         u32::MAX >> (32 - self.bits().clamp(1, 32))
     }
 
-    /// The number of codes that a distance of the whole range takes: from one end of a normalized or integer
-    /// encoding to the other, from a power of two to the next one of a float.
+    /// Returns the distance of the whole range in codes: for a normalized or integer encoding from one end to
+    /// the other, for a float from a power of two to the next one.
     pub fn range(self) -> f64 {
         match self {
             Self::Unorm(bits) | Self::Uint(bits) => f64::from(bits).exp2() - 1.0,
@@ -59,7 +59,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The largest order of any finite code.
+    /// Returns the largest order of any finite code.
     pub fn max_order(self) -> i64 {
         match self {
             Self::Unorm(bits) | Self::Uint(bits) => (1_i64 << bits) - 1,
@@ -71,7 +71,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The smallest order of any finite code.
+    /// Returns the smallest order of any finite code.
     pub fn min_order(self) -> i64 {
         match self {
             Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Ufloat(_) => 0,
@@ -80,7 +80,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The order of the smallest normal value above 0; 0 for encodings without subnormal ones.
+    /// Returns the order of the smallest normal value above 0; 0 for encodings without subnormal values.
     pub fn least_normal_order(self) -> i64 {
         match self {
             Self::Ufloat(mantissa) => 1 << mantissa,
@@ -90,12 +90,12 @@ impl ChannelEncoding {
         }
     }
 
-    /// True if the encoding is a float.
+    /// Returns true if the encoding is a float.
     pub fn is_float(self) -> bool {
         matches!(self, Self::Float16 | Self::Float32 | Self::Ufloat(_))
     }
 
-    /// The range of values that a normalized encoding can hold; `None` for floats and integers.
+    /// Returns the range of values of a normalized encoding; `None` for floats and integers.
     pub fn normalized_range(self) -> Option<(f32, f32)> {
         match self {
             Self::Unorm(_) | Self::Srgb8 => Some((0.0, 1.0)),
@@ -104,8 +104,8 @@ impl ChannelEncoding {
         }
     }
 
-    /// The order of a code. Both float zeros have order 0: the specifications leave the sign of
-    /// zero open (SPIR-V's default float controls; OpenGL 4.6, 2.3.4.1).
+    /// Returns the order of a code. Both float zeros have order 0: the specifications leave the sign of zero
+    /// open (SPIR-V's default float controls; OpenGL 4.6, 2.3.4.1).
     pub fn order_of_code(self, code: u32) -> i64 {
         let signed = |magnitude: u32, negative: bool| {
             let magnitude = i64::from(magnitude);
@@ -122,7 +122,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The code of an order, the inverse of [`ChannelEncoding::order_of_code`].
+    /// Returns the code of an order, the inverse of [`ChannelEncoding::order_of_code`].
     pub fn code_of_order(self, order: i64) -> u32 {
         let magnitude = u32::try_from(order.unsigned_abs()).unwrap_or(u32::MAX);
         match self {
@@ -134,7 +134,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The real value that the code of this order stands for; of an sRGB code the linear one.
+    /// Returns the value of the code with this order; for sRGB, the linear value.
     pub fn value_of_order(self, order: i64) -> f64 {
         match self {
             Self::Unorm(_) => order as f64 / self.max_order() as f64,
@@ -156,8 +156,8 @@ impl ChannelEncoding {
         }
     }
 
-    /// The position of a value on the scale of orders, for encodings whose codes are equidistant in the
-    /// stored (for sRGB: encoded) value: the scale times the value, not rounded.
+    /// Returns the position of a value on the scale of orders, not rounded: the scale times the value; for
+    /// sRGB, times the encoded value. `None` for encodings whose codes are not equidistant.
     pub fn position(self, value: f64) -> Option<f64> {
         match self {
             Self::Unorm(_) | Self::Snorm(_) => Some(value * self.max_order() as f64),
@@ -167,7 +167,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The code whose value is nearest to a real number; the nearest end where it is out of range.
+    /// Returns the code whose value is nearest to a number; an end of the range if it is out of range.
     pub fn nearest_code(self, value: f64) -> u32 {
         if let Some(position) = self.position(value) {
             let (low, high) = (self.least_converted() as f64, self.max_order() as f64);
@@ -183,12 +183,12 @@ impl ChannelEncoding {
         self.code_of_order(nearest)
     }
 
-    /// The largest order whose value is not above a number; the lowest where all are above.
+    /// Returns the largest order whose value is not above a number; the lowest if all are above it.
     pub fn order_below(self, value: f64) -> i64 {
         self.search(value, |order| self.value_of_order(order) <= value)
     }
 
-    /// The smallest order whose value is not below a number; the highest where all are below.
+    /// Returns the smallest order whose value is not below a number; the highest if all are below it.
     pub fn order_above(self, value: f64) -> i64 {
         let below = self.search(value, |order| self.value_of_order(order) < value);
         match self.value_of_order(below) {
@@ -197,7 +197,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// The smallest order that a number is converted to: of the two codes of -1, the upper one.
+    /// Returns the smallest order that a number is converted to: of the two codes of -1, the upper one.
     fn least_converted(self) -> i64 {
         match self {
             Self::Snorm(_) => -self.max_order(),
@@ -205,7 +205,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// An order near that of a number, where one is cheaply found.
+    /// Returns an order near that of a number, if there is a cheap way to find one.
     fn guess(self, value: f64) -> Option<i64> {
         match self {
             // `as` saturates.
@@ -217,8 +217,8 @@ impl ChannelEncoding {
         }
     }
 
-    /// The largest order for which a condition holds that holds up to some order near that of a number
-    /// and not beyond.
+    /// Returns the largest order that satisfies a condition, which must be true up to some order near that of
+    /// a number and false beyond it.
     fn search(self, value: f64, holds: impl Fn(i64) -> bool) -> i64 {
         let (mut low, mut high) = (self.least_converted(), self.max_order());
         if let Some(guess) = self.guess(value) {
@@ -240,7 +240,7 @@ impl ChannelEncoding {
         low
     }
 
-    /// True if the code is a NaN.
+    /// Returns true if the code is a NaN.
     pub fn is_nan(self, code: u32) -> bool {
         match self {
             Self::Float16 => f16::from_bits(code as u16).is_nan(),
@@ -251,7 +251,7 @@ impl ChannelEncoding {
     }
 }
 
-/// The linear value of an sRGB-encoded one in 0..=1 (IEC 61966-2-1; Khronos Data Format, 13.3.2).
+/// Converts an sRGB-encoded value in 0..=1 to a linear one (IEC 61966-2-1; Khronos Data Format, 13.3.2).
 pub fn srgb_to_linear(value: f64) -> f64 {
     if value <= 0.04045 {
         value / 12.92
@@ -260,7 +260,7 @@ pub fn srgb_to_linear(value: f64) -> f64 {
     }
 }
 
-/// The inverse of [`srgb_to_linear`].
+/// Converts a linear value to an sRGB-encoded one: the inverse of [`srgb_to_linear`].
 pub fn linear_to_srgb(value: f64) -> f64 {
     if value <= 0.003_130_8 {
         value * 12.92

@@ -1,10 +1,10 @@
-//! What a backend failed at.
+//! The kinds of errors of backends.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The kind of a backend's error: what stays the same from one failure to the next. It holds no address, no size and
-/// no word of the driver.
+/// The kind of a backend's error: the part that stays the same from one failure to the next. It contains no
+/// address, no size and none of the driver's words.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ErrorKind {

@@ -1,7 +1,7 @@
 //! The events of a story: operations of the reference on one sample, with their values and their effect.
 //!
-//! Names of functions, factors, operations, modes and shaders are those of the scene's types, which this crate does not
-//! know.
+//! Functions, factors, operations, modes and shaders are given by the names that the scene's types have; this
+//! crate does not know those types.
 
 use crate::contents::{Codes, Contents, ValueRange};
 use crate::format::Aspect;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Event {
-    /// The scene, in a story that holds several.
+    /// The scene, in a story about several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<SceneName>,
     /// The part of the scene that causes the operation.
@@ -30,9 +30,9 @@ pub struct Event {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SceneName {
-    /// The case's own.
+    /// The case's own scene.
     Own,
-    /// That of a variant.
+    /// The scene of a variant.
     Variant(String),
 }
 
@@ -50,7 +50,7 @@ pub enum Side {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Origin {
-    /// The first contents of an attachment.
+    /// The initial contents of an attachment.
     Attachment(String),
     /// A pass.
     Pass(usize),
@@ -99,7 +99,8 @@ pub enum Origin {
 }
 
 impl Event {
-    /// True if both events have one place in one scene: all of a draw's primitives are one.
+    /// Returns true if both events have the same place in the same scene; all primitives of a draw count as
+    /// one place.
     pub fn is_beside(&self, other: &Self) -> bool {
         let place = match (&self.origin, &other.origin) {
             (Origin::Draw { .. }, Origin::Draw { .. }) => self.origin.draw() == other.origin.draw(),
@@ -110,7 +111,7 @@ impl Event {
 }
 
 impl Origin {
-    /// Returns the pass and the draw, of a draw or a fragment.
+    /// Returns the pass and the draw of a draw or a fragment.
     pub fn draw(&self) -> Option<(usize, usize)> {
         match self {
             Self::Draw { pass, draw, .. } | Self::Fragment { pass, draw, .. } => {
@@ -120,7 +121,7 @@ impl Origin {
         }
     }
 
-    /// True if this is a draw or a fragment that includes the primitive.
+    /// Returns true for a draw or a fragment that includes the primitive.
     pub fn includes(&self, number: u32) -> bool {
         match self {
             Self::Draw { primitives, .. } => primitives.is_empty() || primitives.contains(&number),
@@ -139,16 +140,16 @@ pub enum Effect {
     None,
     /// The draw, the primitives or the fragment end here.
     Rejects(Rejection),
-    /// The rules leave two outcomes open; in one of them, the fragment ends here.
+    /// The rules leave two outcomes open, and in one of them the fragment ends here.
     MayReject(Rejection),
-    /// A fragment that passed leaves an aspect of an attachment as it was.
+    /// A fragment that passed leaves an aspect of an attachment unchanged.
     Keeps(Target),
     /// An aspect of an attachment gets new contents.
     Stores(Target),
 }
 
 impl Effect {
-    /// True if the operation decides nothing about the sample.
+    /// Returns true if the operation decides nothing about the sample.
     pub fn is_none(&self) -> bool {
         *self == Self::None
     }
@@ -172,7 +173,8 @@ pub struct Target {
     pub aspect: Aspect,
 }
 
-/// The operation that keeps a draw, a primitive or a fragment from a sample, in the order of the pipeline.
+/// The operation that keeps a draw, a primitive or a fragment from affecting a sample, in the order of the
+/// pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rejection {
@@ -190,17 +192,17 @@ pub enum Rejection {
     CullDistance,
     /// Its face is culled.
     Culling,
-    /// The scissor rectangle leaves the texel out.
+    /// The scissor rectangle excludes the texel.
     Scissor,
-    /// Sample coverage leaves the sample out.
+    /// Sample coverage excludes the sample.
     SampleCoverage,
-    /// The sample mask leaves the sample out.
+    /// The sample mask excludes the sample.
     SampleMask,
     /// The shader discards the fragment.
     Discard,
-    /// The shader's own sample mask leaves the sample out.
+    /// The shader's own sample mask excludes the sample.
     ShaderMask,
-    /// Alpha to coverage leaves the sample out.
+    /// Alpha to coverage excludes the sample.
     AlphaToCoverage,
     /// The stored depth is out of bounds.
     DepthBounds,
@@ -225,7 +227,7 @@ pub enum Step {
     Upload(Vec<Contents>),
     /// An attachment, or an aspect of one, is cleared.
     Clear(Vec<Contents>),
-    /// A clear command whose rectangle leaves the texel out.
+    /// A clear command whose rectangle excludes the texel.
     ClearElsewhere,
     /// A store operation leaves an aspect of an attachment undefined.
     StoreDiscard(Target),
@@ -235,7 +237,7 @@ pub enum Step {
         from: String,
         /// The single-sampled attachment.
         to: String,
-        /// The way to one value.
+        /// How the samples become one value.
         by: ResolveChoice,
         /// The contents of the samples, channel by channel.
         samples: Vec<Vec<Codes>>,
@@ -257,17 +259,17 @@ pub enum Step {
     },
     /// Primitives are discarded before rasterization.
     RasterizerDiscard,
-    /// The texel lies outside of the scissor rectangle `[x, y, width, height]`.
+    /// The texel is outside the scissor rectangle `[x, y, width, height]`.
     Scissor([u32; 4]),
-    /// Primitives of a draw do not reach the sample; the origin numbers them.
+    /// Primitives of a draw do not reach the sample; the origin lists them.
     Primitives {
         /// The number of primitives of the draw.
         count: usize,
-        /// The viewport `[x, y, width, height]`, if primitives lie outside of it.
+        /// The viewport `[x, y, width, height]`, if primitives are outside it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         viewport: Option<[f32; 4]>,
     },
-    /// A primitive may be clipped away at the sample.
+    /// A primitive can be clipped away at the sample.
     Clipping,
     /// Coverage of the sample by a primitive.
     Coverage(Coverage),
@@ -284,7 +286,7 @@ pub enum Step {
     SampleCoverage {
         /// The share of samples that are covered.
         share: f32,
-        /// True if the covered samples are left out.
+        /// True if the covered samples are excluded instead.
         inverted: bool,
         /// The sample.
         sample: u32,
@@ -304,7 +306,7 @@ pub enum Step {
     InputMask {
         /// The bits that are set.
         set: u32,
-        /// The bits that may be set, those among them.
+        /// The bits that can be set, including those in `set`.
         possible: u32,
     },
     /// The shader's discard.
@@ -331,7 +333,7 @@ pub enum Step {
         /// The alpha.
         alpha: ValueRange,
     },
-    /// Forced early tests have passed, and the fragment is lost afterwards.
+    /// Forced early tests passed, and the fragment is lost afterwards.
     LostAfterEarlyTests,
     /// The depth bounds test.
     DepthBounds {
@@ -368,7 +370,8 @@ pub enum Step {
         /// The stored value after.
         after: u8,
     },
-    /// The depth test. It passes without an effect, fails if the effect rejects, and is open if it may reject.
+    /// The depth test. It passes if it has no effect, fails if the effect rejects, and is open if the effect
+    /// may reject.
     DepthTest(DepthTest),
     /// Depth is stored.
     StoreDepth {
@@ -379,7 +382,7 @@ pub enum Step {
     },
     /// Depth is not stored.
     KeepDepth {
-        /// True if the draw has a depth test, so that writes are off.
+        /// True if the draw has a depth test, so that depth writes are off.
         tested: bool,
     },
     /// An advanced blend operation.
@@ -406,11 +409,11 @@ pub enum Step {
     StoreColor {
         /// The contents afterwards.
         contents: Contents,
-        /// The write mask, if it leaves channels out.
+        /// The write mask, if it excludes channels.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         write_mask: Option<u8>,
     },
-    /// The write mask leaves all channels out.
+    /// The write mask excludes all channels.
     KeepColor {
         /// The contents.
         contents: Contents,
@@ -426,12 +429,12 @@ pub enum Step {
         /// The reference of the draw.
         draw: u8,
     },
-    /// The stencil reference that the shader writes comes after the test.
+    /// The stencil reference that the shader writes comes too late for the test.
     LateStencilExport {
         /// The reference of the draw.
         draw: u8,
     },
-    /// There are too many worlds, and the sample is open.
+    /// There are too many worlds, so the sample becomes open.
     GiveUp {
         /// The number of worlds.
         worlds: usize,
@@ -445,11 +448,11 @@ pub enum Step {
         /// True if a shader reads its depth.
         depth_by_shader: bool,
     },
-    /// Two pictures must be the same, by the name of the invariance.
+    /// Two pictures must be the same; the name of the invariance.
     Relation(String),
 }
 
-/// The way from the samples of a texel to one value.
+/// How the samples of a texel become one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResolveChoice {
@@ -465,40 +468,40 @@ pub enum ResolveChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Coverage {
-    /// The sample lies outside.
+    /// The sample is outside.
     Outside,
-    /// The sample lies outside if the primitive faces one of its possible ways.
+    /// The sample is outside for one of the primitive's possible facings.
     OutsideOneWay,
     /// The primitive covers the sample this many times.
     Times {
-        /// At least.
+        /// The least number of times.
         least: u32,
-        /// At most.
+        /// The greatest number of times.
         most: u32,
     },
     /// The primitive has no area.
     NoArea,
-    /// Snapping may leave the primitive without area.
+    /// Snapping can leave the primitive without area.
     PerhapsNoArea,
-    /// The sample lies on an edge that is neither a top nor a left one.
+    /// The sample is on an edge that is neither a top nor a left edge.
     NotTopLeft {
         /// The number of the edge.
         edge: usize,
     },
-    /// The sample lies on an edge, or within the snapping distance of one.
+    /// The sample is on an edge, or within the snapping distance of one.
     Edge {
         /// The number of the edge.
         edge: usize,
-        /// True if the sample lies on it exactly.
+        /// True if the sample is exactly on the edge.
         exact: bool,
-        /// True if the primitive covers the sample, because the edge's other primitive does not; `None` if neither has
-        /// decided.
+        /// True if the primitive covers the sample, because the edge's other primitive does not; `None` if
+        /// neither is decided.
         covers: Option<bool>,
     },
 }
 
 impl Coverage {
-    /// True if an edge of the primitive decides.
+    /// Returns true if an edge of the primitive decides.
     pub fn is_edge(self) -> bool {
         matches!(self, Self::NotTopLeft { .. } | Self::Edge { .. })
     }

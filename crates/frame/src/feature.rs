@@ -1,17 +1,17 @@
-//! Capabilities that an adapter may lack.
+//! Capabilities that an adapter can lack.
 
 use crate::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// A capability that not every adapter has and that a scene may need.
+    /// A capability that a scene can need and that not every adapter has.
     Feature: array {
         /// Advanced blending: `multiply`, `screen` and the other modes that take no factors.
         AdvancedBlend = "advanced-blend",
-        /// Advanced blending of what the same pass has drawn before, in order.
+        /// Advanced blending over what the same pass has already drawn, in order.
         AdvancedBlendCoherent = "advanced-blend-coherent",
-        /// Alpha to coverage where the first color attachment lacks alpha, holds integers or is absent.
+        /// Alpha to coverage if the first color attachment lacks alpha, stores integers or is absent.
         AlphaToCoverageWithoutAlpha = "alpha-to-coverage-without-alpha",
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
@@ -21,23 +21,23 @@ state_enum! {
         CentroidInterpolation = "centroid-interpolation",
         /// Clears between the draws of a pass, of all texels or a rectangle.
         ClearCommands = "clear-commands",
-        /// Switching single clip distances of a shader off.
+        /// Turning off individual clip distances of a shader.
         ClipDistanceMask = "clip-distance-mask",
-        /// Shaders that clip by distances of their own.
+        /// Shaders that write clip distances.
         ClipDistances = "clip-distances",
-        /// Shaders that promise on which side of the fragment's own depth theirs lies.
+        /// Shaders that declare on which side of the fragment's own depth their depth is.
         ConservativeDepth = "conservative-depth",
         /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
         ConstantAlphaBlendFactor = "constant-alpha-blend-factor",
-        /// Shaders that discard primitives by distances of all their vertices.
+        /// Shaders that discard primitives by the cull distances of all vertices.
         CullDistances = "cull-distances",
         /// A limit on depth bias.
         DepthBiasClamp = "depth-bias-clamp",
         /// Rejecting fragments by the stored depth.
         DepthBounds = "depth-bounds",
-        /// Depths beyond the viewport's range moved to its ends.
+        /// Clamping of depths beyond the viewport's range to its ends.
         DepthClamp = "depth-clamp",
-        /// Shaders that write a depth where no attachment holds one.
+        /// Shaders that write a depth without a depth attachment.
         DepthOutputWithoutDepth = "depth-output-without-depth",
         /// Resolving depth to the average of its samples.
         DepthResolveAverage = "depth-resolve-average",
@@ -45,25 +45,25 @@ state_enum! {
         DepthResolveMax = "depth-resolve-max",
         /// Resolving depth to its least sample.
         DepthResolveMin = "depth-resolve-min",
-        /// Resolving depth and stencil, to the first of their samples.
+        /// Resolving depth and stencil to their first samples.
         DepthStencilResolve = "depth-stencil-resolve",
         /// Blending with two sources.
         DualSourceBlending = "dual-source-blending",
-        /// Instances that start from another than the first.
+        /// Instances that do not start from the first one.
         FirstInstance = "first-instance",
-        /// Flat attributes of a primitive's first vertex.
+        /// Flat attributes from a primitive's first vertex.
         FirstProvokingVertex = "first-provoking-vertex",
-        /// Shaders that run after the depth and stencil tests, whatever they do.
+        /// Shaders that are forced to run after the depth and stencil tests.
         ForcedEarlyTests = "forced-early-tests",
-        /// The same where the shader writes a depth, which has no effect.
+        /// Forced early tests with a shader that writes a depth, which then has no effect.
         ForcedEarlyTestsWithDepth = "forced-early-tests-with-depth",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
         /// Draws without a fragment shader.
         FragmentShaderAbsent = "fragment-shader-absent",
-        /// The same where there are colour attachments, whose channels are all masked.
+        /// Draws without a fragment shader that have colour attachments, with all channels masked.
         FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
-        /// Fragment shaders that write storage, atomically, for later passes to read.
+        /// Fragment shaders that write storage with atomics, for later passes to read.
         FragmentStorage = "fragment-storage",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
@@ -71,25 +71,26 @@ state_enum! {
         IndependentBlend = "independent-blend",
         /// Resolving depth in one way and stencil in another.
         IndependentResolve = "independent-resolve",
-        /// Resolving one of depth and stencil, and not the other.
+        /// Resolving depth but not stencil, or stencil but not depth.
         IndependentResolveNone = "independent-resolve-none",
-        /// Queries that go on in secondary command buffers.
+        /// Queries that continue in secondary command buffers.
         InheritedQueries = "inherited-queries",
-        /// Flat attributes of a primitive's last vertex.
+        /// Flat attributes from a primitive's last vertex.
         LastProvokingVertex = "last-provoking-vertex",
         /// Attributes that are interpolated linearly in the window.
         LinearInterpolation = "linear-interpolation",
         /// Logic operations.
         LogicOperations = "logic-operations",
-        /// Clear commands that leave masked channels and bits.
+        /// Clear commands that leave masked channels and bits unchanged.
         MaskedClears = "masked-clears",
         /// The operations `min` and `max` with factors other than `one` (which they ignore).
         MinMaxBlendFactors = "min-max-blend-factors",
-        /// A least share of a texel's samples that have a shader run of their own.
+        /// A minimum share of a texel's samples with shader runs of their own.
         MinSampleShading = "min-sample-shading",
-        /// A viewport of negative height, which turns the picture over.
+        /// A viewport of negative height, which flips the picture.
         MirroredViewport = "mirrored-viewport",
-        /// Flat attributes of the first vertex in one draw and of the last in another of the same pass.
+        /// Flat attributes from the first vertex in one draw and from the last in another draw of the same
+        /// pass.
         MixedProvokingVertices = "mixed-provoking-vertices",
         /// Drawing the edges of polygons.
         PolygonModeLine = "polygon-mode-line",
@@ -97,19 +98,19 @@ state_enum! {
         PreciseOcclusion = "precise-occlusion",
         /// Queries that enclose passes.
         QueriesOverPasses = "queries-over-passes",
-        /// Throwing primitives away before rasterization.
+        /// Discarding primitives before rasterization.
         RasterizerDiscard = "rasterizer-discard",
         /// A viewport whose near depth is above its far depth.
         ReversedDepthRange = "reversed-depth-range",
-        /// Drawing a share of a texel's samples, or the others, whatever the fragment.
+        /// Drawing only a share of a texel's samples, or only the others, whatever the fragment covers.
         SampleCoverage = "sample-coverage",
         /// Sample masks that fragment shaders read.
         SampleMaskInput = "sample-mask-input",
         /// Sample masks that fragment shaders write.
         SampleMaskOutput = "sample-mask-output",
-        /// The same together with alpha to coverage.
+        /// Sample masks that fragment shaders write, together with alpha to coverage.
         SampleMaskOutputWithAlphaToCoverage = "sample-mask-output-with-alpha-to-coverage",
-        /// Shaders that run once per sample and know which.
+        /// Shaders that run once per sample and know which sample it is.
         SampleShading = "sample-shading",
         /// A scissor rectangle that reaches beyond the attachments.
         ScissorOutside = "scissor-outside",

@@ -34,11 +34,11 @@ state_enum! {
         Rgba8Uint = "rgba8uint",
         /// Four 16-bit floats.
         Rgba16Float = "rgba16float",
-        /// Four 32-bit floats; also the suite's exact source of values.
+        /// Four 32-bit floats; the suite also uses it as an exact source of values.
         Rgba32Float = "rgba32float",
         /// 16-bit unsigned normalized depth.
         Depth16Unorm = "depth16unorm",
-        /// Depth of at least 24 bits: 24-bit unsigned normalized or 32-bit float, as the adapter has it.
+        /// Depth of at least 24 bits: 24-bit unsigned normalized or 32-bit float, depending on the adapter.
         Depth24Plus = "depth24plus",
         /// [`TextureFormat::Depth24Plus`] with 8 bits of stencil.
         Depth24PlusStencil8 = "depth24plus-stencil8",
@@ -52,8 +52,8 @@ state_enum! {
 }
 
 impl TextureFormat {
-    /// Bytes of one texel, all aspects together and without padding (WebGPU section 26.1, texel block
-    /// copy footprints; `depth24plus` as most devices store it).
+    /// Returns the bytes of one texel, all aspects together and without padding (WebGPU section 26.1, texel
+    /// block copy footprints; `depth24plus` as most devices store it).
     pub fn texel_bytes(self) -> u32 {
         match self {
             Self::R8Unorm | Self::Stencil8 => 1,
@@ -69,22 +69,22 @@ impl TextureFormat {
         }
     }
 
-    /// True if texels are colours.
+    /// Returns true if texels are colours.
     pub fn is_color(self) -> bool {
         !self.has_depth() && !self.has_stencil()
     }
 
-    /// True if texels are colours with alpha and no integers.
+    /// Returns true if texels are colours with alpha and not integers.
     pub fn has_alpha(self) -> bool {
         self.color_channels().len() == 4 && !self.is_integer()
     }
 
-    /// True if texels are integers, which shaders write as integers and nothing blends.
+    /// Returns true if texels are integers, which shaders write as integers and which cannot be blended.
     pub fn is_integer(self) -> bool {
         self == Self::Rgba8Uint
     }
 
-    /// True if the format has a depth aspect.
+    /// Returns true if the format has a depth aspect.
     pub fn has_depth(self) -> bool {
         matches!(
             self,
@@ -96,7 +96,7 @@ impl TextureFormat {
         )
     }
 
-    /// True if the format has a stencil aspect.
+    /// Returns true if the format has a stencil aspect.
     pub fn has_stencil(self) -> bool {
         matches!(
             self,
@@ -104,7 +104,7 @@ impl TextureFormat {
         )
     }
 
-    /// The format's aspects, depth before stencil.
+    /// Returns the format's aspects, depth before stencil.
     pub fn aspects(self) -> &'static [Aspect] {
         match (self.has_depth(), self.has_stencil()) {
             (false, false) => &[Aspect::Color],
@@ -114,8 +114,8 @@ impl TextureFormat {
         }
     }
 
-    /// The encodings of a colour format's channels in the order red, green, blue, alpha; empty for
-    /// depth and stencil formats, whose depth encoding only the adapter knows.
+    /// Returns the encodings of a colour format's channels in the order red, green, blue, alpha; empty for
+    /// depth and stencil formats, whose depth encoding depends on the adapter.
     pub fn color_channels(self) -> &'static [ChannelEncoding] {
         use ChannelEncoding::{Float16, Float32, Snorm, Srgb8, Ufloat, Uint, Unorm};
         match self {
@@ -136,8 +136,8 @@ impl TextureFormat {
         }
     }
 
-    /// The depth encodings that the format's definition permits; empty where it has no depth.
-    /// WebGPU section 26.1 leaves `depth24plus` open between the two.
+    /// Returns the depth encodings that the format's definition permits; empty for formats without depth.
+    /// WebGPU section 26.1 leaves `depth24plus` open between two.
     pub fn depth_encodings(self) -> &'static [ChannelEncoding] {
         match self {
             Self::Depth16Unorm => &[ChannelEncoding::Unorm(16)],
@@ -151,7 +151,7 @@ impl TextureFormat {
 }
 
 state_enum! {
-    /// The part of a texel that one image of a frame holds.
+    /// The part of a texel that one image of a frame contains.
     Aspect {
         /// Colour channels.
         Color = "color",
@@ -163,7 +163,7 @@ state_enum! {
 }
 
 impl Aspect {
-    /// Returns the name of a channel: `red` of a colour, else the aspect's.
+    /// Returns the name of a channel: `red` for a colour, the aspect's name otherwise.
     pub fn channel(self, channel: usize) -> &'static str {
         match self {
             Self::Color => ["red", "green", "blue", "alpha"][channel.min(3)],

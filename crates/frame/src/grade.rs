@@ -1,4 +1,4 @@
-//! The evidence behind a permission: how it is known that a value is forbidden.
+//! Grades of the evidence that a value is forbidden.
 
 use crate::band::Band;
 use crate::state_enum;
@@ -6,13 +6,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// The evidence that a text forbids a value, from the weakest.
+    /// The evidence that a specification forbids a value, from the weakest.
     Grade: array {
-        /// A contested reading: the text contradicts itself, or versions of it do.
+        /// A contested reading: the specification contradicts itself, or its versions contradict each other.
         Disputed = "disputed",
-        /// The text is open, and a case of the Khronos CTS's mustpass lists is not.
+        /// The specification leaves it open, but a case of the Khronos CTS's mustpass lists does not.
         RequiredByCts = "required-by-cts",
-        /// A must of the text.
+        /// A must of the specification.
         Proven = "proven",
     }
 }

@@ -5,14 +5,14 @@ use crate::format::Aspect;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The way an image reached the processor.
+/// The way an image reached the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReadPath {
     /// The API copied the attachment's codes.
     Copy,
-    /// A shader read the attachment and stored what it saw; a normalized depth arrives as a 32-bit
-    /// float whose rounding belongs to the legal set.
+    /// A shader read the attachment and stored what it saw. A normalized depth arrives as a 32-bit float,
+    /// whose rounding the legal set includes.
     Shader,
 }
 
@@ -27,7 +27,7 @@ pub struct Image {
     pub size: [u32; 2],
     /// Samples per texel.
     pub samples: u32,
-    /// The encodings of `codes`' channels: as stored, or what a shader read delivers.
+    /// The encodings of the channels in `codes`: as stored, or as a shader read delivers them.
     pub channels: Vec<ChannelEncoding>,
     /// The way the codes were read.
     pub read: ReadPath,
@@ -37,12 +37,12 @@ pub struct Image {
 }
 
 impl Image {
-    /// The number of codes that size, samples and channels call for.
+    /// Returns the number of codes that follows from size, samples and channels.
     pub fn expected_len(&self) -> usize {
         self.size[0] as usize * self.size[1] as usize * self.samples as usize * self.channels.len()
     }
 
-    /// The codes of one sample, one per channel. The position must lie inside the image.
+    /// Returns the codes of one sample, one per channel. The position must be inside the image.
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &[u32] {
         let n = self.channels.len();
         let at = ((y as usize * self.size[0] as usize + x as usize) * self.samples as usize
@@ -52,7 +52,7 @@ impl Image {
     }
 }
 
-/// Everything a scene asked to be read back.
+/// Everything that a scene reads back.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame {
     /// The images, in the order of the scene's `read` list, depth before stencil.
@@ -61,33 +61,33 @@ pub struct Frame {
     pub counters: Vec<u64>,
 }
 
-/// A frame of another shape than was asked for: a bug of the backend, never of the driver.
+/// A frame with another shape than requested: a bug of the backend, never of the driver.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FrameError {
     /// The frame has another number of images than the legal set.
-    #[error("the frame holds {actual} images where {expected} were asked for")]
+    #[error("the frame has {actual} images, {expected} were requested")]
     ImageCount {
-        /// Images that came.
+        /// The number of images that came back.
         actual: usize,
-        /// Images that were asked for.
+        /// The number of requested images.
         expected: usize,
     },
-    /// The frame has another number of counts than the legal set.
-    #[error("the frame holds {actual} counts where {expected} were asked for")]
+    /// The frame has another number of counts than the legal set has counters.
+    #[error("the frame has {actual} counts, {expected} were requested")]
     CounterCount {
-        /// Counts that came.
+        /// The number of counts that came back.
         actual: usize,
-        /// Counts that were asked for.
+        /// The number of requested counts.
         expected: usize,
     },
-    /// An image is not the one asked for at its place.
-    #[error("image {index} of the frame is {actual}, where {expected} was asked for")]
+    /// An image differs from the one requested in its place.
+    #[error("image {index} of the frame is {actual}, {expected} was requested")]
     Image {
         /// Position in the frame.
         index: usize,
-        /// The image that came.
+        /// The image that came back.
         actual: String,
-        /// The image that was asked for.
+        /// The requested image.
         expected: String,
     },
 }

@@ -17,7 +17,7 @@ pub struct CodeInterval {
 }
 
 impl CodeInterval {
-    /// The interval between two orders.
+    /// Returns the interval between two orders.
     ///
     /// # Panics
     /// If `low` is above `high`: an empty set of legal values is a bug of the reference.
@@ -26,7 +26,7 @@ impl CodeInterval {
         Self { low, high }
     }
 
-    /// The interval of one order.
+    /// Returns the interval of one order.
     pub fn exact(order: i64) -> Self {
         Self {
             low: order,
@@ -34,12 +34,12 @@ impl CodeInterval {
         }
     }
 
-    /// True if the order lies inside.
+    /// Returns true if the order is inside.
     pub fn contains(self, order: i64) -> bool {
         self.low <= order && order <= self.high
     }
 
-    /// True if the interval is a single order.
+    /// Returns true if the interval is a single order.
     pub fn is_exact(self) -> bool {
         self.low == self.high
     }
@@ -49,7 +49,7 @@ impl CodeInterval {
         (self.high - self.low) as u64 + 1
     }
 
-    /// The smallest interval that holds both.
+    /// Returns the smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -58,7 +58,7 @@ impl CodeInterval {
     }
 }
 
-/// One consistent story's outcome: an interval per channel of a [`SampleGroup`].
+/// The outcome of one consistent history: an interval per channel of a [`SampleGroup`].
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct WorldBox {
     /// Channel intervals in the order of the group's channels.
@@ -66,7 +66,7 @@ pub struct WorldBox {
 }
 
 impl WorldBox {
-    /// Returns the number of channels of a sample that lie outside.
+    /// Returns the number of channels in which a sample is outside.
     pub fn violations(&self, orders: &[i64]) -> usize {
         self.channels
             .iter()
@@ -76,7 +76,8 @@ impl WorldBox {
     }
 }
 
-/// The legal values of one sample: any of these boxes. No box at all means *open*: nothing is asserted.
+/// The legal values of one sample: the values in any of these boxes. An empty list means *open*: nothing is
+/// asserted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct TexelSet {
     /// The boxes, sorted and without repetition.
@@ -84,22 +85,22 @@ pub struct TexelSet {
 }
 
 impl TexelSet {
-    /// True if nothing is asserted.
+    /// Returns true if nothing is asserted.
     pub fn is_open(&self) -> bool {
         self.worlds.is_empty()
     }
 
-    /// True if a sample is legal.
+    /// Returns true if a sample is legal.
     pub fn allows(&self, orders: &[i64]) -> bool {
         self.is_open() || self.worlds.iter().any(|w| w.violations(orders) == 0)
     }
 
-    /// The box that a sample violates in the fewest channels.
+    /// Returns the box that a sample violates in the fewest channels.
     pub fn nearest(&self, orders: &[i64]) -> Option<&WorldBox> {
         self.worlds.iter().min_by_key(|w| w.violations(orders))
     }
 
-    /// The hull of one channel over all boxes; `None` where the set is open.
+    /// Returns the hull of one channel over all boxes; `None` if the set is open.
     pub fn hull(&self, channel: usize) -> Option<CodeInterval> {
         self.worlds
             .iter()
@@ -107,7 +108,7 @@ impl TexelSet {
             .reduce(CodeInterval::hull)
     }
 
-    /// Returns the number of codes of one channel that lie in some box.
+    /// Returns the number of codes of one channel that are in some box.
     pub fn count(&self, channel: usize) -> u64 {
         if let [world] = &self.worlds[..] {
             return world.channels[channel].count();
@@ -128,7 +129,7 @@ impl TexelSet {
     }
 }
 
-/// One image that a legal set speaks of.
+/// One image of a legal set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageInfo {
     /// The attachment's name.
@@ -143,14 +144,14 @@ pub struct ImageInfo {
     pub channels: Vec<ChannelEncoding>,
     /// The way the image must have been read.
     pub read: ReadPath,
-    /// The index of the [`SampleGroup`] that holds the image's samples.
+    /// The index of the [`SampleGroup`] with the image's samples.
     pub group: usize,
     /// The image's first channel within the group.
     pub first_channel: usize,
 }
 
 impl ImageInfo {
-    /// True if a frame's image is this one.
+    /// Returns true if a frame's image has this name, aspect and shape.
     pub fn matches(&self, image: &Image) -> bool {
         self.attachment == image.attachment
             && self.aspect == image.aspect
@@ -172,21 +173,21 @@ pub struct SampleGroup {
     /// Encodings of all channels, image by image.
     pub channels: Vec<ChannelEncoding>,
     palette: Vec<TexelSet>,
-    /// The samples row by row and texel by texel, as runs of samples that have the same set.
+    /// Runs of consecutive samples with the same set, row by row and texel by texel.
     runs: Vec<SampleRun>,
 }
 
-/// Samples that follow each other and have the same set.
+/// Consecutive samples with the same set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct SampleRun {
-    /// The number of the first sample that does not belong to it.
+    /// The index of the first sample after the run.
     end: usize,
-    /// The set's number in the palette.
+    /// The set's index in the palette.
     set: u32,
 }
 
 impl SampleGroup {
-    /// The legal values of one sample. The position must lie inside the group's size.
+    /// Returns the legal values of one sample. The position must be inside the group's size.
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &TexelSet {
         let at = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
             + sample as usize;
@@ -194,27 +195,27 @@ impl SampleGroup {
         &self.palette[self.runs[run].set as usize]
     }
 
-    /// The number of samples.
+    /// Returns the number of samples.
     pub(crate) fn len(&self) -> usize {
         self.runs.last().map_or(0, |run| run.end)
     }
 
-    /// The runs of samples that have the same set, in order: the number of the first sample beyond it, and
-    /// the set.
+    /// Returns the runs of consecutive samples with the same set, in order: the index of the first sample
+    /// after the run, and the set.
     pub fn runs(&self) -> impl Iterator<Item = (usize, &TexelSet)> {
         let set = |run: &SampleRun| &self.palette[run.set as usize];
         self.runs.iter().map(move |run| (run.end, set(run)))
     }
 
-    /// The column, row and sample within the texel of a sample by its number.
+    /// Returns the column, the row and the sample within the texel of a sample, by its index.
     pub(crate) fn position(&self, at: usize) -> [u32; 3] {
         let texel = at / self.samples as usize;
         let width = self.size[0] as usize;
-        // They were unsigned 32-bit numbers before they made the number.
+        // Each part fits, since the index was made from unsigned 32-bit numbers.
         [texel % width, texel / width, at % self.samples as usize].map(|n| n as u32)
     }
 
-    /// The distinct sets, each with how many samples have it.
+    /// Returns the distinct sets, each with the number of samples that have it.
     pub fn distinct(&self) -> Vec<(&TexelSet, u64)> {
         let mut counts = vec![0_u64; self.palette.len()];
         let mut start = 0;
@@ -238,16 +239,16 @@ pub struct LegalSet {
     statistics: Vec<(Aspect, AspectStatistics)>,
 }
 
-/// The share of one aspect of which a legal set asserts something.
+/// How much of one aspect a legal set asserts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AspectStatistics {
-    /// Channel values in all samples of the aspect.
+    /// The number of channel values in all samples of the aspect.
     pub channels: u64,
-    /// Those of which something is asserted.
+    /// The number of channel values about which something is asserted.
     pub asserted: u64,
-    /// Those with exactly one legal code.
+    /// The number of channel values with exactly one legal code.
     pub exact: u64,
-    /// Legal codes, summed over the asserted channel values.
+    /// The number of legal codes, summed over the asserted channel values.
     pub codes: u64,
 }
 
@@ -262,12 +263,13 @@ impl AspectStatistics {
 }
 
 impl LegalSet {
-    /// Figures per aspect, in the order colour, depth, stencil; aspects not read are absent.
+    /// Returns the figures per aspect, in the order colour, depth, stencil; aspects that are not read are
+    /// absent.
     pub fn statistics(&self) -> &[(Aspect, AspectStatistics)] {
         &self.statistics
     }
 
-    /// Returns the figures per aspect of images and groups that are complete.
+    /// Returns the figures per aspect of complete images and groups.
     fn count(images: &[ImageInfo], groups: &[SampleGroup]) -> Vec<(Aspect, AspectStatistics)> {
         let mut result: Vec<(Aspect, AspectStatistics)> = Vec::new();
         for image in images {
@@ -297,7 +299,7 @@ impl LegalSet {
         result
     }
 
-    /// Bytes that the set holds, roughly; for cache limits.
+    /// Returns the approximate size of the set in bytes, for cache limits.
     pub fn weight(&self) -> usize {
         self.groups
             .iter()
@@ -322,7 +324,7 @@ pub struct LegalSetBuilder {
 }
 
 impl LegalSetBuilder {
-    /// Adds an image; it joins the group of its size and sample count. Returns the group.
+    /// Adds an image to the group of its size and sample count. Returns the group.
     pub fn image(
         &mut self,
         attachment: &str,
@@ -361,18 +363,18 @@ impl LegalSetBuilder {
         group
     }
 
-    /// The number of groups.
+    /// Returns the number of groups.
     pub fn groups(&self) -> usize {
         self.groups.len()
     }
 
-    /// The size and the samples of a group.
+    /// Returns the size and the sample count of a group.
     pub fn shape(&self, group: usize) -> ([u32; 2], u32) {
         let group = &self.groups[group];
         (group.size, group.samples)
     }
 
-    /// Returns the number of a set in a group.
+    /// Returns the index of a set in a group's palette.
     pub fn set(&mut self, group: usize, mut set: TexelSet) -> u32 {
         set.worlds.sort_unstable();
         set.worlds.dedup();
@@ -384,7 +386,7 @@ impl LegalSetBuilder {
         })
     }
 
-    /// Adds the next samples of a group, so many, with a set of this number.
+    /// Adds the next `count` samples of a group, which have the set with this index.
     pub fn samples(&mut self, group: usize, set: u32, count: usize) {
         let group = &mut self.groups[group];
         let end = group.len() + count;
@@ -400,7 +402,7 @@ impl LegalSetBuilder {
         self.counters.push(counter);
     }
 
-    /// The finished set.
+    /// Returns the finished set.
     ///
     /// # Panics
     /// If a group has too few or too many samples: a bug of the judge.

@@ -1,9 +1,9 @@
 //! Texel formats, frames, limits, features, legal sets and their comparison.
 //!
-//! This crate holds the nouns that every other crate shares and no arithmetic of the pipeline:
-//! what a texel is made of ([`TextureFormat`], [`ChannelEncoding`]), what came back from a device
-//! ([`Frame`]), what an adapter can do ([`Limits`], [`Feature`]), what the rules allow
-//! ([`LegalSet`]) and how the last two are held against each other ([`compare()`]).
+//! This crate has the types that all other crates share, and no arithmetic of the pipeline: what a texel
+//! consists of ([`TextureFormat`], [`ChannelEncoding`]), what came back from a device ([`Frame`]), what an
+//! adapter can do ([`Limits`], [`Feature`]), what the rules allow ([`LegalSet`]), and how frames are compared
+//! with that ([`compare()`]).
 
 #![cfg_attr(
     test,

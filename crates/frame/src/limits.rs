@@ -1,4 +1,4 @@
-//! The limits of an adapter, and the requirements that are held against them.
+//! The limits of an adapter, and the requirements that are compared with them.
 
 use crate::api::Api;
 use crate::encoding::ChannelEncoding;
@@ -12,25 +12,25 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// One thing that a scene needs of an adapter.
+/// One thing that a scene needs from an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Requirement {
     /// A capability.
     Feature(Feature),
-    /// Textures of this format that can be uploaded or cleared, fetched from and read.
+    /// Textures of this format that can be uploaded or cleared, fetched from and read back.
     Format(TextureFormat),
     /// Attachments of this format that can be drawn to.
     Drawing(TextureFormat),
     /// Blending into attachments of this format.
     Blending(TextureFormat),
-    /// So many colour attachments of one pass.
+    /// At least this many colour attachments in one pass.
     ColorAttachments(u32),
-    /// So many samples per texel in this format.
+    /// This many samples per texel in this format.
     Samples(TextureFormat, u32),
-    /// Attachments at least so wide and high.
+    /// Attachments of at least this width and height.
     Size(u32),
-    /// A way to the driver that is not the default.
+    /// A way to the driver other than the default.
     Path(PathValue),
 }
 
@@ -53,45 +53,46 @@ impl fmt::Display for Requirement {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FormatSupport {
-    /// Sample counts of attachments that can be drawn and read back; empty where the format can
-    /// only be uploaded and fetched from.
+    /// Sample counts of attachments that can be drawn to and read back; empty if the format can only be
+    /// uploaded and fetched from.
     pub samples: Vec<u32>,
     /// True if attachments of the format can be blended into.
     pub blendable: bool,
-    /// The real encoding of the depth aspect. More than one where the API does not tell: then all
-    /// of a frame is one or the other. Empty for formats without depth.
+    /// The actual encoding of the depth aspect; empty for formats without depth. There are several if the API
+    /// does not reveal it: then all of a frame has the same one of them.
     pub depth: Vec<ChannelEncoding>,
-    /// The way the depth aspect (or colour, where there is no depth) is read back.
+    /// How the depth aspect is read back, or the colour aspect of a format without depth.
     pub read: ReadPath,
 }
 
-/// The limits of an adapter, as far as the suite asks.
+/// The limits of an adapter that matter to the suite.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Whose rules bind the adapter.
+    /// The API whose rules bind the adapter.
     pub api: Api,
-    /// The version of the specification that binds it; 0.0 if the API has none, or the record is older.
+    /// The version of the specification that binds the adapter; 0.0 if the API has none, or in older records.
     #[serde(default)]
     pub version: ApiVersion,
     /// The promises that narrow what the specification permits.
     #[serde(default)]
     pub properties: BTreeSet<Property>,
-    /// Bits of sub-pixel precision in vertex positions; the API's minimum where it does not tell.
+    /// Bits of sub-pixel precision in vertex positions; the API's minimum if the adapter does not report
+    /// them.
     pub sub_pixel_bits: u8,
     /// The largest width and height of an attachment.
     pub max_size: u32,
-    /// The most colour attachments of one pass.
+    /// The maximum number of colour attachments in one pass.
     pub max_color_attachments: u32,
-    /// Formats, and what can be done with them.
+    /// The supported formats.
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
     /// Features.
     pub features: BTreeSet<Feature>,
-    /// The ways to the driver besides the defaults; none in older records.
+    /// The supported ways to the driver other than the defaults; empty in older records.
     #[serde(default)]
     pub paths: BTreeSet<PathValue>,
-    /// Requirements that are not met for a reason other than the driver's word: the backend does not
-    /// use what the driver offers, or the driver claims less than the API.
+    /// Requirements that are unmet although the driver does not deny them: the backend does not use what the
+    /// driver offers, or the driver claims less than the API.
     #[serde(default)]
     pub exempt: BTreeSet<Requirement>,
     /// Sample positions in units of 1/256 texel from the top left corner, per sample count.
@@ -99,7 +100,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The first requirement that is not met.
+    /// Returns the first requirement that is not met.
     pub fn missing(&self, requirements: &[Requirement]) -> Option<Requirement> {
         requirements.iter().copied().find(|r| !self.meets(*r))
     }
@@ -126,9 +127,9 @@ impl Limits {
         }
     }
 
-    /// These limits once per possible depth encoding of the given formats, each with that one
-    /// encoding only: a format whose encoding is not told is one or the other for a whole frame,
-    /// never texel by texel. Two formats may differ in their choice.
+    /// Returns these limits once per possible depth encoding of the given formats, each with only that
+    /// encoding: a format with an unknown encoding has the same one for a whole frame, never one per texel.
+    /// Two formats can differ in their choice.
     pub fn alternatives(&self, formats: &[TextureFormat]) -> Vec<Self> {
         let mut all = vec![self.clone()];
         for format in formats {

@@ -1,11 +1,10 @@
-//! Messages about input.
+//! Messages about user input.
 
-/// The bytes kept of the beginning and of the end of a long message.
+/// The number of bytes kept from the beginning and from the end of a long message.
 const HEAD: usize = 400;
 const TAIL: usize = 200;
 
-/// Returns a message without its middle where it is long: an error that quotes its input may quote a
-/// whole file.
+/// Returns a message without its middle if it is long: an error that quotes its input can quote a whole file.
 pub fn shortened(text: &str) -> String {
     if text.len() <= HEAD + TAIL {
         return text.to_owned();
@@ -15,7 +14,7 @@ pub fn shortened(text: &str) -> String {
     format!("{head} […] {tail}")
 }
 
-/// Returns a text without the byte order mark that some editors begin one with.
+/// Returns a text without the byte order mark that some editors write at its beginning.
 pub fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }

@@ -1,7 +1,6 @@
-//! Enumerations that are known by their names.
+//! Enumerations whose values have names.
 //!
-//! The names, the list of all values and the serialized form come from one list, so that none of them
-//! can be forgotten.
+//! The names, the list of all values and the serialized form come from one list, so they cannot disagree.
 
 /// Declares an enumeration whose values have names, the same in case files, records and stories.
 ///
@@ -16,7 +15,7 @@ macro_rules! state_enum {
         impl $name {
             $crate::state_enum!(@all $($array)? $($variant)+);
 
-            /// The name in case files, records and stories.
+            /// Returns the name in case files, records and stories.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $text),+ }
             }

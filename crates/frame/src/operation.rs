@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// An operation of the reference, without its values.
     Operation {
-        /// A pass draws to attachments of another shape.
+        /// A pass draws to attachments of another size or sample count.
         Attachments = "attachments",
         /// Texels are uploaded.
         Upload = "upload",
@@ -28,7 +28,7 @@ state_enum! {
         Clipping = "clipping",
         /// Coverage of the sample.
         Coverage = "coverage",
-        /// The contents in one world.
+        /// The contents of the attachments in one world.
         World = "world",
         /// Culling.
         Culling = "culling",

@@ -1,7 +1,7 @@
-//! Values of a path: the ways in which a scene reaches the driver, one enumeration per key.
+//! Values of a path: the ways a scene reaches the driver, one enumeration per key.
 //!
-//! They stand here, and not beside scenes, because limits name them: an adapter has a value or lacks it.
-//! The first value of each enumeration is the default, which every adapter has.
+//! They are defined here rather than with scenes because limits name them: an adapter has a value or lacks
+//! it. The first value of each enumeration is the default, which every adapter has.
 
 use crate::state_enum;
 use schemars::JsonSchema;
@@ -29,22 +29,22 @@ macro_rules! path_values {
         }
 
         impl PathValue {
-            /// The key in case files.
+            /// Returns the key in case files.
             pub fn key(self) -> &'static str {
                 match self { $(Self::$kind(_) => $key),+ }
             }
 
-            /// The value's name in case files.
+            /// Returns the value's name in case files.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$kind(value) => value.name()),+ }
             }
 
-            /// True if every adapter has the value.
+            /// Returns true if every adapter has the value.
             pub fn is_default(self) -> bool {
                 match self { $(Self::$kind(value) => value == $name::default()),+ }
             }
 
-            /// Every value but the defaults, by key.
+            /// Returns every value except the defaults, by key.
             pub fn all() -> Vec<Self> {
                 let mut all = Vec::new();
                 $(all.extend($name::ALL.iter().copied().map(Self::$kind));)+
@@ -56,7 +56,7 @@ macro_rules! path_values {
 }
 
 path_values! {
-    /// The way in which attachments receive their initial contents.
+    /// How attachments receive their initial contents.
     Start(PathStart) = "start" {
         /// A transfer before the first pass.
         Transfer = "transfer",
@@ -67,47 +67,47 @@ path_values! {
         /// A draw at the beginning of the first pass.
         Draw = "draw",
     }
-    /// The object that a pass is.
+    /// The API object for a pass.
     Pass(PathPass) = "pass" {
-        /// Rendering without objects; in APIs that know no other pass, theirs.
+        /// Rendering without pass objects; in other APIs, their only kind of pass.
         DynamicRendering = "dynamic-rendering",
         /// A render pass of one subpass, and its framebuffer.
         RenderPass = "render-pass",
-        /// The second subpass of a render pass, behind one that draws nothing.
+        /// The second subpass of a render pass, after one that draws nothing.
         SecondSubpass = "second-subpass",
     }
-    /// The way in which state is set.
+    /// How state is set.
     State(PathState) = "state" {
-        /// Between the draws, as far as the API has it without extensions.
+        /// Between the draws, for all state that the API can set there without extensions.
         Dynamic = "dynamic",
         /// In the pipeline.
         Static = "static",
-        /// Between the draws, with extended dynamic state 3 too.
+        /// Between the draws, with extended dynamic state 3 in addition.
         ExtendedDynamic3 = "extended-dynamic-3",
-        /// As with extended dynamic state 3, but before the pipeline is bound and while another one is.
+        /// As with extended dynamic state 3, but while another pipeline is bound, before the draw's own.
         BeforePipeline = "before-pipeline",
-        /// Between the draws, with the logic operation too.
+        /// Between the draws, including the logic operation.
         DynamicLogic = "dynamic-logic",
-        /// Twice before every draw, to other values first.
+        /// Twice before every draw, first to other values.
         Overwritten = "overwritten",
-        /// Before another pipeline is bound, and the draw's own again.
+        /// Before another pipeline is bound, and then the draw's own again.
         OtherPipeline = "other-pipeline",
-        /// Only if it differs from that of the draw before, also of another pass.
+        /// Only if it differs from the previous draw's, even across passes.
         Kept = "kept",
-        /// Between the draws, with the number of samples too.
+        /// Between the draws, including the number of samples.
         DynamicSamples = "dynamic-samples",
-        /// Between the draws, with alpha to one too.
+        /// Between the draws, including alpha to one.
         DynamicAlphaToOne = "dynamic-alpha-to-one",
-        /// Between the draws, with depth clipping too.
+        /// Between the draws, including depth clipping.
         DynamicDepthClip = "dynamic-depth-clip",
-        /// Between the draws, with the provoking vertex too.
+        /// Between the draws, including the provoking vertex.
         DynamicProvoking = "dynamic-provoking",
-        /// Between the draws, with the origin of the tessellated domain too.
+        /// Between the draws, including the origin of the tessellated domain.
         DynamicOrigin = "dynamic-origin",
     }
-    /// The part of a texture that an attachment is.
+    /// The part of a texture that serves as an attachment.
     Target(PathTarget) = "target" {
-        /// A texture of one level and layer.
+        /// A texture with one level and one layer.
         Plain = "plain",
         /// A level above 0.
         MipLevel = "mip-level",
@@ -117,12 +117,12 @@ path_values! {
         Slice3d = "slice-3d",
         /// A face above 0 of a cube.
         CubeFace = "cube-face",
-        /// A renderbuffer, which has no texture.
+        /// A renderbuffer, which is no texture.
         Renderbuffer = "renderbuffer",
     }
     /// The command buffers of a submission.
     Commands(PathCommands) = "commands" {
-        /// One.
+        /// One command buffer.
         One = "one",
         /// A primary command buffer for each pass.
         Several = "several",
@@ -131,44 +131,45 @@ path_values! {
     }
     /// The kind of draw calls.
     Draws(PathDraws) = "draws" {
-        /// The scene's own.
+        /// The scene's own calls.
         Direct = "direct",
-        /// Indexed with 16 bits.
+        /// Indexed, with 16-bit indices.
         Indexed16 = "indexed-16",
-        /// Indexed with 32 bits.
+        /// Indexed, with 32-bit indices.
         Indexed32 = "indexed-32",
-        /// Indexed, with a number that is added to every index, behind unused vertices and indices.
+        /// Indexed, with a base vertex that is added to every index, after unused vertices and indices.
         BaseVertex = "base-vertex",
-        /// The colour from a buffer that advances once an instance.
+        /// With the colour from a buffer that advances once per instance.
         Instanced = "instanced",
-        /// Arguments from a buffer.
+        /// With arguments from a buffer.
         Indirect = "indirect",
-        /// Arguments from a buffer, and the number of draws from another place, less than the most that is stated.
+        /// With arguments from a buffer, and the number of draws from another place; it is less than the
+        /// stated maximum.
         IndirectCount = "indirect-count",
-        /// Arguments from a buffer, while another one is bound for numbers of draws, which no call reads.
+        /// With arguments from a buffer, while a buffer for draw counts is bound that no call reads.
         IndirectBeside = "indirect-beside",
-        /// Lists as strips that the greatest index ends.
+        /// Lists as strips that the greatest index restarts.
         Restart = "restart",
-        /// Strips and fans without indices, while restart is on, which acts on indices alone.
+        /// Strips and fans without indices while primitive restart is on; restart affects only indexed draws.
         RestartUnindexed = "restart-unindexed",
     }
-    /// The way from an attachment to the host.
+    /// How an attachment reaches the host.
     End(PathEnd) = "end" {
-        /// A transfer of the attachment.
+        /// Directly, by a transfer of the attachment.
         Store = "store",
         /// A copy to another texture, which is then read.
         Copy = "copy",
         /// A blit of equal size to another texture, which is then read.
         Blit = "blit",
-        /// A blit that mirrors in both directions; its texels are read in reverse.
+        /// A blit that mirrors in both directions; its texels are read in reverse order.
         BlitMirrored = "blit-mirrored",
-        /// A blit that makes six texels of one; one of the six is read.
+        /// A blit that makes six texels from one; one of the six is read.
         BlitScaled = "blit-scaled",
-        /// Blits of parts that change places, each of one aspect.
+        /// Blits of parts that change places, one aspect at a time.
         BlitPart = "blit-part",
-        /// A blit with linear filter between the texels and others of zeros; twice its result is read.
+        /// A blit with a linear filter between the texels and zeros; twice its result is read.
         BlitLinear = "blit-linear",
-        /// The framebuffer that was drawn to, whose color attachments are read one after the other.
+        /// The framebuffer that was drawn to; its color attachments are read one after the other.
         ReadBuffer = "read-buffer",
         /// A shader.
         ShaderRead = "shader-read",
@@ -177,80 +178,80 @@ path_values! {
     }
     /// The render area.
     Area(PathArea) = "area" {
-        /// The whole of the attachments.
+        /// All of the attachments.
         Full = "full",
-        /// A part: every pass is recorded once for each half of its attachments.
+        /// A half: every pass is recorded once for each half of its attachments.
         Part = "part",
     }
     /// The calls that clear within passes.
     Clears(PathClears) = "clears" {
         /// One for each clear.
         Each = "each",
-        /// One for clears that follow one another: of several attachments, aspects or rectangles.
+        /// One call for consecutive clears: of several attachments, aspects or rectangles.
         Together = "together",
-        /// Each behind a call that leaves undefined what it clears.
+        /// One call for each clear, after a call that leaves the same contents undefined.
         Undefined = "undefined",
     }
-    /// The reading of queries.
+    /// How often queries are read.
     Results(PathResults) = "results" {
         /// Once.
         Once = "once",
-        /// Twice, and what comes second counts.
+        /// Twice; the second result counts.
         Twice = "twice",
     }
-    /// The clip volume's convention.
+    /// The convention of the clip volume.
     Clip(PathClip) = "clip" {
-        /// One for all draws.
+        /// The same for all draws.
         Constant = "constant",
-        /// Another one between the draws.
+        /// Toggled between the draws.
         Toggled = "toggled",
     }
     /// Viewports and scissor rectangles.
     Viewport(PathViewport) = "viewport" {
-        /// One, whose number the pipeline states.
+        /// One; the pipeline states the number.
         One = "one",
-        /// One, whose number is set with it.
+        /// One; the number is set together with it.
         WithCount = "with-count",
-        /// An array of which a shader names the second.
+        /// An array; a shader selects its second element.
         Array = "array",
     }
     /// The layers of a pass.
     Layers(PathLayers) = "layers" {
         /// One.
         One = "one",
-        /// Three: a shader names the layer, once the second and once the third, which are read in turns.
+        /// Three layers: a shader selects the second once and the third once, and these are read in turns.
         Written = "written",
-        /// Three, of which two are views: a draw reaches both, which are read in turns.
+        /// Three layers; two are views. A draw reaches both, and these are read in turns.
         Multiview = "multiview",
     }
-    /// The tests of aspects that a pass lacks.
+    /// The tests of aspects that a pass does not have.
     Tests(PathTests) = "tests" {
         /// Off.
         Off = "off",
-        /// On, and none passes, which nothing may come of without an attachment.
+        /// On, with functions that never pass: without an attachment this must have no effect.
         Unattached = "unattached",
     }
     /// The colour attachments of passes.
     Colors(PathColors) = "colors" {
-        /// All.
+        /// All attached.
         Attached = "attached",
-        /// Those that something reads; the locations of the others have no attachment.
+        /// Only attachments that something reads; the locations of the others are empty.
         Gaps = "gaps",
     }
-    /// The resolves of colors.
+    /// How colors are resolved.
     Resolves(PathResolves) = "resolves" {
-        /// With the pass.
+        /// As part of the pass.
         Attached = "attached",
-        /// Commands behind the pass, each of a part that changes its place.
+        /// By commands after the pass, each for a part that it moves.
         Moved = "moved",
     }
     /// The format of the textures that color attachments are views of.
     Views(PathViews) = "views" {
-        /// The attachment's.
+        /// The attachment's format.
         Same = "same",
-        /// With sRGB conversion if the attachment lacks it, and without if it has it.
+        /// The format with sRGB conversion if the attachment lacks it, without if it has it.
         Srgb = "srgb",
-        /// Unsigned integers of as many bits.
+        /// Unsigned integers of the same number of bits.
         Uint = "uint",
     }
 }

@@ -1,7 +1,7 @@
 //! Standard sample positions.
 
-/// The standard sample positions in 1/256 texel from the top left corner; the centre for any count
-/// that the table does not hold (Vulkan, Multisampling; Direct3D 11.3, 19.2.4).
+/// Returns the standard sample positions in 1/256 texel from the top left corner; the centre for any count
+/// that is not in the table (Vulkan, Multisampling; Direct3D 11.3, 19.2.4).
 pub fn standard_sample_positions(samples: u32) -> Vec<[u16; 2]> {
     let sixteenths: &[[u16; 2]] = match samples {
         2 => &[[12, 12], [4, 4]],

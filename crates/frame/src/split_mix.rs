@@ -1,6 +1,7 @@
 //! Pseudo-random numbers that are the same in every release.
 
-/// SplitMix64 (Steele, Lea, Flood 2014). Scenes and cases are made from its numbers, so that these may never change.
+/// SplitMix64 (Steele, Lea, Flood 2014). Scenes and cases are made from its numbers, so they must never
+/// change.
 #[derive(Clone, Debug)]
 pub struct SplitMix64(pub u64);
 
@@ -12,7 +13,7 @@ impl SplitMix64 {
     }
 }
 
-/// Returns a number of which every bit depends on every bit of another one.
+/// Mixes a number so that every bit of the result depends on every bit of the input.
 pub fn mix(number: u64) -> u64 {
     let mut z = number;
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -24,7 +25,7 @@ pub fn mix(number: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// The numbers of the authors' code for the seed 1234567.
+    /// The expected numbers are the output of the authors' code for the seed 1234567.
     #[test]
     fn the_numbers_are_those_of_the_authors() {
         let mut random = SplitMix64(1_234_567);

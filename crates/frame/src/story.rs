@@ -1,7 +1,7 @@
 //! The story of one sample: the ruling on it, then the reference's operations on it as typed events.
 //!
-//! A story holds facts and no sentences. `etalon-report` makes the words; symptoms, groups and reductions read the
-//! facts.
+//! A story contains facts and no sentences. `etalon-report` turns the facts into sentences; symptoms, groups
+//! and reductions read the facts.
 
 use crate::band::Band;
 use crate::compare::ChannelMismatch;
@@ -16,7 +16,7 @@ pub struct Story {
     /// The ruling, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruling: Option<Ruling>,
-    /// The rulings on each of several scenes alone, in a story about two pictures that must be the same.
+    /// The ruling on each of several scenes alone, in a story about two pictures that must be the same.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub alone: Vec<(SceneName, Ruling)>,
     /// The operations.
@@ -25,7 +25,8 @@ pub struct Story {
     /// True if later events were left out because the record was too long.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub cut: bool,
-    /// The sentences of a story from a run folder before format 4. They are shown, and nothing is decided on them.
+    /// The sentences of a story from a run folder before format 4. They are only displayed; no decision
+    /// depends on them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub told: Vec<ToldLine>,
 }
@@ -34,13 +35,13 @@ pub struct Story {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToldLine {
-    /// The place in the scene; of a verdict, its subject.
+    /// The place in the scene; for a verdict, its subject.
     pub at: String,
     /// The operation; `verdict` for the first line of most stories.
     pub operation: String,
-    /// The inputs and the outcome; of a verdict, its predicate.
+    /// The inputs and the outcome; for a verdict, its predicate.
     pub detail: String,
-    /// The section of the specification, or the text by which a verdict was judged.
+    /// The section of the specification, or the specification that a verdict is based on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub citation: Option<String>,
 }
@@ -102,23 +103,23 @@ impl<'de> Deserialize<'de> for Story {
     }
 }
 
-/// The value that the rules demand of a sample, why, and the value that came back.
+/// The value that the rules demand for a sample, the reasons, and the value that came back.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ruling {
-    /// The variant that is drawn; `None` for the case's own scene.
+    /// The variant that was drawn; `None` for the case's own scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
     /// The texel.
     pub texel: [u32; 2],
-    /// The samples, if the attachments have several. More than one share this ruling.
+    /// The samples, if the attachments have several. Several listed samples share this ruling.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub samples: Vec<u32>,
     /// The demand.
     pub demand: Demand,
-    /// The text by which the sample is judged.
+    /// The specification by which the sample is judged.
     pub rules: String,
-    /// The cases that had to be drawn before in the same process.
+    /// The cases that had to be drawn first in the same process.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
     /// The strength of the evidence against the value that came back.
@@ -130,16 +131,16 @@ pub struct Ruling {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Demand {
-    /// The rules leave too many outcomes to assert any.
+    /// The rules leave too many outcomes open to assert any.
     Open {
         /// The values that came back, if there is a frame.
         returned: Option<Vec<Contents>>,
         /// True if several colour attachments are read back.
         several_colors: bool,
     },
-    /// The sample holds one of these values.
+    /// The sample has one of these values.
     Values(Box<Values>),
-    /// Two pictures hold the same values.
+    /// Two pictures have the same values.
     Same {
         /// The two pictures; the first one's texel is the ruling's.
         sides: [Side; 2],
@@ -156,10 +157,10 @@ pub enum Demand {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Values {
-    /// True for the yardstick, which demands quality and not legality.
+    /// True for the yardstick, which demands quality rather than legality.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub yardstick: bool,
-    /// The first outcomes: of each, the attachments' aspects that the ruling is about.
+    /// The first outcomes; each lists the values of the aspects that the ruling is about.
     pub allowed: Vec<Vec<Allowed>>,
     /// The number of further outcomes.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -172,9 +173,9 @@ pub struct Values {
     /// The values that came back, if there is a frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub returned: Option<Returned>,
-    /// True if several colour attachments are read back, so that a colour needs the name of its own.
+    /// True if several colour attachments are read back, so that colours must be named.
     pub several_colors: bool,
-    /// True if the scene has several passes, so that a draw needs the number of its own.
+    /// True if the scene has several passes, so that draws must be numbered by pass.
     pub several_passes: bool,
 }
 
@@ -188,12 +189,12 @@ fn is_zero(n: &usize) -> bool {
 pub struct Allowed {
     /// The value.
     pub contents: Contents,
-    /// The source of the first contents, if the value is still that one.
+    /// The source of the initial contents, if the value is still the initial one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept: Option<Initial>,
 }
 
-/// The source of an attachment's first contents.
+/// The source of an attachment's initial contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initial {
@@ -207,13 +208,13 @@ pub enum Initial {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Reason {
-    /// A draw stores the value in some outcomes only; the event leaves it open.
+    /// A draw stores the value in only some outcomes; the event leaves it open.
     Open(Event),
     /// A draw stores the value.
     Stored {
         /// The store.
         store: Event,
-        /// The output of the shader, of a stored colour.
+        /// The output of the shader, for a stored colour.
         shade: Option<Box<Event>>,
         /// True if the colour is blended.
         blended: bool,
@@ -222,11 +223,11 @@ pub enum Reason {
     Cleared(Event),
     /// A resolve stores the value.
     Resolved(Event),
-    /// A draw passes its tests and leaves the value as it was.
+    /// A draw passes its tests and leaves the value unchanged.
     Kept(Event),
     /// Draws end before the sample for the same reason.
     Ended {
-        /// The end of the first of them.
+        /// The event that ends the first of them.
         by: Event,
         /// The number of draws.
         draws: usize,
@@ -250,7 +251,7 @@ pub enum Returned {
     Allowed(Vec<Contents>),
     /// A forbidden outcome.
     Wrote(Vec<Contents>),
-    /// The contents from before, although a later draw had to store others.
+    /// Earlier contents, although a later draw had to store others.
     Kept {
         /// The contents.
         contents: Contents,
@@ -263,7 +264,7 @@ pub enum Returned {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Source {
-    /// The first contents.
+    /// The initial contents.
     Initial(Initial),
     /// A clear or a resolve between draws.
     Operation,
@@ -277,7 +278,7 @@ pub enum Source {
 }
 
 impl Story {
-    /// True if the driver left earlier contents where a later draw had to store.
+    /// Returns true if the driver left earlier contents although a later draw had to replace them.
     pub fn keeps_earlier_contents(&self) -> bool {
         match self.ruling.as_ref().map(|ruling| &ruling.demand) {
             Some(Demand::Values(values)) => matches!(values.returned, Some(Returned::Kept { .. })),

@@ -1,19 +1,20 @@
-//! Work that is shared between threads.
+//! Sharing work between threads.
 //!
-//! A system may refuse a thread, as a container with a limit of processes does. The calling thread then does the work:
-//! nothing is lost but time.
+//! A system can refuse to start a thread, for example in a container that limits processes. The calling
+//! thread then does the work: only time is lost.
 
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{Builder, scope};
 
-/// Returns the results of a function that takes work from a queue until none is left, called on at most `count` threads
-/// at the same time, the calling one among them.
+/// Calls a function that takes work from a queue until the queue is empty, on at most `count` threads
+/// including the calling one, and returns the results.
 pub fn share<R: Send>(count: usize, work: impl Fn() -> R + Sync) -> Vec<R> {
     share_with(count, &Builder::new, work)
 }
 
-/// Returns the results of a function on each item, in the order of the items, found on at most `count` threads.
+/// Returns the results of a function on each item, in the order of the items, computed on at most `count`
+/// threads.
 pub fn each<T: Sync, R: Send>(count: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let some = || {
@@ -33,7 +34,7 @@ pub fn each<T: Sync, R: Send>(count: usize, items: &[T], work: impl Fn(&T) -> R 
     done.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Returns the results of two functions, of which the first is called on another thread if there is one.
+/// Returns the results of two functions. The first one runs on another thread if the system grants one.
 pub fn join<A: Send, B>(aside: impl Fn() -> A + Sync, here: impl FnOnce() -> B) -> (A, B) {
     scope(|scope| {
         let started = Builder::new().spawn_scoped(scope, &aside);
@@ -86,7 +87,7 @@ mod tests {
 
     #[test]
     fn without_threads_the_calling_one_does_all() {
-        // No system has room for such a stack.
+        // No system can provide a stack of this size.
         let refused = || Builder::new().stack_size(usize::MAX / 4);
         assert!(refused().spawn(|| ()).is_err());
         let left = AtomicUsize::new(100);

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// A version of an API's specification: 4.6 of OpenGL. 0.0 if the API has none, or a record does not tell.
+/// A version of an API's specification, such as OpenGL 4.6; 0.0 if the API has no versions, or if a record
+/// does not state one.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]
@@ -39,7 +40,7 @@ impl FromStr for ApiVersion {
         let parts = text
             .split_once('.')
             .and_then(|(major, minor)| Some(Self::new(major.parse().ok()?, minor.parse().ok()?)));
-        parts.ok_or_else(|| format!("{text:?} is no version such as \"4.6\""))
+        parts.ok_or_else(|| format!("{text:?} is not a version such as \"4.6\""))
     }
 }
 

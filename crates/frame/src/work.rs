@@ -3,19 +3,19 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The work of one submission of a scene and of reading its frame back, counted from the scene alone.
+/// The work of one submission of a scene and of reading its frame back, computed from the scene alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Work {
-    /// Triangles that are drawn, those that are culled or clipped among them.
+    /// The number of drawn triangles, including culled and clipped ones.
     pub triangles: u64,
-    /// Texels whose centres a triangle covers, once for each triangle that is neither culled nor clipped.
-    /// Samples and attachments do not multiply them, and tests take none away.
+    /// The number of texels whose centre a triangle covers, counted once per triangle that is neither culled
+    /// nor clipped. Multiple samples or attachments do not multiply it, and tests do not reduce it.
     pub texels: u64,
-    /// Texels that load operations and clear commands of passes clear, once for each attachment.
+    /// The number of texels that load operations and clear commands of passes clear, once per attachment.
     pub cleared: u64,
-    /// Texels that resolves write.
+    /// The number of texels that resolves write.
     pub resolved: u64,
-    /// Texels that are read back, all attachments together.
+    /// The number of texels that are read back, over all attachments.
     pub read: u64,
 }

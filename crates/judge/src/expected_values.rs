@@ -1,11 +1,11 @@
-//! The literal values of a case, compared with frame and legal set.
+//! The literal values of a case, compared with the frame and the legal set.
 
 use etalon_case::Case;
 use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, LegalSet, WrongTexel};
 use etalon_record::{Record, Verdict};
 
-/// Compares the case's literal values with frame and legal set. A literal outside the legal set
-/// is the reference's error; a frame that is legal but not the literal is imprecise.
+/// Compares the case's literal values with the frame and the legal set. A literal outside the legal set is an
+/// error of the reference; a legal frame that differs from the literal is imprecise.
 pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, record: &mut Record) {
     for expect in &case.expect {
         let name = &case.scene.attachments[expect.attachment].name;

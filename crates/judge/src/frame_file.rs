@@ -1,11 +1,11 @@
-//! The frame file of a judged frame: its codes beside what was allowed.
+//! The frame file of a judged frame: its codes and the allowed ones.
 
 use etalon_case::Case;
 use etalon_frame::{Frame, LegalSet, SampleGroup};
 use etalon_record::{FrameFile, FrameImage, Verdict};
 use etalon_reference::Judgement;
 
-/// The frame file of a frame: a failed one beside the legal set, another one beside the yardstick.
+/// Returns the frame file of a frame: for a failed frame with the legal set, otherwise with the yardstick.
 pub(crate) fn frame_file(
     case: &Case,
     adapter: &str,
@@ -71,7 +71,7 @@ pub(crate) fn frame_file(
     }
 }
 
-/// The orders of one sample in all images of its group.
+/// Returns the orders of one sample in all images of its group.
 fn sample_orders(
     frame: &Frame,
     set: &LegalSet,

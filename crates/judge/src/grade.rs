@@ -1,7 +1,7 @@
-//! Grades of violations: the strongest evidence that a frame breaks.
+//! Grades of violations: the strongest evidence that a frame violates.
 //!
-//! Legal sets come from all evidence together. Only a frame outside of them is judged again, by the
-//! stronger evidence alone, so that a frame inside costs nothing more.
+//! Legal sets are computed from all evidence together. Only a frame outside them is judged again by the
+//! stronger evidence alone, so legal frames cost nothing extra.
 
 use etalon_frame::{Band, CounterOutcome, Frame, Grade, Limits, compare};
 use etalon_record::MAX_WRONG_TEXELS;
@@ -12,7 +12,7 @@ use std::collections::HashSet;
 /// The samples and counters of a frame that some evidence forbids.
 struct Forbidden {
     samples: HashSet<(u32, u32, u32)>,
-    /// The number of all of them, of which [`Forbidden::samples`] holds the first.
+    /// The total number of forbidden samples; [`Forbidden::samples`] has the first of them.
     count: u64,
     counters: Vec<bool>,
 }
@@ -23,16 +23,16 @@ impl Forbidden {
     }
 }
 
-/// A frame's violations by the evidence that forbids them.
+/// A frame's violations, by the evidence that forbids them.
 pub(crate) struct Grades {
-    /// By musts of the text.
+    /// Forbidden by musts of the specification.
     proven: Forbidden,
-    /// By those and the CTS.
+    /// Forbidden by musts or by the CTS.
     required: Forbidden,
 }
 
 impl Grades {
-    /// Grades a frame that all evidence together forbids. `None` if all of it is proven.
+    /// Grades a frame that all evidence together forbids; `None` if everything in it is proven.
     pub(crate) fn of(
         scene: &Scene,
         limits: &Limits,
@@ -77,7 +77,7 @@ impl Grades {
     }
 }
 
-/// Returns what rules forbid of a frame, under the depth encodings that forbid the least.
+/// Returns what rules forbid in a frame, under the depth encodings that forbid the least.
 fn forbidden(
     scene: &Scene,
     limits: &Limits,
@@ -93,8 +93,8 @@ fn forbidden(
             Ok(Some(fitted)) => fitted.legal,
             _ => open,
         };
-        // The first wrong samples come in the same order under any rules, and fewer are wrong under
-        // wider ones: those that are kept reach as far as a record's.
+        // The first wrong samples come in the same order under any rules, and wider rules leave fewer of
+        // them, so the kept ones suffice for a record.
         let found = compare(frame, &set, &set, MAX_WRONG_TEXELS).ok()?;
         let illegal = |counter: &CounterOutcome| counter.band == Some(Band::Fail);
         Some(Forbidden {

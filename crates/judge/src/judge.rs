@@ -1,4 +1,4 @@
-//! The judge: frames are compared with their legal sets, and the result becomes a record.
+//! The judge: compares frames with their legal sets and makes records of the results.
 
 use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
@@ -23,7 +23,7 @@ pub struct Judge {
     cache: JudgementCache,
 }
 
-/// A record without its times, and the frame file that belongs to it.
+/// A record without times, and its frame file.
 #[derive(Clone, Debug)]
 pub struct Judged {
     /// The record.
@@ -34,7 +34,7 @@ pub struct Judged {
 
 impl Judge {
     /// Judges the frames of a case, its scene's and its variants', and compares them with each other.
-    /// `number` tells the case from others.
+    /// `number` identifies the case in the cache.
     pub fn judge(
         &self,
         number: usize,
@@ -67,8 +67,8 @@ impl Judge {
         judged
     }
 
-    /// Compares each frame of a case with the legal sets that it fits best, and gives what `then` makes of that; the message
-    /// if a frame is not one of the case.
+    /// Compares each frame of a case with the legal sets that it fits best and collects the results of
+    /// `then`; returns a message if a frame does not fit the case.
     fn compare_each<T>(
         &self,
         number: usize,
@@ -92,11 +92,11 @@ impl Judge {
         })
     }
 
-    /// The verdict and the first texel outside: [`Judge::judge`] without story, figures and literal
+    /// Returns the verdict and the first wrong texel: [`Judge::judge`] without story, figures and literal
     /// values. A case that asserts nothing passes.
     ///
     /// # Errors
-    /// When a frame is not one of the case.
+    /// If a frame does not fit the case.
     pub fn verdict(
         &self,
         number: usize,
@@ -144,7 +144,7 @@ impl Judge {
     }
 }
 
-/// A frame of one of a case's scenes, compared with what it fits best.
+/// A frame of one of a case's scenes, compared with the judgement that it fits best.
 struct Compared<'a> {
     index: usize,
     frame: &'a Frame,
@@ -153,7 +153,7 @@ struct Compared<'a> {
     sets: &'a Sets<'a>,
 }
 
-/// The record of a case whose frames cannot be judged.
+/// Returns the record of a case whose frames cannot be judged.
 fn unjudged(case: &Case, adapter: &str, limits: &Limits, message: String) -> Judged {
     let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
     record.due_fail = is_due_to_fail(case, limits);
@@ -195,7 +195,7 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
     record.assertions = assertions(judgement);
     let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
     let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
-    // Where the rules leave a method's outcome open, only its distance from the truth is reported.
+    // If the rules leave a method's outcome open, only its distance from the truth is reported.
     let unasserted = record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
     record.verdict = match worst {
         Some(band) if band > Band::Imprecise => violation(band),
@@ -250,8 +250,8 @@ pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
     }
 }
 
-/// True if a case is a selftest that must fail under the rules of an adapter. One whose relation the text
-/// does not bind is Imprecise there, and rightly so.
+/// Returns true if a case is a selftest that must fail under an adapter's rules. If the specification does
+/// not bind the case's relation, the case is correctly Imprecise instead.
 pub fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
     let bound = |relation: &Relation| {
         let permission = Rules::invariance(limits, relation.invariance);
@@ -260,7 +260,7 @@ pub fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
     case.judged_as.is_some() && case.relation.as_ref().is_none_or(bound)
 }
 
-/// The verdict on a texel that left a band.
+/// Returns the verdict on a texel that is outside a band.
 fn violation(band: Band) -> Verdict {
     match band {
         Band::Imprecise => Verdict::Imprecise,
@@ -270,10 +270,10 @@ fn violation(band: Band) -> Verdict {
     }
 }
 
-/// The record of the worse of two scenes of one case, with the assertions of both.
+/// Returns the record of the worse of two scenes of one case, with the assertions of both.
 fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
-    // Within one case, an open scene takes nothing from one that asserts something, and an InternalError makes a
-    // Fail beside it no proof.
+    // Within one case, an open scene does not weaken one that asserts something, and an InternalError next to
+    // a Fail means that the Fail is no proof.
     let rank = |verdict: Verdict| match verdict {
         Verdict::Open => (false, 0),
         Verdict::InternalError => (true, 0),
@@ -320,13 +320,13 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     kept
 }
 
-/// Returns the share of a picture that was judged, for people.
+/// Returns the message about the share of a picture that was judged.
 fn share_message(judged: u64, all: u64) -> String {
     let share = judged as f64 / all as f64 * 100.0;
     format!("{share:.1} % of the picture is judged: {judged} of {all} samples, on a lattice")
 }
 
-/// The message about counters outside their legal range.
+/// Returns the message about counters outside their legal range.
 fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
     let wrong: Vec<String> = counters
         .iter()
@@ -389,8 +389,8 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
         .extend(wrong.map(|texel| WrongTexel { band, ..texel }));
 }
 
-/// The judgement under which the fewest samples are wrong. An API may hide which of several encodings a
-/// format has, but it is the same one for the whole frame; and so is the step of a depth bias.
+/// Returns the judgement under which the fewest samples are wrong. An API can hide which of several encodings
+/// a format has, but the whole frame has the same one; the same holds for the step of a depth bias.
 pub(crate) fn best<'a>(
     scene: &Scene,
     judgements: &'a [Judgement],

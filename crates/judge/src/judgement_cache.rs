@@ -1,5 +1,5 @@
-//! The cache of legal sets. Adapters share those of equal limits under rules that agree on all that the
-//! judge asked for.
+//! The cache of legal sets. Adapters share a set if their limits are equal and their rules agree on every
+//! permission that the judge asked for.
 
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
@@ -8,11 +8,12 @@ use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The most bytes of cached legal sets.
+/// The maximum size of all cached legal sets, in bytes.
 const CACHE_BYTES: usize = 512 << 20;
 
-/// The texels of a case's images that are judged: all, but for the large pictures that exist to be
-/// measured. Of these a lattice that meets every row and column; the texels left out count as not asserted.
+/// Returns the texels of a case's images that are judged: all, except in large pictures that exist to be
+/// measured. These are judged on a lattice that meets every row and column; the other texels count as not
+/// asserted.
 pub(crate) fn judged_texels(case: &Case) -> Texels {
     if case.measured {
         Texels::AtMost(4096)
@@ -32,13 +33,13 @@ pub(crate) struct JudgementCache(Mutex<Cache>);
 #[derive(Debug, Default)]
 struct Cache {
     entries: HashMap<Key, Entry>,
-    /// The entries of all sets, the oldest first, with the bytes that each set takes.
+    /// The keys of all sets, oldest first, with the size of each set in bytes.
     order: VecDeque<(Key, usize)>,
     bytes: usize,
 }
 
 impl JudgementCache {
-    /// The judgements of one of a case's scenes; `number` tells the case from others.
+    /// Returns the judgements of one of a case's scenes; `number` identifies the case.
     pub(crate) fn get(
         &self,
         number: usize,
@@ -50,7 +51,7 @@ impl JudgementCache {
         judgements_by(scene, limits, texels, &self.sets(number, case, index))
     }
 
-    /// The legal sets of one of a case's scenes, which are computed when they are first asked for.
+    /// Returns the legal sets of one of a case's scenes, which are computed when they are first asked for.
     pub(crate) fn sets(
         &self,
         number: usize,
@@ -67,8 +68,8 @@ impl JudgementCache {
         }
     }
 
-    /// The set of a key by some rules. One that other rules gave is taken if these have the same values, as
-    /// far as they were asked for.
+    /// Returns the set of a key under some rules. A cached set from other rules is used if both agree on
+    /// every permission that its computation asked for.
     fn set(
         &self,
         key: Key,
@@ -76,7 +77,7 @@ impl JudgementCache {
         compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
-        // Who comes second waits: most sets serve both.
+        // A second caller waits: most sets serve both.
         let mut weight = None;
         let set = lock(&entry).get(rules, |rules| {
             let set = compute(rules);
@@ -93,7 +94,7 @@ impl JudgementCache {
             let Some((oldest, weight)) = cache.order.pop_front() else {
                 break;
             };
-            // Of an entry with several sets all are forgotten with the first.
+            // Removes the entry with all its sets, even if only the first is this old.
             cache.entries.remove(&oldest);
             cache.bytes = cache.bytes.saturating_sub(weight);
         }
@@ -101,7 +102,7 @@ impl JudgementCache {
     }
 }
 
-/// The scene that a frame is judged by: the case's own, or that of a variant.
+/// Returns the scene that a frame is judged by: the case's own, or a variant's.
 pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
     match case
         .judged_index(index)
@@ -113,7 +114,7 @@ pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
     }
 }
 
-/// Locks a mutex. What it guards stays consistent at every step, so a poisoned one is used on.
+/// Locks a mutex, ignoring poison: the guarded data are consistent at every step.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

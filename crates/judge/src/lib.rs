@@ -1,8 +1,8 @@
-//! The judge: takes a case, the frames that a driver drew of its scenes, and its limits; gives the verdict with its grade,
-//! what was asserted, and the story of the first wrong sample.
+//! The judge: takes a case, the frames that a driver drew of its scenes, and its limits, and returns the
+//! verdict with its grade, the assertions, and the story of the first wrong sample.
 //!
-//! Legal sets come from `reference`, records and frame files go to `record`. Nothing here draws, waits or writes, so that it
-//! compiles for WebAssembly too.
+//! Legal sets come from `reference`; records and frame files go to `record`. Nothing here draws, waits or
+//! writes, so the crate also compiles for WebAssembly.
 
 mod expected_values;
 mod frame_file;

@@ -5,8 +5,8 @@ use etalon_record::MAX_WRONG_TEXELS;
 use etalon_reference::{LineGap, Rules, line_gap};
 use etalon_scene::Scene;
 
-/// Returns a line that has fewer fragments than musts of the text allow, whatever the depth encodings are; `None` if no
-/// line has, or if a frame fails anyway.
+/// Returns a line with fewer fragments than musts of the specification allow, whatever the depth encodings
+/// are; `None` if every line has enough, or if the frame fails anyway.
 pub(crate) fn proven_line_gap(
     scene: &Scene,
     limits: &Limits,
@@ -24,8 +24,8 @@ pub(crate) fn proven_line_gap(
     gaps.into_iter().next()
 }
 
-/// Adds the texels of a line's gap to a comparison, as proven violations before all others. Returns true if the first one is
-/// outside of its own legal set too, so that its story tells why it is wrong.
+/// Adds the texels of a line's gap to a comparison, as proven violations ahead of all others. Returns true if
+/// the first one is also outside its own legal set, so that its story explains the failure.
 pub(crate) fn note_gap(comparison: &mut Comparison, gap: &LineGap) -> bool {
     let all_known = comparison.wrong.len() < MAX_WRONG_TEXELS;
     let place = |w: &WrongTexel| (w.x, w.y, w.sample);
@@ -56,7 +56,7 @@ pub(crate) fn note_gap(comparison: &mut Comparison, gap: &LineGap) -> bool {
     has_story
 }
 
-/// Returns the message about a line that has too few fragments.
+/// Returns the message about a line with too few fragments.
 pub(crate) fn gap_message(gap: &LineGap) -> String {
     let [pass, draw, primitive] = gap.origin;
     let [least, most] = gap.fragments;
@@ -75,7 +75,7 @@ mod tests {
     use etalon_frame::{Api, Band, Frame};
     use etalon_record::{Record, Verdict};
 
-    /// The record of a case of slanted lines, of which those within some columns are missing.
+    /// Returns the record of a case of slanted lines without the pixels of some columns.
     fn lacking(api: Api, columns: std::ops::Range<usize>) -> Record {
         let id = "cull/slanted-lines/blend=opaque/topology=line-list";
         let library = Library::built_in().expect("built-in files parse");

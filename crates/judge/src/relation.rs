@@ -1,4 +1,4 @@
-//! Comparison of frames, or of attachments of one frame, that a relation ties to each other.
+//! Comparison of frames, or of attachments of one frame, that a relation requires to be equal.
 
 use etalon_case::{Case, Relation};
 use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, Limits, WrongTexel};
@@ -15,17 +15,17 @@ pub(crate) struct Differences {
     pub(crate) differing: u64,
     /// The frames or attachments between which the first difference was found.
     pub(crate) between: String,
-    /// The first differing samples, one side as the legal value and the other as the actual one. Their
-    /// band is Fail; the caller replaces it by that of the permission.
+    /// The first differing samples, with one side as the legal value and the other as the actual one. Their
+    /// band is Fail; the caller replaces it by the permission's.
     pub(crate) wrong: Vec<WrongTexel>,
     /// Both sides of the first difference.
     pub(crate) sides: Option<[Compared; 2]>,
 }
 
-/// One of two texels that must be the same.
+/// One of two texels that must be equal.
 #[derive(Clone, Debug)]
 pub(crate) struct Compared {
-    /// 0 for the case's own scene, else the variant's number plus 1.
+    /// 0 for the case's own scene, otherwise the variant's index plus 1.
     pub(crate) scene: usize,
     /// The attachment, if attachments of one frame are compared.
     pub(crate) attachment: Option<String>,
@@ -132,7 +132,7 @@ impl Differences {
     }
 }
 
-/// Returns the message about a frame that differs from the one that was judged; `None` if the API permits that.
+/// Returns the message about a frame that differs from the judged one; `None` if the API permits that.
 pub fn changed_picture(limits: &Limits) -> Option<String> {
     let promise = Rules::invariance(limits, Invariance::Repeat);
     promise.value().map(|_| {
@@ -143,7 +143,7 @@ pub fn changed_picture(limits: &Limits) -> Option<String> {
     })
 }
 
-/// The channels in which two samples differ, zeros of either sign being the same.
+/// Returns the channels in which two samples differ; zeros of either sign are equal.
 fn differing(relation: &Relation, came: &Image, pair: (&[u32], &[u32])) -> Vec<ChannelMismatch> {
     let mut result = Vec::new();
     for (c, encoding) in came.channels.iter().enumerate() {

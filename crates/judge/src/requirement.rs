@@ -1,4 +1,4 @@
-//! What the version of an API requires of every implementation, against what an adapter denies.
+//! What an API's version requires of every implementation, compared with what an adapter denies.
 
 use etalon_case::Case;
 use etalon_frame::{ApiVersion, Limits};
@@ -31,7 +31,7 @@ mod tests {
     use etalon_cpu::CpuBackend;
     use etalon_frame::{Api, Requirement, TextureFormat};
 
-    /// The record of a required format on an adapter of this version without it.
+    /// Returns the record of a required format on an adapter of this version without it.
     fn lacking(format: TextureFormat, exempt: bool, major: u8, minor: u8) -> Record {
         let id = format!("capabilities/required/color-formats/format={format}");
         let library = Library::built_in().expect("built-in files parse");

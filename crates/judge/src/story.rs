@@ -1,5 +1,5 @@
-//! Stories of wrong samples: of one frame, and of two that a relation ties to each other. The judge makes them for
-//! records, `etalon explain` for any texel.
+//! Stories of wrong samples: of one frame, or of two that a relation requires to be equal. The judge makes
+//! them for records, `etalon explain` for any texel.
 
 use crate::judgement_cache::judged_scene;
 use crate::relation::{self, Differences};
@@ -10,7 +10,7 @@ use etalon_frame::{
 use etalon_record::Record;
 use etalon_reference::{Rules, Sample, explain};
 
-/// Returns the story of a sample of one of a case's scenes, with what its frame holds there.
+/// Returns the story of a sample of one of a case's scenes, with its frame's contents there.
 pub fn story_of_sample(
     case: &Case,
     index: usize,
@@ -29,8 +29,8 @@ pub fn story_of_sample(
     story
 }
 
-/// Returns the story of a texel in which pictures differ that a relation demands to be the same; `None` if
-/// they do not differ there, or nothing binds the API.
+/// Returns the story of a texel in which pictures differ although a relation demands equality; `None` if they
+/// do not differ there, or if the relation does not bind the API.
 pub fn story_of_relation(
     case: &Case,
     limits: &Limits,
@@ -52,7 +52,8 @@ pub fn story_of_relation(
     ))
 }
 
-/// Gives a record the story of what a relation forbids, unless a sample of one frame is as wrong alone.
+/// Gives a record the story of what a relation forbids, unless a sample of one frame is at least as wrong by
+/// itself.
 pub(crate) fn add_relation(
     record: &mut Record,
     case: &Case,

@@ -1,5 +1,5 @@
-//! The judgement of one texel, as `etalon explain` needs it. No other texel is judged, unless the scene
-//! ties them together.
+//! The judgement of one texel, for `etalon explain`. Other texels are judged only if the scene makes this one
+//! depend on them.
 
 use crate::grade::Grades;
 use crate::judge::{best, regrade};
@@ -9,12 +9,12 @@ use etalon_frame::{Band, Comparison, Frame, Limits, compare};
 use etalon_reference::{Judgement, Texels, judgements_by, shared_sets};
 use etalon_scene::Scene;
 
-/// Returns the judgement of a texel of one of a case's scenes, under what the frame fits best where the API
-/// leaves one choice for all of it, and the outcome for the frame, if there is one: the wrong samples of
-/// this texel and all counters, with the bands of their evidence.
+/// Returns the judgement of a texel of one of a case's scenes. If the API leaves one choice for the whole
+/// frame, the judgement is under the choice that fits the frame best. If there is a frame, also returns its
+/// outcome: the wrong samples of this texel and all counters, with the bands of their evidence.
 ///
 /// # Errors
-/// When the frame is not one of the case.
+/// If the frame does not fit the case.
 pub fn judge_texel(
     case: &Case,
     index: usize,
@@ -45,8 +45,8 @@ pub fn judge_texel(
     Ok((judgement, Some(comparison)))
 }
 
-/// True if other texels decide what is legal at one: counters, the step of a depth bias, and samplers that
-/// read what was drawn.
+/// Returns true if the legal values of one texel depend on others: through counters, the step of a depth
+/// bias, or samplers that read what was drawn.
 fn is_tied(scene: &Scene) -> bool {
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
     let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);

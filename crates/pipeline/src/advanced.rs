@@ -1,9 +1,10 @@
 //! Advanced blending (KHR_blend_equation_advanced; OpenGL ES 3.2, 15.1.5.3; Vulkan, Advanced Blend
 //! Operations).
 //!
-//! The steps are those of the text in its order: divide by alpha, apply the mode's function, weigh by the
-//! three parts of coverage, add. A shortcut without the division has the same real value; what a
-//! number system adds around a step is then added around what the text names.
+//! The steps are those of the specification, in its order: divide by alpha, apply the mode's function, weigh
+//! by the three parts of coverage, add. A shortcut without the division would have the same real value, but a
+//! number system adds its freedom around each step, so the steps must be the ones that the specification
+//! names.
 
 use crate::arithmetic::Arithmetic;
 use etalon_frame::ChannelEncoding;
@@ -51,7 +52,7 @@ pub fn advanced_blend<A: Arithmetic>(
     })
 }
 
-/// The mode's function f of source and destination, each divided by its alpha.
+/// Returns the mode's function f of source and destination, each divided by its alpha.
 fn mix<A: Arithmetic>(
     a: &mut A,
     mode: AdvancedBlend,
@@ -100,7 +101,8 @@ fn mix<A: Arithmetic>(
     }
 }
 
-/// Twice the product where `by` is at most a half, else twice the product of the inverted, inverted.
+/// Returns twice the product if `by` is at most a half, otherwise the inverse of twice the product of the
+/// inverses.
 fn hard_light<A: Arithmetic>(
     a: &mut A,
     e: ChannelEncoding,
@@ -158,7 +160,7 @@ mod tests {
     use super::*;
     use crate::plain::Plain;
 
-    /// The text's function in 64-bit floats, written down a second time.
+    /// Returns the specification's function in 64-bit floats, written independently.
     fn due(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
         let hard = |by: f64, other: f64| {
             if by <= 0.5 {

@@ -1,20 +1,20 @@
-//! The number system that the pipeline is generic over.
+//! The number system over which the pipeline is generic.
 
 use etalon_frame::ChannelEncoding;
 use etalon_scene::LogicOperation;
 
-/// A number system. Operations take `&mut self` so that a system may record what it did.
+/// A number system. Operations take `&mut self` so that a system can record what it did.
 ///
-/// A step has a name where the specifications grant it freedom of its own: a store may round to
-/// either neighbour, a blend may work at the destination's precision. [`crate::Plain`] computes the
-/// one result that the yardstick expects; the judging system all that are allowed.
+/// A step has its own method if the specifications grant it freedom of its own: a store may round to either
+/// neighbour, a blend may work at the destination's precision. [`crate::Plain`] computes the single result
+/// that the yardstick expects, the judging system all results that are allowed.
 pub trait Arithmetic {
     /// One real value, or one per lane.
     type Real: Copy;
     /// Codes of one channel, as the caller stores them.
     type Code: Copy;
 
-    /// A value that is exactly this float.
+    /// Returns a value that is exactly this float.
     fn constant(&mut self, value: f32) -> Self::Real;
     /// Sum.
     fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
@@ -24,20 +24,20 @@ pub trait Arithmetic {
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// Quotient; infinite or NaN for a divisor of zero.
     fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// The smaller of two.
+    /// Returns the smaller of two values.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// The larger of two.
+    /// Returns the larger of two values.
     fn max(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
 
-    /// A result that a shader computed, at the precision of shaders.
+    /// Returns a result that a shader computed, at the precision of shaders.
     fn rounded(&mut self, value: Self::Real) -> Self::Real;
-    /// The binary logarithm as a shader computes it.
+    /// Returns the binary logarithm as a shader computes it.
     fn log2(&mut self, value: Self::Real) -> Self::Real;
-    /// Two to the power of a value as a shader computes it.
+    /// Returns two to the power of a value as a shader computes it.
     fn exp2(&mut self, value: Self::Real) -> Self::Real;
-    /// The square root as a shader computes it; NaN where the value is negative.
+    /// Returns the square root as a shader computes it; NaN if the value is negative.
     fn sqrt(&mut self, value: Self::Real) -> Self::Real;
-    /// The third where the first is less than the second, else the fourth.
+    /// Returns the third value if the first is less than the second, otherwise the fourth.
     fn select_less(
         &mut self,
         a: Self::Real,
@@ -46,39 +46,40 @@ pub trait Arithmetic {
         otherwise: Self::Real,
     ) -> Self::Real;
 
-    /// True if the first is less than the second in every lane, whatever freedom there is.
+    /// Returns true if the first value is less than the second in every lane, whatever the freedom.
     fn always_less(&mut self, a: Self::Real, b: Self::Real) -> bool;
 
-    /// A window coordinate computed by the viewport transform, in texels of an axis of `length`.
+    /// Returns a window coordinate as the viewport transform computes it, in texels of an axis of `length`.
     fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;
-    /// A window depth computed by the viewport transform into a range of depths.
+    /// Returns a window depth as the viewport transform computes it, within a range of depths.
     fn window_depth(&mut self, value: Self::Real, range: [f32; 2]) -> Self::Real;
 
-    /// The value of a stored code.
+    /// Returns the value of a stored code.
     fn decode(&mut self, encoding: ChannelEncoding, code: Self::Code) -> Self::Real;
-    /// The code that a value is stored as.
+    /// Returns the code that a value is stored as.
     fn encode(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Code;
 
-    /// A source, destination or constant as it enters a blend into this encoding: clamped to the
+    /// Returns a source, destination or constant as it enters a blend into this encoding: clamped to the
     /// encoding's range, at the precision of blending.
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// A blend factor of the form `1 - value`.
+    /// Returns a blend factor of the form `1 - value`.
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// A factor as it is multiplied: clamped to the encoding's range.
+    /// Returns a factor as it is multiplied: clamped to the encoding's range.
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// One side of a blend equation whose factor is zero: that, or what zero times an infinity or NaN is.
+    /// Returns one side of a blend equation whose factor is zero: zero, or what zero times an infinity or NaN
+    /// gives.
     #[inline(always)]
     fn blend_zero(&mut self, _operand: Self::Real) -> Self::Real {
         self.constant(0.0)
     }
-    /// One side of a blend equation: operand times factor.
+    /// Returns one side of a blend equation: operand times factor.
     fn blend_product(
         &mut self,
         encoding: ChannelEncoding,
         operand: Self::Real,
         factor: Self::Real,
     ) -> Self::Real;
-    /// The result of a blend equation: `a + b`, or `a - b`.
+    /// Returns the result of a blend equation: `a + b`, or `a - b`.
     fn blend_sum(
         &mut self,
         encoding: ChannelEncoding,
@@ -86,24 +87,25 @@ pub trait Arithmetic {
         b: Self::Real,
         subtract: bool,
     ) -> Self::Real;
-    /// A colour divided by its alpha for advanced blending; 0 where alpha is 0.
+    /// Returns a colour divided by its alpha for advanced blending; 0 if alpha is 0.
     fn blend_quotient(
         &mut self,
         encoding: ChannelEncoding,
         color: Self::Real,
         alpha: Self::Real,
     ) -> Self::Real;
-    /// The smaller of 1 and `a / b` in advanced blending, where neither is negative and `b` is not 0; anything
-    /// elsewhere.
+    /// Returns the smaller of 1 and `a / b` in advanced blending. The result matters only if neither is
+    /// negative and `b` is not 0.
     fn blend_ratio(
         &mut self,
         encoding: ChannelEncoding,
         a: Self::Real,
         b: Self::Real,
     ) -> Self::Real;
-    /// A square root in advanced blending; anything where the value is negative.
+    /// Returns a square root in advanced blending. The result matters only if the value is not negative.
     fn blend_root(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// The third in advanced blending where the first is at most the second, else the fourth.
+    /// Returns, in advanced blending, the third value if the first is at most the second, otherwise the
+    /// fourth.
     fn blend_select(
         &mut self,
         a: Self::Real,
@@ -111,7 +113,7 @@ pub trait Arithmetic {
         at_most: Self::Real,
         otherwise: Self::Real,
     ) -> Self::Real;
-    /// The code that a logic operation leaves, from the codes of source and destination.
+    /// Returns the code that a logic operation stores, from the codes of source and destination.
     fn logic(
         &mut self,
         encoding: ChannelEncoding,

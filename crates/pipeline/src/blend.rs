@@ -4,7 +4,7 @@ use crate::arithmetic::Arithmetic;
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 
-/// The inputs of a blend. Channels in the order red, green, blue, alpha.
+/// The inputs of a blend, with channels in the order red, green, blue, alpha.
 #[derive(Clone, Copy, Debug)]
 pub struct BlendInput<R> {
     /// The fragment's colour.
@@ -33,7 +33,7 @@ pub fn blend<A: Arithmetic>(
     encodings: [ChannelEncoding; 4],
     input: &BlendInput<A::Real>,
 ) -> [A::Real; 4] {
-    // Operands are taken at blending precision once, so that all uses agree.
+    // Converts the operands to blending precision once, so that all uses agree.
     let mut operands = *input;
     for (c, encoding) in encodings.into_iter().enumerate() {
         operands.src[c] = a.blend_operand(encoding, input.src[c]);
@@ -41,7 +41,7 @@ pub fn blend<A: Arithmetic>(
         operands.dst[c] = a.blend_operand(encoding, input.dst[c]);
         operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
     }
-    // A loop, since closures of arrays are not always inlined.
+    // A loop, because closures over arrays are not always inlined.
     let mut result = operands.src;
     for (c, encoding) in encodings.into_iter().enumerate() {
         let component = if c == 3 { &state.alpha } else { &state.color };

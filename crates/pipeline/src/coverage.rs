@@ -1,6 +1,6 @@
 //! Coverage by exact integer edge functions on snapped vertices.
 //!
-//! Coordinates count sub-texel units from the top left corner, x to the right and y down.
+//! Coordinates are in sub-texel units from the top left corner, x to the right and y down.
 
 /// A snapped position in sub-texel units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -11,22 +11,21 @@ pub struct Point {
     pub y: i64,
 }
 
-/// Twice the signed area of the triangle `p`, `q`, `s`: positive when they run clockwise on the
-/// screen, which is counter-clockwise with y up mirrored. Zero when `s` lies on the line `p` `q`.
+/// Returns twice the signed area of the triangle `p`, `q`, `s`: positive if they run clockwise on the screen
+/// (y down), zero if `s` is on the line through `p` and `q`.
 #[inline(always)]
 pub fn edge_value(p: Point, q: Point, s: Point) -> i64 {
     (q.x - p.x) * (s.y - p.y) - (q.y - p.y) * (s.x - p.x)
 }
 
-/// Twice the signed area of a triangle with y up: positive for counter-clockwise.
+/// Returns twice the signed area of a triangle with y up: positive for counter-clockwise.
 #[inline(always)]
 pub fn signed_area(vertices: [Point; 3]) -> i64 {
     -edge_value(vertices[0], vertices[1], vertices[2])
 }
 
-/// True if a sample on the edge from `p` to `q` belongs to the triangle that lies clockwise of it
-/// on the screen: the edge is a top or a left one (Direct3D 11.3 functional specification,
-/// 3.4.2.1).
+/// Returns true if a sample on the edge from `p` to `q` belongs to the triangle clockwise of it on the
+/// screen, because the edge is a top or a left one (Direct3D 11.3 functional specification, 3.4.2.1).
 #[inline(always)]
 pub fn is_top_left(p: Point, q: Point) -> bool {
     q.y < p.y || (q.y == p.y && q.x > p.x)
@@ -60,8 +59,8 @@ impl SnappedTriangle {
         self.vertices
     }
 
-    /// Returns each edge function at a point and its growth per unit to the right. A point is inside
-    /// if all three are at least zero: the top-left rule has already decided ties.
+    /// Returns each edge function at a point and its growth per unit to the right. A point is inside if all
+    /// three are at least zero: the functions already include the top-left rule.
     #[inline(always)]
     pub fn edges_at(&self, s: Point) -> [(i64, i64); 3] {
         std::array::from_fn(|i| {
@@ -70,7 +69,7 @@ impl SnappedTriangle {
         })
     }
 
-    /// True if the sample at a point is covered.
+    /// Returns true if the sample at a point is covered.
     pub fn covers(&self, s: Point) -> bool {
         self.edges_at(s).iter().all(|(value, _)| *value >= 0)
     }
@@ -86,7 +85,7 @@ mod tests {
 
     #[test]
     fn counter_clockwise_with_y_up_has_positive_area() {
-        // y runs down here: (0,0) top left, (0,4) bottom left, (4,4) bottom right.
+        // Here y is down: (0,0) top left, (0,4) bottom left, (4,4) bottom right.
         assert!(signed_area([point(0, 0), point(0, 4), point(4, 4)]) > 0);
         assert!(SnappedTriangle::new([point(0, 0), point(2, 2), point(4, 4)]).is_none());
     }

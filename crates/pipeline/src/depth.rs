@@ -49,8 +49,7 @@ impl DepthPlane {
         }
     }
 
-    /// Returns the plane that is linear along a line and the same across it; flat if the line has no
-    /// length.
+    /// Returns the plane that is linear along a line and constant across it; flat if the line has no length.
     pub fn along([a, b]: [Point; 2], z: [f64; 2]) -> Self {
         let (x, y) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
         let square = x * x + y * y;
@@ -75,9 +74,9 @@ impl DepthPlane {
     }
 }
 
-/// Returns the maximum slope of a plane, from its growth per texel: the least and the greatest value
-/// that a specification allows, the larger of the two growths and the root of their squares (Vulkan,
-/// Depth Bias; OpenGL 4.6, 14.6.5).
+/// Returns the least and the greatest value that specifications allow for the maximum slope of a plane, from
+/// its growth per texel: the larger of the two growths, and the root of their squares (Vulkan, Depth Bias;
+/// OpenGL 4.6, 14.6.5).
 pub fn slope(dx: f64, dy: f64) -> (f64, f64) {
     (dx.abs().max(dy.abs()), dx.hypot(dy))
 }

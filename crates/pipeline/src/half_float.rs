@@ -1,10 +1,10 @@
-//! Conversions of 16-bit floats, and of floats that lack their sign and their lowest bits, without a branch, which the
-//! compiler turns into vector instructions.
+//! Conversions of 16-bit floats, and of floats without a sign or their lowest bits. They have no branches, so
+//! that the compiler turns them into vector instructions.
 
 /// Returns the value of a 16-bit float (IEEE 754 binary16). NaN is quiet.
 #[inline(always)]
 pub(crate) fn widened(code: u32) -> f32 {
-    // The exponents' biases differ by 112. The product of a number below normal ones is exact.
+    // The exponents' biases differ by 112. The product of a subnormal number is exact.
     const BIAS: f32 = f32::from_bits((112 + 127) << 23);
     let magnitude = code & 0x7fff;
     let mut bits = (f32::from_bits(magnitude << 13) * BIAS).to_bits();
@@ -13,15 +13,15 @@ pub(crate) fn widened(code: u32) -> f32 {
     f32::from_bits(bits | (code & 0x8000) << 16)
 }
 
-/// Returns the 16-bit float nearest to a number, of two the even one. NaN is quiet, and keeps the upper bits of its
-/// payload.
+/// Returns the 16-bit float nearest to a number, the even one of a tie. NaN is quiet and keeps the upper bits
+/// of its payload.
 #[inline(always)]
 pub(crate) fn narrowed(value: f32) -> u32 {
-    /// The bits of the least number whose exponent no 16-bit float has.
+    /// The bits of the least number whose exponent is beyond 16-bit floats.
     const OVER: u32 = (127 + 16) << 23;
     /// The bits of the least number that is normal in 16 bits.
     const NORMAL: u32 = (127 - 14) << 23;
-    /// From here on a step of 32-bit floats is the least step of 16-bit ones.
+    /// From here on, the step of 32-bit floats equals the least step of 16-bit floats.
     const STEP: f32 = 0.5;
     const INFINITE: u32 = 0x7f80_0000;
     let bits = value.to_bits();
@@ -37,35 +37,35 @@ pub(crate) fn narrowed(value: f32) -> u32 {
     result | bits >> 16 & 0x8000
 }
 
-/// Returns the value of a float of 5 bits of exponent, so many of mantissa, and no sign. NaN is quiet.
+/// Returns the value of an unsigned float with 5 exponent bits and `mantissa` mantissa bits. NaN is quiet.
 #[inline(always)]
 pub(crate) fn lengthened(code: u32, mantissa: u8) -> f32 {
     widened(code << (10 - u32::from(mantissa)))
 }
 
-/// Returns the float of 5 bits of exponent, so many of mantissa, and no sign that is nearest to a number, of two the
-/// even one: 0 for what is below, the largest for what is above all finite ones (Vulkan: Unsigned 11-Bit Floating-Point
-/// Numbers). NaN is quiet.
+/// Returns the nearest unsigned float with 5 exponent bits and `mantissa` mantissa bits, the even one of a
+/// tie. Numbers below 0 give 0, and numbers above all finite ones give the largest (Vulkan: Unsigned 11-Bit
+/// Floating-Point Numbers). NaN is quiet.
 #[inline(always)]
 pub(crate) fn shortened(value: f32, mantissa: u8) -> u32 {
-    /// The bits of the least number that is normal.
+    /// The bits of the least normal number.
     const NORMAL: u32 = (127 - 14) << 23;
     const INFINITE: u32 = 0x7f80_0000;
     let (bits, mantissa) = (value.to_bits(), u32::from(mantissa));
     let magnitude = bits & 0x7fff_ffff;
-    // The lowest bits, which are lost.
+    // The number of lowest bits, which are lost.
     let shift = 23 - mantissa;
     let odd = magnitude >> shift & 1;
     let half = (1 << (shift - 1)) - 1;
     let normal = magnitude.wrapping_sub(112 << 23).wrapping_add(half + odd) >> shift;
-    // From here on a step of 32-bit floats is the least step of these.
+    // From here on, the step of 32-bit floats equals the least step of the encoding.
     let step = f32::from_bits((127 + 9 - mantissa) << 23);
     let sum = f32::from_bits(if magnitude < NORMAL { magnitude } else { 0 }) + step;
     let small = sum.to_bits().wrapping_sub(step.to_bits());
     let infinite = 31 << mantissa;
     let nan = infinite | 1 << (mantissa - 1);
     let large = if magnitude > INFINITE { nan } else { infinite };
-    // Exponents beyond those of the encoding make numbers beyond its codes.
+    // An exponent beyond the encoding's gives a number beyond its codes.
     let normal = if normal < infinite {
         normal
     } else {
@@ -73,7 +73,7 @@ pub(crate) fn shortened(value: f32, mantissa: u8) -> u32 {
     };
     let finite = if magnitude < NORMAL { small } else { normal };
     let result = if magnitude >= INFINITE { large } else { finite };
-    // Of negative numbers NaN alone is kept.
+    // Of negative numbers, only NaN is kept.
     let kept = bits >> 31 == 0 || magnitude > INFINITE;
     if kept { result } else { 0 }
 }
@@ -107,7 +107,8 @@ mod tests {
     fn numbers_become_the_nearest_short_float() {
         for mantissa in [5, 6] {
             let encoding = ChannelEncoding::Ufloat(mantissa);
-            // Halves of steps, their neighbours and some between, of each exponent of 16-bit floats and of some others.
+            // Halves of steps, their neighbours and some numbers in between, for each exponent of 16-bit
+            // floats and some others.
             let step = 1 << (22 - mantissa);
             for exponent in (90..150).chain([0, 1, 50, 200, 254]) {
                 for bits in (0..1_u32 << 23).step_by(step) {
@@ -151,7 +152,7 @@ mod tests {
 
     #[test]
     fn numbers_become_the_nearest_16_bit_float() {
-        // Each exponent and sign, with the mantissas around every rounding, and some between.
+        // Each exponent and sign, with the mantissas around every rounding, and some in between.
         let mantissas = (0..1 << 10).flat_map(|m| {
             let middle = m << 13;
             [0, 1, 2, 0xfff, 0x1000, 0x1001, 0x1fff].map(|low| middle | low)

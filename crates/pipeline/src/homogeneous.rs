@@ -1,18 +1,19 @@
-//! Triangles in homogeneous window coordinates: what the perspective division leaves of one that reaches behind
-//! the eye, without clipping it (Olano, Greer 1997, Triangle Scan Conversion using 2D Homogeneous Coordinates).
+//! Triangles in homogeneous window coordinates: what the perspective division leaves of a triangle that
+//! reaches behind the eye, without clipping (Olano, Greer 1997, Triangle Scan Conversion using 2D Homogeneous
+//! Coordinates).
 //!
-//! A point of the window lies in the part of a triangle that is in front of the eye if its three weights are not
-//! negative. The sum of the weights times values of the vertices is the value over w, which is linear over the
-//! window; the sum of the weights alone is 1 over w.
+//! A window point is in the part of a triangle in front of the eye if its three weights are not negative. The
+//! sum of the weights times the vertices' values is the value over w, which is linear in the window; the sum
+//! of the weights alone is 1 over w.
 
 use crate::coverage::Point;
 use crate::depth::DepthPlane;
 use etalon_scene::Viewport;
 
-/// A clip-space position in homogeneous window coordinates: x and y in units of a texel's part, times w, and w.
+/// A clip-space position in homogeneous window coordinates: x and y in sub-texel units, times w, and w.
 pub type WindowVertex = [f64; 3];
 
-/// Returns the homogeneous window coordinates of a clip-space position, in as many units per texel.
+/// Returns the homogeneous window coordinates of a clip-space position, with `units` units per texel.
 pub fn window_vertex(position: [f32; 4], viewport: &Viewport, units: f64) -> WindowVertex {
     let [x, y, _, w] = position.map(f64::from);
     let [left, top, width, height] = viewport.rect.map(|v| f64::from(v) * units);
@@ -23,11 +24,12 @@ pub fn window_vertex(position: [f32; 4], viewport: &Viewport, units: f64) -> Win
     ]
 }
 
-/// The farthest that a snapped vertex may lie from the corner of the picture, in units: products of two differences
-/// fit an integer.
+/// The farthest that a snapped vertex can be from the corner of the picture, in units: products of two
+/// differences fit into an integer.
 pub const FARTHEST: f64 = (1_u64 << 28) as f64;
 
-/// True if the perspective division or the grid cannot place a vertex: it lies behind the eye, or too far out.
+/// Returns true if the perspective division or the grid cannot place a vertex: it is behind the eye, or too
+/// far out.
 pub fn is_cut([x, y, w]: WindowVertex) -> bool {
     let far = |v: f64| {
         let at = v / w;
@@ -36,8 +38,9 @@ pub fn is_cut([x, y, w]: WindowVertex) -> bool {
     w <= 0.0 || far(x) || far(y)
 }
 
-/// Returns the line through two points of the window: 0 on it, and on its other sides of the sign that
-/// [`crate::edge_value`] has if both points lie in front of the eye. Exchanging the points negates it, bit for bit.
+/// Returns the line through two points of the window. It is 0 on the line, and elsewhere has the sign of
+/// [`crate::edge_value`] if both points are in front of the eye. Exchanging the points negates it, bit for
+/// bit.
 pub fn line_through([ax, ay, aw]: WindowVertex, [bx, by, bw]: WindowVertex) -> DepthPlane {
     DepthPlane::of(ax * by - ay * bx, ay * bw - aw * by, aw * bx - ax * bw)
 }
@@ -47,7 +50,8 @@ pub fn line_through([ax, ay, aw]: WindowVertex, [bx, by, bw]: WindowVertex) -> D
 pub struct HomogeneousTriangle {
     /// The vertices.
     pub vertices: [WindowVertex; 3],
-    /// The determinant of the vertices: positive where a triangle in front of the eye is clockwise on the screen.
+    /// The determinant of the vertices: positive if a triangle in front of the eye is clockwise on the
+    /// screen.
     pub determinant: f64,
 }
 
@@ -72,7 +76,7 @@ impl HomogeneousTriangle {
     pub fn over_w(&self, values: [f64; 3]) -> DepthPlane {
         let mut sum = [0.0; 3];
         for (i, value) in values.into_iter().enumerate() {
-            // The edge opposite to the vertex.
+            // The edge opposite the vertex.
             let edge = self.edge((i + 1) % 3).parts();
             for (sum, part) in sum.iter_mut().zip(edge) {
                 *sum += part * value;
@@ -89,8 +93,8 @@ impl HomogeneousTriangle {
         DepthPlane::of(value, dx, dy)
     }
 
-    /// Returns the corners of the part on which linear functions are not negative, as shares of the three vertices.
-    /// Each function is given by its values at the vertices.
+    /// Returns the corners of the part on which all of some linear functions are non-negative, as shares of
+    /// the three vertices. Each function is given by its values at the vertices.
     pub fn clipped(functions: impl IntoIterator<Item = [f64; 3]>) -> Vec<[f64; 3]> {
         let mut corners = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         for function in functions {
@@ -113,8 +117,8 @@ impl HomogeneousTriangle {
     }
 }
 
-/// Returns the part of a segment on which linear functions are not negative, as shares of its second end; `None` if
-/// there is none. Each function is given by its values at the ends.
+/// Returns the part of a segment on which all of some linear functions are non-negative, as shares of its
+/// second end; `None` if there is no such part. Each function is given by its values at the ends.
 pub fn clipped_segment(functions: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for [a, b] in functions {
@@ -128,12 +132,13 @@ pub fn clipped_segment(functions: impl IntoIterator<Item = [f64; 2]>) -> Option<
     (from <= to).then_some([from, to])
 }
 
-/// Returns the sum of three values by their shares.
+/// Returns the sum of three values weighted by their shares.
 pub fn dot(shares: [f64; 3], values: [f64; 3]) -> f64 {
     shares[0] * values[0] + shares[1] * values[1] + shares[2] * values[2]
 }
 
-/// An edge of a triangle that reaches behind the eye. Points on it belong to the triangle on one of its sides.
+/// An edge of a triangle that reaches behind the eye. Points on it belong to the triangle on one of its
+/// sides.
 #[derive(Clone, Copy, Debug)]
 pub struct CutEdge {
     line: DepthPlane,
@@ -141,7 +146,7 @@ pub struct CutEdge {
 }
 
 impl CutEdge {
-    /// Returns an edge of a triangle whose inside is where its line is positive, or negative.
+    /// Returns an edge of a triangle whose inside is where the line is positive, or otherwise negative.
     pub fn new(line: DepthPlane, positive_inside: bool) -> Self {
         let sign = if positive_inside { 1.0 } else { -1.0 };
         let [value, dx, dy] = line.parts().map(|part| part * sign);
@@ -151,7 +156,7 @@ impl CutEdge {
         }
     }
 
-    /// True if a point lies on the inner side.
+    /// Returns true if a point is on the inner side.
     pub fn holds(&self, at: Point) -> bool {
         let value = self.line.at(at);
         value > 0.0 || (value == 0.0 && self.holds_edge)
@@ -167,7 +172,7 @@ mod tests {
         Point { x, y }
     }
 
-    /// Vertices at window positions, times w.
+    /// Returns a triangle with vertices at window positions, each times its w.
     fn vertices(places: [(f64, f64, f64); 3]) -> HomogeneousTriangle {
         HomogeneousTriangle::new(places.map(|(x, y, w)| [x * w, y * w, w]))
     }
@@ -209,8 +214,8 @@ mod tests {
 
     #[test]
     fn a_vertex_behind_the_eye_opens_the_triangle() {
-        // The third vertex projects to below the first two and lies behind the eye: what is in front of it
-        // lies above them.
+        // The third vertex is behind the eye and projects to below the first two; the part in front of the
+        // eye is above them.
         let triangle = vertices([(0.0, 0.0, 1.0), (64.0, 0.0, 1.0), (32.0, 64.0, -1.0)]);
         let inside = |x, y| {
             (0..3)

@@ -1,13 +1,13 @@
 //! The fragment pipeline's arithmetic, written once and generic over its number system.
 //!
-//! There are two number systems: [`Plain`], 32-bit floats in lanes, for the rasterizer, and the
-//! intervals of the judge. Both callers use the same functions, so that both mean the same pipeline;
-//! a property test in `reference` holds that plain results lie inside judging ones.
+//! There are two number systems: [`Plain`], 32-bit floats in lanes, for the rasterizer, and the intervals of
+//! the judge. Both callers use the same functions and therefore the same pipeline; a property test in
+//! `reference` checks that plain results are inside judging ones.
 //!
 //! Values that are exact in every specification (stencil values, write masks, the edge functions of
 //! snapped vertices) are computed in integers and have no number system.
 //!
-//! The sRGB functions of [`Plain`] are there for many values at once, too.
+//! The sRGB functions of [`Plain`] are also available for many values at once.
 
 mod advanced;
 mod arithmetic;

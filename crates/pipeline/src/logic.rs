@@ -3,8 +3,8 @@
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::LogicOperation;
 
-/// True if logic operations apply to attachments of a format. Where one channel is a float or sRGB,
-/// all channels take the source unchanged.
+/// Returns true if logic operations apply to attachments of a format. If one channel is a float or sRGB, all
+/// channels store the source unchanged.
 pub fn takes_logic(format: TextureFormat) -> bool {
     format
         .color_channels()
@@ -12,7 +12,7 @@ pub fn takes_logic(format: TextureFormat) -> bool {
         .all(|e| !e.is_float() && *e != ChannelEncoding::Srgb8)
 }
 
-/// Returns the code that an operation stores. Float and sRGB encodings take the source unchanged.
+/// Returns the code that an operation stores. Float and sRGB encodings store the source unchanged.
 #[inline(always)]
 pub fn logic_operation(
     encoding: ChannelEncoding,

@@ -13,7 +13,7 @@ use etalon_scene::LogicOperation;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plain<const N: usize>;
 
-/// Maps lane by lane in a loop: `std::array::from_fn` is not always inlined here.
+/// Maps lane by lane in a loop, because `std::array::from_fn` is not always inlined here.
 #[inline(always)]
 fn each<const N: usize, T: Copy, U: Copy + Default>(values: [T; N], f: impl Fn(T) -> U) -> [U; N] {
     let mut result = [U::default(); N];
@@ -153,8 +153,8 @@ impl<const N: usize> Arithmetic for Plain<N> {
     #[inline(always)]
     fn encode(&mut self, encoding: ChannelEncoding, value: [f32; N]) -> [u32; N] {
         match encoding {
-            // Up to 16 bits the product and the sum are near enough to exact in 32-bit floats that
-            // the nearest code is found to within 0.51 codes; a test compares with `nearest_order`.
+            // For up to 16 bits, the product and the sum are nearly enough exact in 32-bit floats to find the
+            // nearest code to within 0.51 codes; a test compares with `nearest_order`.
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
                 each(value, |v| whole(unit(v) * scale + 0.5))
@@ -284,7 +284,8 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 }
 
-/// Returns the nearest float to a byte divided by 255: the sum of two products, which take less time than a quotient.
+/// Returns the nearest float to a byte divided by 255: the sum of two products, which is faster than a
+/// quotient.
 #[inline(always)]
 fn of_byte(code: u32) -> f32 {
     // The first product is exact; a test compares all sums.

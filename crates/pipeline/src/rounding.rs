@@ -1,17 +1,16 @@
-//! Numbers held to a range, and their whole parts, without what vectors have no instruction for.
+//! Clamping to a range, and truncation, using only operations that have vector instructions.
 
-/// Returns a number held to 0 and 1; 0 for NaN.
+/// Returns a number clamped to 0 to 1; 0 for NaN.
 #[inline(always)]
 pub(crate) fn unit(v: f32) -> f32 {
     let v = if v > 0.0 { v } else { 0.0 };
     if v < 1.0 { v } else { 1.0 }
 }
 
-/// Returns the whole part of a number from 0 to below 2²². `as` is not turned into vector instructions, since it
-/// saturates.
+/// Returns the integer part of a number from 0 to below 2²². `as` is not vectorized, since it saturates.
 #[inline(always)]
 pub(crate) fn whole(v: f32) -> u32 {
-    // From here on floats are whole numbers, so that the sum is rounded to one, and its low bits are that number.
+    // From here on floats are integers, so the sum is rounded to one, and its low bits are that integer.
     const WHOLE: f32 = 8_388_608.0;
     let sum = v + WHOLE;
     let up = sum - WHOLE > v;
@@ -25,7 +24,7 @@ mod tests {
     #[test]
     fn whole_parts_are_those_of_conversions() {
         for i in 0..2_000_000_u32 {
-            // Halves, their neighbours, and what lies between.
+            // Halves, their neighbours, and numbers in between.
             let v = i as f32 / 2.0;
             for v in [v, v.next_up(), v.next_down().max(0.0), v * 0.37] {
                 assert_eq!(whole(v), v as u32, "{v}");

@@ -1,4 +1,4 @@
-//! Texture coordinates to texels: wrapping.
+//! Wrapping of texture coordinates.
 
 use etalon_scene::AddressMode;
 

@@ -1,17 +1,17 @@
-//! sRGB codes of 8 bits by tables, equal to the functions that they are made of.
+//! 8-bit sRGB codes by tables, equal to the functions that define them.
 
 use crate::rounding::{unit, whole};
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
 use std::sync::LazyLock;
 
-/// The parts of the values from 0 to 1 that have a least code of their own. Two codes begin at least 1/3295 apart
-/// (12.92 · 255), so that at most one begins in a part.
+/// The number of equal parts of the range 0 to 1 in the table. Code boundaries are at least 1/3295 apart
+/// (12.92 · 255), so each part contains at most one.
 const PARTS: usize = 4096;
 
-/// The parts in memory, so that an index without its upper bits is one.
+/// The number of parts in memory: a power of two, so that masking an index keeps it in range.
 const SLOTS: usize = 2 * PARTS;
 
-/// The codes of values: tables that stay near the processor.
+/// The codes of values, in tables that fit into the processor's cache.
 #[derive(Debug)]
 pub(crate) struct Codes {
     /// The code of each part's first value.
@@ -45,7 +45,7 @@ impl Codes {
         Self { first, least }
     }
 
-    /// Returns the code of a linear value: 0 for NaN and negative ones, 255 above 1.
+    /// Returns the code of a linear value: 0 for NaN and negative values, 255 above 1.
     #[inline(always)]
     pub(crate) fn of(&self, value: f32) -> u32 {
         let value = unit(value);
@@ -60,11 +60,11 @@ impl Codes {
     }
 }
 
-/// Gives the codes of linear values: 0 for NaN and negative ones, 255 above 1.
+/// Writes the codes of linear values: 0 for NaN and negative values, 255 above 1.
 #[inline(always)]
 pub fn srgb_codes(values: &[f32], codes: &mut [u32]) {
     let tables = &*CODES;
-    // Apart from the look-ups, so that they are vector instructions.
+    // Separate from the look-ups, so that this loop is vectorized.
     for (code, value) in codes.iter_mut().zip(values) {
         *code = part(unit(*value));
     }
@@ -73,7 +73,7 @@ pub fn srgb_codes(values: &[f32], codes: &mut [u32]) {
     }
 }
 
-/// Gives the linear values of codes.
+/// Writes the linear values of codes.
 #[inline(always)]
 pub fn srgb_values(codes: &[u32], values: &mut [f32]) {
     let table = &*VALUES;
@@ -88,18 +88,18 @@ fn part(value: f32) -> u32 {
     whole(value * PARTS as f32)
 }
 
-/// Returns the code of a linear value, as it is defined.
+/// Returns the code of a linear value by its definition.
 fn defined(value: f32) -> u32 {
     let linear = f64::from(value.clamp(0.0, 1.0));
     (linear_to_srgb(linear) * 255.0 + 0.5) as u32
 }
 
-/// Returns the least value of a code; infinity if the code is above all.
+/// Returns the least value of a code; infinity for codes above all.
 fn least(code: u32) -> f32 {
     if code > 255 {
         return f32::INFINITY;
     }
-    // The bits of floats that are not negative have their order.
+    // The bits of non-negative floats have the order of their values.
     let (mut below, mut at) = (0, 1.0_f32.to_bits());
     while at - below > 1 {
         let middle = below + (at - below) / 2;

@@ -18,7 +18,7 @@ pub fn compare<T: PartialOrd>(function: CompareFunction, incoming: T, stored: T)
     }
 }
 
-/// True if a stored value passes the stencil test.
+/// Returns true if a stored value passes the stencil test.
 #[inline(always)]
 pub fn stencil_passes(face: &StencilFace, stored: u8) -> bool {
     compare(
@@ -43,15 +43,15 @@ pub fn stencil_operation(operation: StencilOperation, stored: u8, reference: u8)
     }
 }
 
-/// Returns the value that is stored after an operation: bits outside the write mask stay.
+/// Returns the value that is stored after an operation: bits outside the write mask are unchanged.
 #[inline(always)]
 pub fn stencil_write(face: &StencilFace, operation: StencilOperation, stored: u8) -> u8 {
     let new = stencil_operation(operation, stored, face.reference);
     (stored & !face.write_mask) | (new & face.write_mask)
 }
 
-/// Returns the bits of a reference that a shader writes which count: those that the attachment has
-/// (Vulkan, FragStencilRefEXT; GL_ARB_shader_stencil_export, 3.3.x).
+/// Returns the relevant bits of a reference that a shader writes: as many as the attachment has (Vulkan,
+/// FragStencilRefEXT; GL_ARB_shader_stencil_export, 3.3.x).
 #[inline(always)]
 pub fn exported_reference(written: i32) -> u8 {
     written as u8

@@ -5,8 +5,8 @@ use crate::shader::cull_distances;
 use etalon_scene::{CullMode, Draw, FrontFace, PrimitiveVertices, Viewport};
 
 /// Returns the window position of a clip-space position: x and y in texels from the top left corner, depth
-/// between the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip
-/// space is down in the window).
+/// within the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip space is down
+/// in the window).
 pub fn window_position<A: Arithmetic>(
     a: &mut A,
     position: [f32; 4],
@@ -43,7 +43,7 @@ pub fn window_position<A: Arithmetic>(
     [x, y, z]
 }
 
-/// True if a triangle of this signed area (y up) faces front. Zero area faces back.
+/// Returns true if a triangle of this signed area (y up) faces front. Zero area faces back.
 pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
     match front_face {
         FrontFace::Ccw => signed_area > 0,
@@ -51,7 +51,8 @@ pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
     }
 }
 
-/// True if one of the cull distances is negative at all vertices of a primitive. Neither w nor the facing counts.
+/// Returns true if one of the cull distances is negative at all vertices of a primitive. Neither w nor the
+/// facing matters.
 pub fn is_beyond(draw: &Draw, primitive: PrimitiveVertices) -> bool {
     let vertices: &[usize] = match &primitive {
         PrimitiveVertices::Point(vertex) => std::slice::from_ref(vertex),
@@ -65,7 +66,7 @@ pub fn is_beyond(draw: &Draw, primitive: PrimitiveVertices) -> bool {
     numbers.any(|number| vertices.iter().all(|v| distance(*v, number) < 0.0))
 }
 
-/// True if a face is culled.
+/// Returns true if a face is culled.
 pub fn is_culled(mode: CullMode, front: bool) -> bool {
     match mode {
         CullMode::None => false,

@@ -1,4 +1,4 @@
-//! Depth bias: the interval that the rules let it add.
+//! Depth bias: the interval of biases that the rules allow.
 
 use crate::context::PassContext;
 use crate::depth::planes;
@@ -9,11 +9,11 @@ use etalon_scene::Draw;
 
 /// A polygon that may be biased.
 pub(crate) struct Biased<'a> {
-    /// The depths of its vertices; of one that is cut, all that it has.
+    /// The depths of its vertices; for a cut polygon, all depths that it has.
     pub(crate) z: &'a [Interval],
-    /// Its snapped vertices; none if it is cut.
+    /// Its snapped vertices; empty if it is cut.
     pub(crate) boxes: &'a [SnapBox],
-    /// Its least and greatest slope per texel.
+    /// Returns its least and greatest slope per texel.
     pub(crate) slope: &'a dyn Fn() -> Interval,
 }
 
@@ -35,11 +35,12 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
         }
         _ => {
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
-            // Vertices beyond the near and far planes may count or not.
+            // Vertices beyond the near and far planes may or may not count.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
             let lows = z.iter().map(|z| z.low);
             let low = if boxes.is_empty() || may_be_clipped(context, draw, boxes) {
-                // What is left may hold any of its depths, and the exponent is that of the greatest.
+                // The clipped polygon can have any of these depths, and its greatest depth gives the
+                // exponent.
                 lows.fold(f64::MAX, f64::min).max(0.0)
             } else {
                 lows.fold(0.0, f64::max)
@@ -67,8 +68,7 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
     }
 }
 
-/// True if a vertex lies outside of the viewport, wherever it is snapped to: at a side of the viewport the primitive may
-/// be clipped.
+/// Returns true if a vertex can be snapped outside the viewport, at whose sides the primitive may be clipped.
 fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: &[SnapBox]) -> bool {
     let units = units_per_texel(context.limits) as f64;
     let [left, top, width, height] = draw.viewport.rect.map(f64::from);
@@ -82,9 +82,9 @@ fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: &[SnapBox]) -> 
         .any(|b| outside(b.low.x, b.high.x, left, width) || outside(b.low.y, b.high.y, top, height))
 }
 
-/// Returns the interval that a bias adds where depths of vertices may be held to 0 and 1 with it, before fragments
-/// take theirs between them: what is left to the farthest depth at the one end, and to the nearest at the other.
-/// Clipping makes vertices of any depth of the primitive.
+/// Returns the interval that a bias adds if the biased depths of the vertices may be clamped to 0 to 1 before
+/// fragments interpolate them: at one end the room above the farthest depth, at the other the room below the
+/// nearest. Clipping can make vertices of any depth of the primitive.
 pub(crate) fn clamped_at_vertices(bias: Interval, z: &[Interval]) -> Interval {
     let held = |z: f64| z.clamp(0.0, 1.0);
     let farthest = held(z.iter().map(|z| z.high).fold(f64::MIN, f64::max));
@@ -95,8 +95,9 @@ pub(crate) fn clamped_at_vertices(bias: Interval, z: &[Interval]) -> Interval {
     })
 }
 
-/// Returns a unit that may be 0 where it is too small for a normal number: texts promise a relative accuracy, and no
-/// denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan, Floating-Point Computation).
+/// Returns a unit that includes 0 if it is too small for a normal number: the specifications promise a
+/// relative accuracy and no denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan,
+/// Floating-Point Computation).
 fn flushed(unit: Interval) -> Interval {
     if unit.low < f64::from(f32::MIN_POSITIVE) {
         unit.hull(Interval::exact(0.0))
@@ -105,7 +106,7 @@ fn flushed(unit: Interval) -> Interval {
     }
 }
 
-/// Returns the least and the greatest slope of a plane that grows by these numbers across and down a texel.
+/// Returns the least and the greatest slope of a plane that grows by `across` and `down` over a texel.
 pub(crate) fn slope(context: &PassContext<'_>, across: f64, down: f64) -> Interval {
     let (larger, root) = etalon_pipeline::slope(across, down);
     let has_root = larger < root && context.rules.slope_root.value();
@@ -136,7 +137,7 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
     }
     let error = context.rules.float_error.value() * ROUNDINGS;
     let all = z[0].hull(z[1]).hull(z[2]);
-    // What each vertex's depth may be off by, and the terms that it takes part in.
+    // The error of each vertex's depth: half its interval, plus the roundings of the terms that use it.
     let off = z.map(|z| (z.high - z.low) / 2.0 + (all.high - all.low) * error);
     // The plane that is 1 at one vertex and 0 at the others.
     let share = |vertex: usize| {
@@ -154,7 +155,7 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
                 .zip(&off)
                 .map(|(growth, off)| growth * off)
                 .sum();
-            // Positions may be taken before or after snapping.
+            // Positions may be those before or after snapping.
             let by_positions = growth.iter().sum::<f64>() * grid;
             let slope = slope(context, plane.dx * units, plane.dy * units);
             slope.widen(by_depths * units + slope.high * by_positions)

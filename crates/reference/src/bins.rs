@@ -1,6 +1,6 @@
-//! The primitives of a pass, binned: by row for a picture, which is walked from top to bottom, and by one
-//! texel for a story. Scissor rectangles are part of the bins, so that of thousands of draws a row meets
-//! those only that reach it.
+//! The primitives of a pass in bins: by row for a picture, which is walked from top to bottom, and by texel
+//! for a story. The bins respect scissor rectangles, so that a row of a pass with thousands of draws meets
+//! only the primitives that reach it.
 
 use crate::clip::Clip;
 use crate::context::PassContext;
@@ -10,10 +10,10 @@ use crate::snap::units_per_texel;
 use etalon_scene::{Draw, Pass};
 use std::ops::Range;
 
-/// The texels beyond a viewport that a primitive clipped by it may still touch.
+/// The number of texels beyond a viewport that a primitive clipped by it can still touch.
 const BEYOND_VIEWPORT: i64 = 4;
 
-/// One primitive of a pass and the texels that it may touch.
+/// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]
 struct Reach {
     /// The draw within the pass.
@@ -81,13 +81,13 @@ impl PassSetup {
         &self.draws[reach.draw as usize][reach.primitive as usize]
     }
 
-    /// Returns a primitive's draw and its place in the draw's setup.
+    /// Returns a primitive's draw and its index in the draw's setup.
     pub(crate) fn member(&self, number: u32) -> (u32, u32) {
         let reach = &self.reaches[number as usize];
         (reach.draw, reach.primitive)
     }
 
-    /// Returns the primitives of a draw whose bounds hold a texel, inside of its viewport or not.
+    /// Returns the primitives of a draw whose bounds contain a texel, inside its viewport or not.
     pub(crate) fn at(
         &self,
         draw: usize,
@@ -102,7 +102,7 @@ impl PassSetup {
         self.draws[draw].iter().filter(holds)
     }
 
-    /// Returns the rows of the pass's attachments, from the top, with the primitives of some draws.
+    /// Returns the rows of the pass's attachments, from the top, with the primitives of a range of draws.
     pub(crate) fn rows(&self, draws: Range<usize>) -> Rows<'_> {
         let first = |draw: usize| {
             let before = |reach: &Reach| (reach.draw as usize) < draw;
@@ -119,7 +119,7 @@ impl PassSetup {
     }
 }
 
-/// Returns the columns and rows of the texels that a primitive may touch.
+/// Returns the columns and rows of the texels that a primitive can touch.
 fn texels(size: [u32; 2], draw: &Draw, primitive: &SnappedPrimitive) -> [Range<u32>; 2] {
     let viewport = draw.viewport.area();
     [0, 1].map(|axis| {
@@ -140,18 +140,18 @@ fn texels(size: [u32; 2], draw: &Draw, primitive: &SnappedPrimitive) -> [Range<u
     })
 }
 
-/// The rows of a pass, one after the other, and the primitives that may touch each.
+/// The rows of a pass from top to bottom, with the primitives that can touch each.
 pub(crate) struct Rows<'s> {
     setup: &'s PassSetup,
-    /// All primitives, by their first row.
+    /// All primitives, sorted by first row.
     coming: Vec<u32>,
-    /// The number of them whose first row is reached.
+    /// The number of primitives in `coming` whose first row has been reached.
     begun: usize,
     active: Vec<u32>,
 }
 
 impl Rows<'_> {
-    /// Returns the primitives of a row below all that were asked for, in drawing order.
+    /// Returns the primitives of a row in drawing order. Rows must be asked for from top to bottom.
     pub(crate) fn row(&mut self, row: u32) -> &[u32] {
         let rows = |number: &u32| &self.setup.reaches[*number as usize].rows;
         self.active.retain(|number| rows(number).end > row);
@@ -167,14 +167,14 @@ impl Rows<'_> {
     }
 }
 
-/// The parts of a row between which the primitives that may touch it change.
+/// Parts of a row: at their borders, the set of primitives that can touch the row changes.
 #[derive(Default)]
 pub(crate) struct Segments {
-    /// Primitives with their columns in the row, by the first.
+    /// Primitives with their columns in the row, sorted by first column.
     coming: Vec<Member>,
     members: Vec<Member>,
     numbers: Vec<u32>,
-    /// Columns at which a triangle begins or ends to cover texels for certain.
+    /// Columns at which a triangle begins or ceases to cover texels for certain.
     breaks: Vec<u32>,
 }
 
@@ -187,7 +187,7 @@ struct Member {
 }
 
 impl Segments {
-    /// Calls `found` with the columns and primitives of each part of a row that any may touch.
+    /// Calls `found` with the columns and primitives of each part of a row that a primitive can touch.
     pub(crate) fn of_row(
         &mut self,
         setup: &PassSetup,

@@ -1,5 +1,5 @@
 //! The clauses that reject a draw, a primitive or a fragment at a sample, by API and version. They permit
-//! nothing, and so they are no part of [`rules`](crate::rules): only stories need them.
+//! nothing, so they are not in [`rules`](crate::rules): only stories need them.
 
 use crate::rules::Rules;
 use etalon_frame::{Api, ApiVersion, Limits, Rejection};
@@ -204,7 +204,7 @@ fn opengl(
     format!("{name}: {} {words}", sections[edition as usize])
 }
 
-/// An edition of OpenGL's text, by the numbers of its sections.
+/// An edition of the OpenGL or OpenGL ES specification, which determines the section numbers.
 #[derive(Clone, Copy, Debug)]
 enum Edition {
     Gl33,
@@ -216,7 +216,7 @@ enum Edition {
 }
 
 impl Edition {
-    // The same texts as the rules': see `Rules::of`.
+    // Must choose the same editions as `Rules::of`.
     fn of_opengl(version: ApiVersion) -> (&'static str, Self) {
         match (version.major, version.minor) {
             (3, _) | (4, 0 | 1) => ("OpenGL 3.3", Self::Gl33),

@@ -1,4 +1,4 @@
-//! Clipping by a viewport's edges, as far as legal snapping leaves it open.
+//! Clipping by a viewport's edges, which legal snapping leaves partly open.
 
 use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
@@ -10,14 +10,14 @@ use etalon_scene::Viewport;
 use std::ops::RangeInclusive;
 
 /// The edges of a draw's viewport. They are clip planes and may be snapped. Points and lines are clipped
-/// before they have a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel
-/// beyond, and a clipped end or a point outside may be missing. Where the rules let points or lines pass, they may
-/// reach any texel beyond.
+/// before they get a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): what is left can reach one texel
+/// beyond an edge, and a clipped end or an outside point can be missing. If the rules let points or lines
+/// pass unclipped, these can reach any texel beyond.
 #[derive(Clone, Debug)]
 pub(crate) struct Clip {
     /// Left, top, width and height in sub-texel units.
     rect: [f64; 4],
-    /// How far from them a vertex lies outside for certain.
+    /// The distance from an edge at which a vertex is certainly outside.
     slack: f64,
     triangles: Reach,
     wide: Reach,
@@ -25,7 +25,7 @@ pub(crate) struct Clip {
     lines_at_sides: bool,
 }
 
-/// Along each axis, the samples that can lie inside, and those that must.
+/// Along each axis, the samples that can be inside, and the samples that must be.
 #[derive(Clone, Debug)]
 struct Reach {
     can: [RangeInclusive<i64>; 2],
@@ -48,12 +48,12 @@ impl Clip {
         }
     }
 
-    /// True if all vertices of a primitive lie inside of the edges.
+    /// Returns true if all vertices of a primitive are inside the edges.
     pub(crate) fn holds_all_of(&self, primitive: &SnappedPrimitive) -> bool {
         primitive.inside_rect(self.rect)
     }
 
-    /// Returns whether a sample lies inside.
+    /// Returns whether a sample is inside.
     pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> Possible {
         let (reach, clips) = match primitive.shape {
             Shape::Triangle(_) => (&self.triangles, true),
@@ -72,7 +72,7 @@ impl Clip {
 
 impl Reach {
     fn new(rect: [f64; 4], slack: f64) -> Self {
-        // The integers between two numbers, both excluded; `as` saturates.
+        // The integers strictly between two numbers; `as` saturates.
         let between = |low: f64, high: f64| {
             (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1)
         };

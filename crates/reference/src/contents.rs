@@ -1,4 +1,4 @@
-//! Contents of attachments that no draw wrote: first contents and resolves.
+//! Contents of attachments that no draw wrote: initial contents and resolves.
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
@@ -40,7 +40,7 @@ impl ChannelSum {
         self.between.unwrap_or(CodeInterval::exact(0))
     }
 
-    /// Returns the codes between those of the samples that a chain of rounded halvings may bring these to.
+    /// Returns the codes that a chain of rounded halvings can reach, within the range of the samples' codes.
     fn within_halvings(&self, codes: Interval, samples: u32) -> CodeInterval {
         let (between, halvings) = (self.between(), halvings(samples));
         CodeInterval {
@@ -55,15 +55,15 @@ impl ChannelSum {
     }
 }
 
-/// The steps in which samples are averaged in pairs.
+/// Returns the number of steps in which samples are averaged in pairs.
 fn halvings(samples: u32) -> f64 {
     f64::from(samples.max(1).ilog2())
 }
 
 impl Walk<'_> {
-    /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is
-    /// open. An average is the hull over samples and worlds, never their product; integers resolve to one
-    /// of the samples (OpenGL 4.6, 18.3.1), in Vulkan's render passes to the first.
+    /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is open.
+    /// An average is the hull over samples and worlds, never their product. Integers resolve to one of the
+    /// samples (OpenGL 4.6, 18.3.1); in Vulkan's render passes, to the first.
     pub(crate) fn resolve(
         &self,
         source: usize,
@@ -105,7 +105,7 @@ impl Walk<'_> {
             return Some(single);
         }
         let mut result = [CodeInterval::exact(0); 4];
-        // The averages of the codes, for sRGB that is not made linear.
+        // The averages of the codes, for implementations that do not convert sRGB to linear values.
         let mut of_codes = result;
         for (c, encoding) in encodings.iter().enumerate() {
             let linear = self.average_color(*encoding, &sums[c], attachment.samples);
@@ -126,7 +126,7 @@ impl Walk<'_> {
         Some(all)
     }
 
-    /// Returns the codes that samples with this sum may resolve to.
+    /// Returns the codes that samples with this sum can resolve to.
     fn average_color(
         &self,
         encoding: ChannelEncoding,
@@ -136,10 +136,10 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let between = sum.between();
         let count = f64::from(samples);
-        // The error is relative to the samples, of which the sum may be a small difference.
+        // The error is relative to the samples: their sum can be a small difference of large values.
         let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
         let error = values[0].max(values[1]) * count * self.rules.float_error.value();
-        // The ends of what may be NaN are no numbers to compute with.
+        // An interval that includes NaN has no usable ends.
         let exact = if sum.value.may_be_nan() {
             Interval::EVERYTHING
         } else {
@@ -147,7 +147,8 @@ impl Walk<'_> {
         };
         let average = judging.encode(encoding, Range::same(exact));
         match self.rules.resolve.value() {
-            // The least code of signed normalized integers has the value of the next one, whose code is stored.
+            // The least code of a signed normalized integer equals the next one in value, and that one is
+            // stored.
             _ if between.is_exact() && !encoding.is_float() => {
                 between.hull(canonical(encoding, between.low))
             }
@@ -155,7 +156,7 @@ impl Walk<'_> {
             Resolve::Between if encoding.is_float() => between.hull(average),
             Resolve::Between => between,
             Resolve::CoarseAverage if encoding.is_float() => {
-                // A code is as large as that of the largest sample.
+                // The error of a halving is a code at the magnitude of the largest sample.
                 let largest = between.low.abs().max(between.high.abs());
                 let next = (largest + 1).min(encoding.max_order());
                 let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));
@@ -248,7 +249,7 @@ impl Walk<'_> {
             .iter()
             .enumerate()
             .map(|(index, attachment)| {
-                // The contents of an attachment of another size are no part of this sample's story.
+                // The contents of an attachment of another size do not belong to this sample's story.
                 let same = attachment.size == at.size;
                 let place = if same { [at.x, at.y] } else { [0, 0] };
                 let cell = self.first_contents(index, place.map(|v| v as usize));
@@ -274,7 +275,7 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the code that the value of a code is stored as.
+/// Returns the code that the value of a code is stored as (two codes can have one value).
 fn canonical(encoding: ChannelEncoding, order: i64) -> CodeInterval {
     let code = encoding.nearest_code(encoding.value_of_order(order));
     CodeInterval::exact(encoding.order_of_code(code))

@@ -1,4 +1,4 @@
-//! The pass that primitives are set up for: passed by reference, since setup and bias both need all of it.
+//! The pass that primitives are set up for. Setup and bias both need all of it.
 
 use crate::rules::Rules;
 use crate::texels::Lattice;
@@ -10,8 +10,8 @@ pub(crate) struct PassContext<'a> {
     pub(crate) limits: &'a Limits,
     /// The size of the pass's attachments.
     pub(crate) size: [u32; 2],
-    /// The texels of them that are judged.
+    /// The judged texels of the attachments.
     pub(crate) lattice: Lattice,
-    /// The encoding of the pass's depth, where it has one.
+    /// The encoding of the pass's depth, if it has one.
     pub(crate) depth: Option<ChannelEncoding>,
 }

@@ -1,4 +1,4 @@
-//! Counters: the range of each that the worlds of all samples leave.
+//! Counters: the legal range of each, given the worlds of all samples.
 
 use crate::rules::{Rules, SamplesCounted};
 use crate::world::{Increment, World};
@@ -13,10 +13,10 @@ struct Count {
     high: Option<u64>,
     /// Of this texel: certain events, summed over samples.
     certain: u64,
-    /// Of this texel: possible events, summed over samples; `None` where a sample is open.
+    /// Of this texel: possible events, summed over samples; `None` if a sample is open.
     possible: Option<u64>,
-    /// Fragments of this texel of which a sample counts for certain, with the number of these samples,
-    /// and fragments of which one may.
+    /// This texel's fragments with at least one sample that certainly counts, with the number of such
+    /// samples; and fragments with at least one sample that can count.
     must: Vec<((u32, u32), u32)>,
     may: Vec<(u32, u32)>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Tally<'a> {
     scene: &'a Scene,
     rules: &'a Rules,
     counts: Vec<Count>,
-    /// Per draw of the scene, the least number of runs that share a wholly covered texel.
+    /// Per draw of the scene, the least number of shader runs that share a fully covered texel.
     least_runs: Vec<u32>,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Tally<'a> {
                     let draws = pass.draws.iter();
                     draws.map(move |draw| {
                         let asked = draw.multisample.least_runs(samples);
-                        // The shader itself asks for a run for each sample, or the share does.
+                        // Either the shader runs per sample, or the minimum sample shading demands it.
                         if asked > 1
                             && !draw.shader.runs_per_sample()
                             && !rules.runs_by_share.value()
@@ -67,7 +67,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Adds so many texels, by the worlds of their samples; `None` for a sample that is open.
+    /// Adds `times` texels whose samples have these worlds; `None` for an open sample.
     pub(crate) fn texel<'w>(
         &mut self,
         samples: impl ExactSizeIterator<Item = Option<&'w [World]>>,
@@ -116,7 +116,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Ends a texel of `samples` samples, and all that are like it.
+    /// Ends a texel of `samples` samples that stands for `times` equal texels.
     fn end_texel(&mut self, samples: u32, times: u64) {
         for (counter, count) in self.scene.counters.iter().zip(&mut self.counts) {
             let (low, high) = match counter.kind {
@@ -128,8 +128,8 @@ impl<'a> Tally<'a> {
                     };
                     (count.certain, high)
                 }
-                // Never without a fragment; how often for one, the rules say: at most once for each covered
-                // sample, or as often as the implementation likes.
+                // Never without a fragment. The rules decide how often a fragment runs: at most once for each
+                // covered sample, or without a limit.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
                     let high = if self.rules.runs_once.value() {
@@ -137,16 +137,14 @@ impl<'a> Tally<'a> {
                     } else {
                         none.then_some(0)
                     };
-                    // Each run has a sample of its own; a sample that is not covered may have been
-                    // that of one of them.
+                    // Each run has a sample to itself; some of the runs can belong to uncovered samples.
                     let runs = |((draw, _), covered): &((u32, u32), u32)| {
                         let least = self.least_runs[*draw as usize - 1];
                         u64::from((least + covered).saturating_sub(samples).max(1))
                     };
                     (count.must.iter().map(runs).sum(), high)
                 }
-                // Statistics compare a driver with itself (Vulkan, Pipeline Statistics
-                // Queries).
+                // Statistics only compare a driver with itself (Vulkan, Pipeline Statistics Queries).
                 CounterKind::FragmentInvocations => (0, None),
             };
             count.low += low * times;

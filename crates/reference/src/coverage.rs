@@ -38,7 +38,7 @@ impl Walk<'_> {
                             self.repeat(place, world.clone(), positive, &mut result, notes);
                         }
                     }
-                    // Without an area it faces back, and its edges may be missing.
+                    // A primitive without an area faces back, and its edges may be missing.
                     if least <= 0 && most >= 0 {
                         let back = !self.draw_front(place.draw);
                         self.repeat(place, world.clone(), back, &mut result, notes);
@@ -57,12 +57,12 @@ impl Walk<'_> {
         result
     }
 
-    /// The sign of area that faces front.
+    /// Returns true if a positive area faces front.
     fn draw_front(&self, draw: &Draw) -> bool {
         front_facing(1, draw.front_face)
     }
 
-    /// Returns how often a point, a line or an outline covers a sample, as the rules for lines leave it.
+    /// Returns how often a point, a line or an outline can cover a sample under the rules for lines.
     pub(crate) fn times(&self, place: Place<'_>) -> Times {
         let (least, most) = place.primitive.times(place.point, self.units);
         let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
@@ -80,7 +80,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A point's, line's or outline's fragments at the sample: as often as it may be covered.
+    /// Repeats the fragment of a point, line or outline at the sample as often as the primitive can cover it.
     fn repeat(
         &self,
         place: Place<'_>,
@@ -133,7 +133,7 @@ impl Walk<'_> {
                 self.covered(place, triangle, world.clone(), positive, result, notes);
             }
         }
-        // Legal snapping can flatten it: then it covers nothing.
+        // Legal snapping can flatten the triangle, which then covers nothing.
         let certain = least == 0 && most == 0;
         self.note_rejection(notes, place, Rejection::Coverage, certain, || {
             Step::Coverage(if certain {
@@ -145,7 +145,7 @@ impl Walk<'_> {
         result.push(world);
     }
 
-    /// Splits a world by the edges that may or may not hold the sample.
+    /// Splits a world by the edges that may or may not include the sample.
     fn covered(
         &self,
         place: Place<'_>,
@@ -205,7 +205,7 @@ impl Walk<'_> {
                     || primitive.edge(i).is_none())
                 .then_some(place.primitive_index as u32),
             };
-            // The side is named by the edge's canonical direction.
+            // The side is relative to the edge's canonical direction.
             let wanted = (inside == Side::Positive) == (a < b);
             let mut inside_worlds = SmallVec::new();
             let edge = Edge { number: i, side };
@@ -233,7 +233,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes the state of a world in which a primitive is drawn, where there are several.
+    /// Notes the state of the world that a primitive is drawn in, if there are several worlds.
     fn note_world(&self, notes: &mut Notes<'_>, place: Place<'_>, world: &World) {
         let pass = &self.scene.passes[place.pass];
         let targets = pass.color.iter().chain(&pass.depth_stencil);
@@ -245,8 +245,8 @@ impl Walk<'_> {
         );
     }
 
-    /// Notes the outcome at an edge that may or may not leave the sample inside: decided by an earlier
-    /// primitive of the same edge, or open.
+    /// Notes the outcome at an edge that passes so close to the sample that it may include or exclude it. An
+    /// earlier primitive with the same edge decides it, or it is open.
     fn note_edge(&self, notes: &mut Notes<'_>, place: Place<'_>, edge: Edge, covers: Option<bool>) {
         let effect = match covers {
             Some(true) => Effect::None,
@@ -268,7 +268,7 @@ impl Walk<'_> {
     }
 }
 
-/// An edge of a triangle and the side of it on which the sample lies.
+/// An edge of a triangle, and the side of it that the sample is on.
 #[derive(Clone, Copy)]
 struct Edge {
     number: usize,

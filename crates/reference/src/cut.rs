@@ -1,9 +1,11 @@
-//! Primitives that reach behind the eye, or farther than vertices are snapped: what clipping leaves of them.
+//! Primitives that reach behind the eye, or farther than vertices are snapped: what is left of them after
+//! clipping.
 //!
-//! Any clipping is legal that is exact up to the precision of floating-point: by the view volume, by a larger one, or
-//! none, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which lets implementations cut
-//! primitives for reasons of their own). The edges, depths and attributes that are left are those of the whole
-//! primitive; a vertex that clipping makes may be off by its roundings, and by a step of the grid.
+//! Any clipping is legal that is exact up to floating-point precision: by the view volume, by a larger one,
+//! or none at all, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which lets
+//! implementations cut primitives for reasons of their own). The remaining edges, depths and attributes are
+//! those of the whole primitive. A vertex that clipping makes can be off by its roundings and by a step of
+//! the grid.
 
 use crate::bias::slope;
 use crate::context::PassContext;
@@ -19,17 +21,17 @@ use etalon_pipeline::{
 };
 use etalon_scene::{Draw, Interpolation};
 
-/// The roundings of a clipped vertex's coordinates: of the two products and their sum, of the quotient by w, and of
-/// the viewport's product and sum; twice, since two planes may cut an edge.
+/// The number of roundings in a clipped vertex's coordinates: two products and their sum, the quotient by w,
+/// and the viewport's product and sum; doubled, since two planes can cut an edge.
 const ROUNDINGS: f64 = 8.0;
 
-/// The texels beyond a viewport to which a primitive is followed: more than any may reach into it from there.
+/// How far beyond a viewport a primitive is followed, in texels: nothing farther out can reach into it.
 const BEYOND: f64 = 64.0;
 
-/// The part of w by which the near and far planes are moved out, so that roundings lie between.
+/// The share of w by which the near and far planes are moved out, so that roundings stay between them.
 const DEPTH_SLACK: f64 = 1.0 / 1024.0;
 
-/// True if the perspective division or the grid cannot place one of some vertices.
+/// Returns true if the perspective division or the grid cannot place one of the vertices.
 pub(crate) fn is_cut(context: &PassContext<'_>, draw: &Draw, vertices: &[usize]) -> bool {
     let units = units_per_texel(context.limits) as f64;
     let position = |i: &usize| draw.mesh.vertices[*i].position;
@@ -37,7 +39,7 @@ pub(crate) fn is_cut(context: &PassContext<'_>, draw: &Draw, vertices: &[usize])
     positions.any(|p| etalon_pipeline::is_cut(window_vertex(p, &draw.viewport, units)))
 }
 
-/// True if a line crosses the near or the far plane, or is cut otherwise.
+/// Returns true if a line crosses the near or the far plane, or is otherwise cut.
 pub(crate) fn is_cut_line(context: &PassContext<'_>, draw: &Draw, ends: [usize; 2]) -> bool {
     let side = |i: usize| {
         let [.., z, w] = draw.mesh.vertices[i].position;
@@ -47,12 +49,12 @@ pub(crate) fn is_cut_line(context: &PassContext<'_>, draw: &Draw, ends: [usize; 
     crosses || is_cut(context, draw, &ends)
 }
 
-/// The place of what is seen of a primitive, and how far off it may be.
+/// The visible part of a primitive and its position error.
 struct Seen<'a> {
     context: &'a PassContext<'a>,
     draw: &'a Draw,
     units: f64,
-    /// How far a vertex that clipping makes may be off along each axis, in units.
+    /// How far a vertex made by clipping can be off along each axis, in units.
     off: [f64; 2],
 }
 
@@ -71,7 +73,7 @@ impl<'a> Seen<'a> {
         window_vertex(position, &self.draw.viewport, self.units)
     }
 
-    /// The magnitudes of the terms of a vertex's window coordinates, times w.
+    /// Returns the magnitudes of the terms of a vertex's window coordinates, times w.
     fn terms(&self, vertex: usize) -> [f64; 2] {
         let [x, y, _, w] = self.draw.mesh.vertices[vertex].position.map(f64::from);
         let rect = self.draw.viewport.rect.map(|v| f64::from(v) * self.units);
@@ -85,7 +87,7 @@ impl<'a> Seen<'a> {
         self.context.rules.float_error.value() * ROUNDINGS
     }
 
-    /// The functions that are not negative near the viewport and in front of the eye.
+    /// Returns functions that are all non-negative near the viewport and in front of the eye.
     fn near_viewport(&self, [x, y, w]: WindowVertex) -> [f64; 5] {
         let area = self.draw.viewport.area();
         let [left, top, width, height] = area.map(|v| f64::from(v) * self.units);
@@ -99,7 +101,8 @@ impl<'a> Seen<'a> {
         ]
     }
 
-    /// The functions that are not negative between the near and far planes moved out by a part of w.
+    /// Returns functions that are both non-negative between the near and far planes, which are moved out by a
+    /// share of w.
     fn between_planes(&self, vertex: usize, slack: f64) -> [f64; 2] {
         let [.., z, w] = self.draw.mesh.vertices[vertex].position.map(f64::from);
         if self.draw.depth_clamp {
@@ -108,7 +111,7 @@ impl<'a> Seen<'a> {
         [z + slack * w, w * (1.0 + slack) - z]
     }
 
-    /// Grows how far a vertex may be off, by shares of the primitive's vertices at one of its corners.
+    /// Grows the vertex error for a corner that is given as shares of the primitive's vertices.
     fn grow(&mut self, vertices: &[usize], shares: &[f64]) {
         let sum = |value: &dyn Fn(usize) -> f64| -> f64 {
             let each = vertices.iter().zip(shares);
@@ -130,19 +133,19 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// What is left of a triangle.
+/// The part of a triangle that clipping leaves.
 pub(crate) struct CutTriangle<'a> {
     seen: Seen<'a>,
     vertices: [usize; 3],
     homogeneous: HomogeneousTriangle,
-    /// The corners of what is seen, as shares of the vertices.
+    /// The corners of the visible part, as shares of the vertices.
     corners: Vec<[f64; 3]>,
-    /// Twice the distance over which the area of what is seen is turned by what its edges may be off.
+    /// The share of the visible part within its edges' error; from 1 on, the sign of its area is open.
     flatness: f64,
 }
 
 impl<'a> CutTriangle<'a> {
-    /// Returns what is left of a triangle; `None` if that is nothing.
+    /// Returns the part of a triangle that clipping leaves; `None` if nothing is left.
     pub(crate) fn new(
         context: &'a PassContext<'a>,
         draw: &'a Draw,
@@ -172,13 +175,13 @@ impl<'a> CutTriangle<'a> {
         Some(cut)
     }
 
-    /// Returns the place of a corner.
+    /// Returns the position of a corner in the window.
     fn place(&self, corner: [f64; 3]) -> [f64; 2] {
         let sum = |axis: usize| dot(corner, self.homogeneous.vertices.map(|v| v[axis]));
         [sum(0) / sum(2), sum(1) / sum(2)]
     }
 
-    /// Returns the share of what is seen that lies within reach of its edges.
+    /// Returns the share of the visible part within the error of its edges.
     fn flatness(&self) -> f64 {
         let places: Vec<[f64; 2]> = self.corners.iter().map(|c| self.place(*c)).collect();
         let (mut area, mut around) = (0.0, 0.0);
@@ -196,7 +199,8 @@ impl<'a> CutTriangle<'a> {
         }
     }
 
-    /// The edges; those of snapped vertices, which `boxes` has, as they are.
+    /// Returns the triangle's edges. Between two snapped vertices, which `boxes` has, an edge is the line
+    /// through both.
     pub(crate) fn triangle(&self, boxes: [Option<SnapBox>; 3], ids: [VertexId; 3]) -> Triangle {
         let edges = [0, 1, 2].map(|i| match (boxes[i], boxes[(i + 1) % 3]) {
             (Some(from), Some(to)) => Edge::Between([from, to]),
@@ -210,7 +214,7 @@ impl<'a> CutTriangle<'a> {
                 }
             }
         });
-        // With y down the determinant is negative where the area is positive.
+        // With y down, the determinant is negative if the area is positive.
         let area = if self.flatness >= 1.0 {
             (-1, 1)
         } else if self.homogeneous.determinant < 0.0 {
@@ -221,7 +225,7 @@ impl<'a> CutTriangle<'a> {
         Triangle::cut(edges, ids, area)
     }
 
-    /// Returns left, top, right and bottom of what is seen, in units.
+    /// Returns left, top, right and bottom of the visible part, in units.
     pub(crate) fn bounds(&self) -> SnapBox {
         let places = self.corners.iter().map(|corner| self.place(*corner));
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -231,7 +235,7 @@ impl<'a> CutTriangle<'a> {
                 high[axis] = high[axis].max(place[axis] + self.seen.off[axis]);
             }
         }
-        // `as` saturates, and a place that is none counts as all.
+        // `as` saturates, and NaN counts as everywhere.
         let within = |v: f64, otherwise: f64| {
             let v = if v.is_nan() { otherwise } else { v };
             v.clamp(-FARTHEST, FARTHEST)
@@ -248,7 +252,7 @@ impl<'a> CutTriangle<'a> {
         }
     }
 
-    /// Returns the linear function of a value over w.
+    /// Returns the linear function of a value divided by w.
     fn over_w(&self, values: [f64; 3]) -> Depth {
         let w = self.homogeneous.vertices.map(|v| v[2]);
         let at = |corner: &[f64; 3]| Interval::exact(dot(*corner, values) / dot(*corner, w));
@@ -264,12 +268,12 @@ impl<'a> CutTriangle<'a> {
         Depth::of_plane(plane, self.seen.off, hull, error)
     }
 
-    /// The depth by which the near and far planes clip.
+    /// Returns the depth that the near and far planes clip by.
     pub(crate) fn clip_depth(&self) -> Depth {
         self.over_w(self.values(|v| v.position[2]))
     }
 
-    /// The depth in the window.
+    /// Returns the window depth.
     pub(crate) fn window_depth(&self) -> Depth {
         let [near, far] = self.seen.draw.viewport.depth.map(f64::from);
         let w = self.values(|v| v.position[3]);
@@ -281,7 +285,7 @@ impl<'a> CutTriangle<'a> {
             depth.hull = depth.hull.widen(error);
         }
         if !self.seen.draw.depth_clamp {
-            // What is left lies between the planes.
+            // The rest is between the planes.
             depth.hull = depth
                 .hull
                 .clamp(near.min(far) - error, near.max(far) + error);
@@ -304,7 +308,7 @@ impl<'a> CutTriangle<'a> {
         let linear = self.seen.draw.shader.interpolation() == Interpolation::Linear;
         let flat = values[0] == values[1] && values[1] == values[2];
         if linear || flat || !self.seen.off.iter().all(|v| v.is_finite()) {
-            // There is no place behind the eye to which a value could be linear in the window.
+            // A value cannot be linear in the window behind the eye.
             return Varying::Linear(Depth::flat(&values.map(Interval::exact)).interpolated(error));
         }
         let planes = [values, [1.0; 3]].map(|values| self.homogeneous.over_w(values));
@@ -324,7 +328,7 @@ impl<'a> CutTriangle<'a> {
         Distance::of_plane(self.over_w(values))
     }
 
-    /// The slope over a texel and the depths that a bias is made of.
+    /// Returns the slope per texel that a depth bias uses.
     pub(crate) fn slope(&self, window_depth: &Depth) -> Interval {
         let z = self.values(|v| v.position[2]);
         let [near, far] = self.seen.draw.viewport.depth.map(f64::from);
@@ -341,7 +345,7 @@ impl<'a> CutTriangle<'a> {
                 high: f64::from(f32::MAX),
             };
         }
-        // Corners that are off turn the plane, and so do depths.
+        // Errors in corners and depths tilt the plane.
         let off = (self.seen.off[0] + self.seen.off[1]) / self.seen.units;
         let turned = window_depth.error * self.flatness / off;
         all.widen_relative(self.seen.error() + 2.0 * self.flatness)
@@ -350,17 +354,17 @@ impl<'a> CutTriangle<'a> {
     }
 }
 
-/// What is left of a line: its ends, and their depths.
+/// The part of a line that clipping leaves: its ends and their depths.
 pub(crate) struct CutLine {
     pub(crate) ends: [SnapBox; 2],
     pub(crate) window_z: [Interval; 2],
     pub(crate) reciprocal_w: [Interval; 2],
-    /// True if roundings may clip all of it.
+    /// True if rounding can clip all of it.
     pub(crate) may_be_clipped: bool,
 }
 
 impl CutLine {
-    /// Returns what is left of a line; `None` if that is nothing.
+    /// Returns the part of a line that clipping leaves; `None` if nothing is left.
     pub(crate) fn new(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<Self> {
         let mut seen = Seen::new(context, draw);
         let windows = line.map(|v| seen.window(v));
@@ -390,7 +394,7 @@ impl CutLine {
             let axis = |axis: usize| {
                 let places = end(i).into_iter().map(|t| {
                     let exact = sum(t, windows.map(|v| v[axis])) / w(t);
-                    // Places that are the same stay so, whatever the rounding of their shares.
+                    // Equal places stay equal, whatever the rounding of their shares.
                     Interval::exact((exact * 1024.0).round() / 1024.0)
                 });
                 let hull = places

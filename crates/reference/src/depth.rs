@@ -1,4 +1,4 @@
-//! Depth over a primitive, as far as snapping leaves it open.
+//! Depth over a primitive, which legal snapping leaves partly open.
 
 use crate::interval::Interval;
 use crate::snap::{SnapBox, area};
@@ -8,8 +8,8 @@ use smallvec::SmallVec;
 /// A depth over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
-    /// The planes through the vertices that legal snapping allows, but for those that are nowhere near the
-    /// primitive extreme; none if the depth is constant or nothing but the vertices' depths is known.
+    /// The planes through the legally snapped vertices, except planes that are nowhere extreme near the
+    /// primitive. Empty if the depth is constant or only the vertices' depths are known.
     planes: Vec<DepthPlane>,
     /// The largest growth of any plane over one unit right and one down.
     pub(crate) steepest: f64,
@@ -30,8 +30,8 @@ impl Depth {
         }
     }
 
-    /// A depth of a known plane at positions that may be off by so much along each axis; `hull` holds it inside of
-    /// the primitive.
+    /// Returns the depth of a known plane at positions that can be off by `off` along each axis; `hull`
+    /// bounds it inside the primitive.
     pub(crate) fn of_plane(plane: DepthPlane, off: [f64; 2], hull: Interval, error: f64) -> Self {
         let (dx, dy) = (plane.dx.abs(), plane.dy.abs());
         Self {
@@ -46,12 +46,12 @@ impl Depth {
         }
     }
 
-    /// True if it is the same all over the primitive.
+    /// Returns true if the depth is the same all over the primitive.
     pub(crate) fn is_flat(&self) -> bool {
         self.planes.is_empty()
     }
 
-    /// Adds the error of interpolating: a weighted sum, which need not be what all vertices have.
+    /// Adds the interpolation error: a weighted sum of equal depths need not be that depth.
     pub(crate) fn interpolated(mut self, float_error: f64) -> Self {
         let largest = self.hull.low.abs().max(self.hull.high.abs());
         self.error += largest * float_error;
@@ -59,7 +59,8 @@ impl Depth {
         self
     }
 
-    /// Over a line: its own rectangle and the texels at its ends reach beyond the vertices.
+    /// Returns the depth along a line, including its rectangle and the texels at its ends, which reach beyond
+    /// the vertices.
     pub(crate) fn along(
         ends: [SnapBox; 2],
         z: [Interval; 2],
@@ -107,20 +108,20 @@ impl Depth {
         depth
     }
 
-    /// Returns this depth held to those of the vertices.
+    /// Limits the depth to the range of the vertices' depths.
     pub(crate) fn between(mut self, z: &[Interval]) -> Self {
         self.hull = Self::flat(z).hull;
         self
     }
 
-    /// Widens the depth for the edges of a triangle, which reach beyond it as lines do.
+    /// Widens the depth for the edges of a triangle, which reach beyond it like lines.
     pub(crate) fn reach_out(&mut self, units: i64) {
         let far = self.steepest * 2.0 * units as f64;
         self.error += far;
         self.hull = self.hull.widen(far);
     }
 
-    /// Returns the hull over the texel that holds a point, inside of the primitive or not.
+    /// Returns the hull over the texel that contains a point, inside the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
         let corner = |v: i64| v.div_euclid(units) * units;
         let (x, y) = (corner(point.x), corner(point.y));
@@ -140,7 +141,7 @@ impl Depth {
         self.beyond(point).clamp(self.hull.low, self.hull.high)
     }
 
-    /// Returns the depth at a point that need not lie inside.
+    /// Returns the depth at a point, which can be outside.
     pub(crate) fn beyond(&self, point: Point) -> Interval {
         let all = self.planes.iter().map(|p| Interval::exact(p.at(point)));
         all.reduce(Interval::hull)
@@ -148,8 +149,8 @@ impl Depth {
     }
 }
 
-/// Returns the corners of a rectangle that holds all points near a triangle at which its planes are asked
-/// for.
+/// Returns the corners of a rectangle that contains all points near a triangle at which its planes are
+/// evaluated.
 fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
     let [a, b, c] = vertices;
     let mut all = a.hull(b).hull(c);
@@ -161,8 +162,8 @@ fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
     all.corners()
 }
 
-/// Returns those of some planes that are the lowest or the highest somewhere in a rectangle. A plane that is
-/// not above another at any of its corners is not above it anywhere inside.
+/// Returns the planes that are lowest or highest somewhere in a rectangle. A plane that is above another at
+/// none of the corners is nowhere above it inside.
 fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     if all.len() < 3 {
         return all.to_vec();
@@ -187,8 +188,8 @@ fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     highest.into_iter().map(|i| all[i]).collect()
 }
 
-/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's
-/// growth is a quotient of functions linear in each coordinate alone, so its extremes lie at corners.
+/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's growth
+/// is a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
     let corners = |b: SnapBox| {
         let all = b.corners();

@@ -1,7 +1,7 @@
 //! Resolves of depth and stencil.
 //!
 //! The first sample is taken with its worlds, depth and stencil together. A least or greatest depth is the
-//! hull over the worlds of all samples, and a stencil value each that some choice of worlds gives: both
+//! hull over the worlds of all samples; a stencil value is each value that some choice of worlds gives. Both
 //! contain every outcome, as an average does.
 
 use crate::interval::Interval;
@@ -17,7 +17,7 @@ use etalon_scene::{DepthStencilResolve, ResolveMode};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-/// What a texel is resolved to; `None` leaves an aspect.
+/// What a texel is resolved to; `None` leaves the aspect unchanged.
 type Resolved = (Option<CodeInterval>, Option<u8>);
 
 impl Walk<'_> {
@@ -118,7 +118,7 @@ impl Walk<'_> {
             .collect()
     }
 
-    /// Returns the depth that samples in these intervals are resolved to.
+    /// Returns the depth that samples in these intervals resolve to.
     fn depth_of(
         &self,
         mode: ResolveMode,
@@ -140,7 +140,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns the average of depths, as exact as that of colours.
+    /// Returns the average of depths, with the accuracy of an average of colours.
     fn average(
         &self,
         encoding: ChannelEncoding,

@@ -1,9 +1,9 @@
-//! Clip distances over a primitive: where they are negative it is clipped.
+//! Clip distances over a primitive, which is clipped where they are negative.
 //!
-//! The vertices that clipping makes are computed and snapped like any others, so an edge that it makes
-//! lies within some steps of the grid of where the distance is 0, and a sample nearer than that may lie on
-//! either side. The ends of a line are open by two texels whatever ends it (Vulkan, Bresenham
-//! Line Segment Rasterization; OpenGL 4.6, 14.5.1).
+//! Vertices made by clipping are computed and snapped like others. An edge made by clipping is therefore
+//! within some steps of the grid of the zero of the distance, and a sample nearer than that can be on either
+//! side. The ends of a line are open by two texels whatever ends it (Vulkan, Bresenham Line Segment
+//! Rasterization; OpenGL 4.6, 14.5.1).
 
 use crate::depth::Depth;
 use crate::interval::Interval;
@@ -11,18 +11,18 @@ use crate::possible::Possible;
 use crate::snap::SnapBox;
 use etalon_pipeline::{DepthPlane, Point};
 
-/// The steps of the grid by which an edge that clipping makes may be off.
+/// The number of grid steps that an edge made by clipping can be off by.
 const EDGE_STEPS: f64 = 2.0;
 
 /// One clip distance over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) enum Distance {
-    /// The least and the greatest that it has anywhere.
+    /// The least and the greatest value anywhere on the primitive.
     Between(Interval),
     /// Linear over a triangle.
     Over {
         plane: Depth,
-        /// What an edge's own place may add or take.
+        /// What the error in the edge's position can add or subtract.
         error: f64,
     },
     /// Linear along a line.
@@ -30,35 +30,36 @@ pub(crate) enum Distance {
 }
 
 impl Distance {
-    /// The same everywhere, or of an unknown course between the vertices.
+    /// Returns a distance that is constant, or whose course between the vertices is unknown.
     pub(crate) fn between(values: &[f64]) -> Self {
         let all = values.iter().map(|v| Interval::exact(*v));
         let hull = all.reduce(Interval::hull);
         Self::Between(hull.unwrap_or(Interval::exact(0.0)))
     }
 
-    /// That of unknown sign.
+    /// A distance of unknown sign.
     pub(crate) const UNKNOWN: Self = Self::Between(Interval {
         low: -1.0,
         high: 1.0,
     });
 
-    /// A known plane of the distance over w.
+    /// Returns a distance with a known plane of the distance over w.
     pub(crate) fn of_plane(plane: Depth) -> Self {
-        // Of the steps, one is the plane's.
+        // One of the steps is already in the plane's error.
         let error = plane.error * (EDGE_STEPS - 1.0);
         Self::Over { plane, error }
     }
 
-    /// The distance over a triangle in front of the eye, from its values at the vertices over their w: a sign is that
-    /// of what is linear over the window (OpenGL 4.6, 13.7 and 14.6.1; WebGPU, 23.2.4).
+    /// Returns the distance over a triangle in front of the eye, from its values at the vertices divided by
+    /// their w. That quotient has the distance's sign and is linear in the window (OpenGL 4.6, 13.7 and
+    /// 14.6.1; WebGPU, 23.2.4).
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         values: [f64; 3],
         [units, grid]: [i64; 2],
         float_error: f64,
     ) -> Self {
-        // Of one sign, nothing is clipped, or all.
+        // If all have one sign, nothing is clipped, or everything.
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
             return Self::between(&values);
         }
@@ -77,7 +78,7 @@ impl Distance {
         Self::Along { plane, error }
     }
 
-    /// As [`Distance::keeps`] for a point anywhere in the texel that holds this one.
+    /// Like [`Distance::keeps`], for any point in the texel that contains this one.
     pub(crate) fn keeps_in_texel(&self, at: Point, units: i64) -> Possible {
         let corner = |v: i64, step: i64| v.div_euclid(units) * units + step;
         let corners = [(0, 0), (units, 0), (0, units), (units, units)].map(|(dx, dy)| {
@@ -90,8 +91,8 @@ impl Distance {
         Possible::of(can, corners.iter().all(|c| c.must()))
     }
 
-    /// Returns whether a covered point is left. A distance of 0 is inside (Vulkan, Primitive Clipping;
-    /// OpenGL 4.6, 13.7; WebGPU, 23.2.4).
+    /// Returns whether a covered point remains. A distance of 0 is inside (Vulkan, Primitive Clipping; OpenGL
+    /// 4.6, 13.7; WebGPU, 23.2.4).
     pub(crate) fn keeps(&self, at: Point) -> Possible {
         let Interval { low, high } = match self {
             Self::Between(all) => *all,
@@ -116,7 +117,7 @@ mod tests {
         SnapBox { low: at, high: at }
     }
 
-    /// The centre of a texel of the row 3.
+    /// Returns the centre of a texel in row 3.
     fn at(x: i64) -> Point {
         Point {
             x: x * UNITS + UNITS / 2,
@@ -128,11 +129,11 @@ mod tests {
     fn a_plane_is_open_only_where_an_edge_may_lie() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
         let over = |values| Distance::over(corners, values, [UNITS, UNITS / 16], 1e-5);
-        // Between columns 5 and 6, half a texel from either centre.
+        // Zero between columns 5 and 6, half a texel from both centres.
         let between = over([-6.0, 10.0, -6.0]);
         assert_eq!(between.keeps(at(5)), Possible::Never);
         assert_eq!(between.keeps(at(6)), Possible::Always);
-        // Through the centres of column 6.
+        // Zero at the centres of column 6.
         let through = over([-6.5, 9.5, -6.5]);
         assert_eq!(through.keeps(at(6)), Possible::Maybe);
         assert_eq!(

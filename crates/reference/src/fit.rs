@@ -1,8 +1,8 @@
-//! The step of a depth bias as a frame shows it. A text leaves the step open, but it is one step for all
-//! of an attachment, so a frame is legal if there is a step under which all of its samples are. The
-//! range of steps is searched by halving: the legal set of a part of the range holds every frame of
-//! every step in it, so a part whose set refuses the frame is refused whole, and a frame is refused
-//! only if all parts are.
+//! The step of a depth bias that a frame shows. The specification leaves the step open, but all of an
+//! attachment has the same one. A frame is therefore legal only if all its samples are legal under one step.
+//! The search halves the range of steps: the legal set of a part of the range contains every frame of every
+//! step in it, so a part whose set refuses the frame is refused as a whole, and the frame is refused only if
+//! all parts are.
 
 use crate::legal_sets::{Judgement, Sets, set_by};
 use crate::read_back::depth_encoding;
@@ -12,10 +12,10 @@ use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// The relative width of a part that is not halved again: what single results may be off by anyway.
+/// The relative width at which a part is not halved further: single results can be off by this much anyway.
 const NARROW: f64 = 2e-5;
 
-/// The most legal sets of one search. A search that ends early refuses nothing.
+/// The maximum number of legal sets per search. A search that ends early refuses nothing.
 const MOST_SETS: u32 = 160;
 
 /// Rules with the step of depth bias that a frame shows, and the legal set under it.
@@ -28,11 +28,11 @@ pub struct Fitted {
 }
 
 impl Judgement {
-    /// Returns the judgement under the step of depth bias that a frame of the scene shows; this one if
-    /// its scene leaves no step open.
+    /// Returns the judgement under the depth bias step that a frame of the scene shows; this judgement if its
+    /// scene leaves no step open.
     ///
     /// # Errors
-    /// If the frame is not one of the scene.
+    /// If the frame does not fit the scene.
     pub fn fitted(
         &self,
         scene: &Scene,
@@ -54,11 +54,11 @@ impl Judgement {
     }
 }
 
-/// Returns the rules and the legal set under the step of depth bias that a frame of a scene shows; `None`
-/// if the scene leaves no step open, or the set that leaves it open refuses the frame.
+/// Returns the rules and the legal set under the depth bias step that a frame of a scene shows; `None` if the
+/// scene leaves no step open, or if the set with an open step refuses the frame.
 ///
 /// # Errors
-/// If the frame is not one of the scene.
+/// If the frame does not fit the scene.
 pub fn fit(
     scene: &Scene,
     limits: &Limits,
@@ -71,14 +71,14 @@ pub fn fit(
         return Ok(None);
     };
     let is_fixed = matches!(encoding, ChannelEncoding::Unorm(_));
-    // The last is tried first.
+    // The last part is tried first.
     let mut parts: Vec<_> = rules.depth_bias_unit.value().readings(encoding).to_vec();
     parts.reverse();
     if (!is_fixed && parts.len() < 2) || wrong(legal, frame)? > 0 {
         return Ok(None);
     }
     if is_fixed {
-        // Before the whole range the usual steps, 2^-n and twice that.
+        // Tries the usual steps 2^-n and 2^(1-n) before the whole range.
         let usual = [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
         let whole = parts.clone();
         let is_legal = |u: &(f64, f64)| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
@@ -112,8 +112,8 @@ pub fn fit(
     Ok(best.map(|(_, fitted)| fitted))
 }
 
-/// Returns the encoding of the depth attachment that constant biases act on; `None` if there is none,
-/// or several, whose steps need not be the same.
+/// Returns the encoding of the depth attachment that constant biases act on; `None` if there is no such
+/// attachment, or several, whose steps can differ.
 fn biased_encoding(scene: &Scene, limits: &Limits) -> Option<ChannelEncoding> {
     let biased = scene.passes.iter().filter(|pass| {
         let mut draws = pass.draws.iter();
@@ -135,7 +135,7 @@ fn wrong(legal: &LegalSet, frame: &Frame) -> Result<u64, FrameError> {
     compare(frame, legal, legal, 0).map(|found| found.texels.wrong)
 }
 
-/// Returns the middle of a range of steps; of a wide one that of its logarithms.
+/// Returns the middle of a range of steps; of a wide range, the geometric one.
 fn middle((low, high): (f64, f64)) -> f64 {
     if high > low * 4.0 {
         (low * high).sqrt()

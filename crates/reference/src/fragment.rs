@@ -21,7 +21,7 @@ use etalon_pipeline::{
 use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilOperation};
 use smallvec::SmallVec;
 
-/// A fragment whose tests come before its shader.
+/// A fragment that is tested before its shader runs.
 struct Shaded<'a> {
     front: bool,
     /// True if the sample mask or the sample coverage removes the sample.
@@ -32,7 +32,7 @@ struct Shaded<'a> {
 }
 
 impl Walk<'_> {
-    /// One fragment at this sample: culling, shading, tests, blending, stores.
+    /// Takes one fragment at this sample through culling, shading, tests, blending and stores.
     pub(crate) fn fragment(
         &self,
         place: Place<'_>,
@@ -80,8 +80,8 @@ impl Walk<'_> {
         }
     }
 
-    /// The fragment of a primitive that is not culled, facing front or back, and the sample mask that its shader
-    /// reads; `drawn` is false if sample coverage removes the sample.
+    /// Shades the fragment of a primitive that is not culled, facing front or back, with the sample mask that
+    /// its shader reads; `drawn` is false if sample coverage removes the sample.
     fn shade(
         &self,
         place: Place<'_>,
@@ -110,7 +110,7 @@ impl Walk<'_> {
                 coverage: Possible::Never,
             }
         };
-        // A masked sample asks for no run of the shader.
+        // A masked sample requires no run of the shader.
         let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let shaded = Shaded {
@@ -125,9 +125,9 @@ impl Walk<'_> {
             if masked || !writes || self.rules.early_ignores_written.value() {
                 return;
             }
-            // The shader may have come first after all.
+            // The shader may nevertheless have run first.
         }
-        // A fragment that contributes nothing asks for a run only where the rules say so.
+        // A fragment that contributes nothing requires a run only if the rules say so.
         let asks = !masked && self.counts_runs(place) && self.rules.runs_for_discarded.value();
         let survives = covered.survives();
         if !survives.must() {
@@ -157,7 +157,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The tests of a fragment that come before its shader, and what follows them.
+    /// Performs the tests that precede a fragment's shader, and what follows them.
     fn test_early(
         &self,
         place: Place<'_>,
@@ -184,7 +184,7 @@ impl Walk<'_> {
             }
             return;
         }
-        // The order of the sample mask against counting is open; against the tests, the rules tell.
+        // The order of the sample mask and counting is open; its order relative to the tests is in the rules.
         let mask_acts_first = self.rules.mask_acts_first.value();
         let mut silent = Notes(None);
         let noted = if mask_acts_first {
@@ -225,12 +225,12 @@ impl Walk<'_> {
                 .primitive
                 .depth_seen(place.point, self.units, self.samples_shaded(place));
         if draw.depth_clamp {
-            // Whether the shader sees the depth before or after it is clamped is not told.
+            // It is unspecified whether the shader sees the depth before or after clamping.
             let [near, far] = draw.viewport.depth.map(f64::from);
             let held = depth.float.clamp(near.min(far), near.max(far));
             depth = Range::same(depth.float.hull(held));
         }
-        // What a computed coordinate meets is not followed.
+        // Sampling at a computed coordinate is not modelled, so it can return anything.
         let tap = |_: [Range; 2]| match draw.textures.first() {
             Some(index) => self.anything(*index),
             None => [Range::exact(0.0); 4],
@@ -292,7 +292,7 @@ impl Walk<'_> {
         output
     }
 
-    /// True if a fragment that passes its tests changes an attachment.
+    /// Returns true if a fragment that passes its tests changes an attachment.
     fn contributes(&self, place: Place<'_>) -> bool {
         let pass = &self.scene.passes[place.pass];
         let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
@@ -300,15 +300,15 @@ impl Walk<'_> {
         depth || targets.any(|(_, target)| target.write_mask != 0)
     }
 
-    /// True if a draw counts the runs of its shader.
+    /// Returns true if a draw counts the runs of its shader.
     fn counts_runs(&self, place: Place<'_>) -> bool {
         let kind = |counter: &usize| self.scene.counters[*counter].kind;
         let mut counters = place.draw.counters.iter();
         counters.any(|counter| kind(counter) == CounterKind::ShaderRuns)
     }
 
-    /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
-    /// may take away the need of earlier ones, theirs are certain no longer.
+    /// Adds a run of the shader for a fragment; `certain` if the rules demand it. If a later fragment can
+    /// make earlier ones unnecessary, their runs are no longer certain.
     fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
         if !self.counts_runs(place) {
             return;
@@ -368,7 +368,7 @@ impl Walk<'_> {
         }
         let coverage = self.sample_passes(place, alpha);
         if state.mask & (1 << sample) == 0 {
-            // Whether forced early tests come before the mask is for the rules to say.
+            // The rules decide whether forced early tests come before the mask.
             let forced = place.draw.early_tests == EarlyTests::Forced;
             let certain = !forced || self.rules.mask_acts_first.value();
             self.note_rejection(notes, place, Rejection::SampleMask, certain, || {
@@ -389,11 +389,11 @@ impl Walk<'_> {
         }
     }
 
-    /// A fragment that passed forced early tests: one that the shader then discards may still have
+    /// Continues a fragment that passed forced early tests. If the shader then discards it, it may still have
     /// changed depth and stencil and have been counted.
     #[expect(
         clippy::too_many_arguments,
-        reason = "a fragment with all that was found out about it"
+        reason = "a fragment with all results of its earlier stages"
     )]
     fn early_fragment(
         &self,
@@ -439,7 +439,7 @@ impl Walk<'_> {
         let of_lost = losses.map(|(kept, rule)| (!kept.must()).then(|| rule.value()));
         let allows = |updates: EarlyUpdates| of_lost.contains(&Some(updates));
         if allows(EarlyUpdates::Either) || allows(EarlyUpdates::Each) {
-            // As if the fragment had never been tested, but for what it counted.
+            // As if the fragment had never been tested, except for what it counted.
             let mut untouched = before.clone();
             untouched.events.clone_from(&passed.events);
             if allows(EarlyUpdates::Each) {
@@ -452,7 +452,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Adds to the draw's counters of some kinds.
+    /// Adds to the draw's counters of the given kinds.
     fn count(
         &self,
         place: Place<'_>,
@@ -471,8 +471,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Depth bounds, stencil and depth test: every way it can end, and whether the fragment passes.
-    /// The stencil value is updated; depth is not yet written.
+    /// Performs the depth bounds, stencil and depth tests: calls back with every possible end and whether the
+    /// fragment passes. The stencil value is updated; depth is not yet written.
     fn tests(
         &self,
         place: Place<'_>,
@@ -542,9 +542,9 @@ impl Walk<'_> {
         result
     }
 
-    /// Returns the depth that is tested and stored: clamped to the viewport's range if the draw clamps;
-    /// else the rules decide for a depth outside of the range. The clipped fixed-function depth alone
-    /// lies inside.
+    /// Returns the depth that is tested and stored. It is clamped to the viewport's range if the draw clamps;
+    /// otherwise the rules decide about a depth outside the range. Only a clipped fixed-function depth is
+    /// always inside.
     fn in_range(&self, place: Place<'_>, depth: Range, source: Source) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
@@ -557,7 +557,7 @@ impl Walk<'_> {
         let slack = self.rules.float_error.value() * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == Source::Written;
-        // A point beyond the near and far planes may be drawn.
+        // A point beyond the near or far plane can be drawn.
         let point = matches!(place.primitive.shape, Shape::Point(_));
         let exported = written || point || place.primitive.is_biased();
         let depth = if depth.float.may_be_nan() {
@@ -610,7 +610,8 @@ impl Walk<'_> {
         }
     }
 
-    /// True if the fragment has a shader, or goes on without one as it was rasterized.
+    /// Returns true if the fragment has a shader, or if the rules let it go on without one as it was
+    /// rasterized.
     fn goes_on(&self, place: Place<'_>) -> bool {
         place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
@@ -632,7 +633,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns whether the stored depth lies within the bounds (Vulkan, Depth Bounds Test).
+    /// Returns whether the stored depth is within the bounds (Vulkan, Depth Bounds Test).
     fn depth_bounds(
         &self,
         place: Place<'_>,
@@ -646,7 +647,7 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let exact = Interval::of_codes(encoding, stored);
         let stored = exact.hull(judging.decode(encoding, stored).hull());
-        // A bound may be compared as it is or as the attachment would hold it.
+        // A bound may be compared exactly or as the attachment would store it.
         let mut bound = |v: f32| {
             let v = judging.constant(v);
             let codes = judging.encode(encoding, v);
@@ -668,7 +669,7 @@ impl Walk<'_> {
         inside
     }
 
-    /// Notes a stencil test and the update from the first value to the second.
+    /// Notes a stencil test and the update of the stencil value.
     fn note_stencil(
         &self,
         place: Place<'_>,
@@ -772,8 +773,8 @@ impl Walk<'_> {
     }
 }
 
-/// The outcomes of shading for a sample: whether it can survive and whether it must, by the shader's
-/// discard, by its own sample mask, and by the draw's and alpha to coverage.
+/// The outcome of shading for a sample: whether the shader's discard, the shader's sample mask, and the
+/// draw's mask with alpha to coverage can keep it, and whether they must.
 #[derive(Clone, Copy, Debug)]
 struct Covered {
     kept: Possible,
@@ -809,9 +810,9 @@ impl StencilOutcome {
 /// The source of a depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
-    /// The fragment's own.
+    /// The fragment's interpolated depth.
     Own,
-    /// The shader wrote it.
+    /// The shader's output.
     Written,
 }
 
@@ -819,7 +820,7 @@ enum Source {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incoming {
     pub(crate) depth: Range,
-    /// The geometry it is of, where redraws of that geometry have the same depth.
+    /// The geometry that the depth belongs to, if redraws of that geometry have the same depth.
     pub(crate) origin: Option<u64>,
 }
 

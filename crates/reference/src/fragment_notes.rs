@@ -1,4 +1,4 @@
-//! Notes on fragments, and the contents of attachments as stories hold them.
+//! Notes on fragments, and the contents of attachments as stories show them.
 
 use crate::clause::clause;
 use crate::judging::Range;
@@ -38,7 +38,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Notes that a fragment ends by an operation, or may end.
+    /// Notes that an operation ends a fragment, or can end it.
     pub(crate) fn note_rejection(
         &self,
         notes: &mut Notes<'_>,
@@ -95,7 +95,8 @@ impl Walk<'_> {
         );
     }
 
-    /// Notes what a colour attachment holds behind a fragment: a colour that was stored, or kept by its mask.
+    /// Notes the contents of a colour attachment after a fragment: a stored colour, or the old one that its
+    /// write mask keeps.
     pub(crate) fn note_store(
         &self,
         place: Place<'_>,
@@ -134,7 +135,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Returns an aspect of an attachment by its name.
+    /// Returns an aspect of an attachment, by the attachment's name.
     pub(crate) fn target(&self, attachment: usize, aspect: Aspect) -> Target {
         Target {
             attachment: self.scene.attachments[attachment].name.clone(),
@@ -171,7 +172,7 @@ impl Walk<'_> {
             .collect()
     }
 
-    /// True if an attachment has the size and the samples of a sample's attachments.
+    /// Returns true if an attachment has the size and sample count of a sample's attachments.
     pub(crate) fn has_shape(&self, attachment: usize, at: Sample) -> bool {
         let attachment = &self.scene.attachments[attachment];
         (attachment.size, attachment.samples) == (at.size, at.samples)

@@ -1,4 +1,4 @@
-//! The sample masks that a fragment shader may read.
+//! The sample masks that a fragment shader can read.
 
 use crate::interval::Interval;
 use crate::judging::Range;
@@ -10,12 +10,12 @@ use crate::walk::{Place, Walk};
 use etalon_scene::{Draw, EarlyTests};
 use smallvec::{SmallVec, smallvec};
 
-/// A sample mask of which some bits may be open.
+/// A sample mask with bits that can be open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct InputBits {
     /// The bits that are set.
     pub(crate) set: u32,
-    /// The bits that may be set, those among them.
+    /// The bits that can be set, including those in `set`.
     pub(crate) possible: u32,
 }
 
@@ -42,7 +42,7 @@ impl InputBits {
 }
 
 impl Walk<'_> {
-    /// Returns the masks that the run which shades a covered sample may read; a single one if its shader
+    /// Returns the masks that the run that shades a covered sample can read; a single mask if its shader
     /// reads none.
     pub(crate) fn input_masks(&self, place: Place<'_>) -> SmallVec<[InputBits; 2]> {
         let (draw, samples) = (place.draw, place.at.samples);
@@ -71,10 +71,10 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns the samples of a fragment's texel that its primitive covers, its own among them.
+    /// Returns the samples of a fragment's texel that its primitive covers, including its own.
     fn covered_samples(&self, place: Place<'_>) -> InputBits {
         let pass = &self.scene.passes[place.pass];
-        // Whether tests that come first take bits away is open without post-depth coverage.
+        // Without post-depth coverage, it is open whether early tests clear bits.
         let forced = place.draw.early_tests == EarlyTests::Forced && pass.depth_stencil.is_some();
         let mut bits = InputBits::default();
         for sample in 0..place.at.samples {
@@ -90,7 +90,8 @@ impl Walk<'_> {
         bits
     }
 
-    /// Returns whether the draw's sample mask and sample coverage leave a sample in the mask that shaders read.
+    /// Returns whether the draw's sample mask and sample coverage keep a sample in the mask that shaders
+    /// read.
     fn mask_keeps(&self, draw: &Draw, sample: u32) -> Possible {
         let state = &draw.multisample;
         if state.mask & (1 << sample) == 0 {
@@ -100,8 +101,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns whether a fragment's primitive covers a sample of its texel. What is clipped may become several
-    /// primitives, and so may points and lines: each has a fragment of its own.
+    /// Returns whether a fragment's primitive covers a sample of its texel. Clipping can split a primitive,
+    /// and points and lines can be split too; each part then has a fragment of its own.
     fn covers(&self, place: Place<'_>, sample: u32) -> Possible {
         let at = Sample { sample, ..place.at };
         let point = self.sample_point(at);
@@ -121,7 +122,7 @@ impl Walk<'_> {
         Possible::of(true, must)
     }
 
-    /// True if nothing clips a fragment's primitive.
+    /// Returns true if nothing clips a fragment's primitive.
     fn is_whole(&self, place: Place<'_>) -> bool {
         let primitive = place.primitive;
         let depth = primitive.clip_depth.hull;

@@ -12,13 +12,13 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// All values, infinities and NaN among them.
+    /// All values, including infinities and NaN.
     pub const EVERYTHING: Self = Self {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
 
-    /// True if NaN may be among the values.
+    /// Returns true if the values can include NaN.
     pub fn may_be_nan(self) -> bool {
         self == Self::EVERYTHING
     }
@@ -39,7 +39,7 @@ impl Interval {
         }
     }
 
-    /// Returns the values of an interval of codes; all values if a code of NaN is among them.
+    /// Returns the values of an interval of codes; all values if the codes include a NaN.
     pub fn of_codes(encoding: ChannelEncoding, codes: CodeInterval) -> Self {
         let (low, high) = (
             encoding.value_of_order(codes.low),
@@ -51,17 +51,17 @@ impl Interval {
         Self { low, high }
     }
 
-    /// True if the interval is this one number.
+    /// Returns true if the interval is exactly this number.
     pub fn is(self, value: f64) -> bool {
         self.low == value && self.high == value
     }
 
-    /// True if the number lies inside.
+    /// Returns true if the number is inside.
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// Returns the smallest interval that holds both.
+    /// Returns the smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -77,8 +77,8 @@ impl Interval {
         }
     }
 
-    /// Applies a function that is monotone in each argument alone; its extremes lie at corners. A corner
-    /// that is NaN, as from an infinite end, makes the result all values.
+    /// Applies a function that is monotone in each argument alone, so that its extremes are at corners. If a
+    /// corner is NaN, as from an infinite end, the result is all values.
     pub fn corners(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let values = [
             f(self.low, other.low),
@@ -95,19 +95,19 @@ impl Interval {
         }
     }
 
-    /// Returns the sums.
+    /// Returns the interval of sums.
     #[inline]
     pub fn plus(self, other: Self) -> Self {
         Self::of_ends(self.low + other.low, self.high + other.high)
     }
 
-    /// Returns the differences.
+    /// Returns the interval of differences.
     #[inline]
     pub fn minus(self, other: Self) -> Self {
         Self::of_ends(self.low - other.high, self.high - other.low)
     }
 
-    /// Returns the products.
+    /// Returns the interval of products.
     #[inline]
     pub fn times(self, other: Self) -> Self {
         if self.low >= 0.0 && other.low >= 0.0 {
@@ -116,7 +116,7 @@ impl Interval {
         self.corners(other, |a, b| a * b)
     }
 
-    /// Returns the interval of two ends, of which NaN makes it all values.
+    /// Returns the interval between two ends; all values if one of them is NaN.
     #[inline]
     fn of_ends(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
@@ -125,7 +125,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Widens each end by a share of its magnitude; zero and infinities stay what they are.
+    /// Widens each end by a share of its magnitude; zero and infinities stay unchanged.
     pub fn widen_relative(self, share: f64) -> Self {
         Self {
             low: widened(self.low, -self.low.abs() * share),
@@ -133,7 +133,7 @@ impl Interval {
         }
     }
 
-    /// Widens each end by an amount; infinities stay what they are.
+    /// Widens each end by an amount; infinities stay unchanged.
     pub fn widen(self, amount: f64) -> Self {
         Self {
             low: widened(self.low, -amount),
@@ -141,8 +141,8 @@ impl Interval {
         }
     }
 
-    /// Returns the results of a step that may be computed in 32-bit floats: an end beyond the greatest of them may
-    /// be infinite.
+    /// Returns the results of a step that may be computed in 32-bit floats: an end beyond the greatest finite
+    /// float can be infinite.
     pub fn may_overflow(self) -> Self {
         let greatest = f64::from(f32::MAX);
         Self {
@@ -159,12 +159,12 @@ impl Interval {
         }
     }
 
-    /// Restricts both ends to another interval.
+    /// Clamps both ends to another interval.
     pub fn clamp_to(self, other: Self) -> Self {
         self.clamp(other.low, other.high)
     }
 
-    /// Restricts both ends to a range.
+    /// Clamps both ends to a range.
     pub fn clamp(self, low: f64, high: f64) -> Self {
         self.map_increasing(|v| v.clamp(low, high))
     }
@@ -179,7 +179,7 @@ impl From<Interval> for ValueRange {
     }
 }
 
-/// Returns an end with an amount added, unless it is infinite.
+/// Returns an end plus an amount; infinite ends stay unchanged.
 fn widened(end: f64, amount: f64) -> f64 {
     if end.is_infinite() { end } else { end + amount }
 }

@@ -1,4 +1,4 @@
-//! The judging number system: intervals that hold every value the rules allow.
+//! The number system of judging: intervals that contain every value the rules allow.
 
 use crate::interval::Interval;
 use crate::rules::{
@@ -8,19 +8,19 @@ use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
 
-/// The values that permitted ways of computing arrive at.
+/// The values that the permitted ways of computing can reach.
 ///
-/// A blend may be computed in floating-point throughout, or with every result rounded to a
-/// neighbouring code of the destination, or to a neighbouring binary fraction with as many bits. The
-/// three are carried side by side: joined early, the error of one would be added to the rounding of
-/// another, and the set would be wider than any reading of the text.
+/// A blend may be computed in floating-point throughout, or with every result rounded to a neighbouring code
+/// of the destination, or to a neighbouring binary fraction with as many bits. The three are kept separate: if
+/// they were joined early, the error of one would be added to the rounding of another, and the set would be
+/// wider than any reading of the specification.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// In floating-point, of the least precision that is permitted or any above.
+    /// Results in floating-point of at least the minimum precision.
     pub float: Interval,
-    /// Rounded to destination codes at every step.
+    /// Results that are rounded to destination codes at every step.
     pub codes: Interval,
-    /// Rounded to binary fractions at every step.
+    /// Results that are rounded to binary fractions at every step.
     pub fixed: Interval,
 }
 
@@ -91,15 +91,15 @@ enum Grid {
 pub struct Judging<'r> {
     /// The rules.
     pub rules: &'r Rules,
-    /// True if blends are advanced, which may be done at the precision of 16-bit floats.
+    /// True if blends are advanced and may be computed with the precision of 16-bit floats.
     advanced: bool,
-    /// True if what is blended into signed formats is clamped to -1 to 1, false if to 0 to 1; without it the rules
-    /// say, or it is either.
+    /// True if operands of blends into signed formats are clamped to -1 to 1, false if to 0 to 1. If `None`,
+    /// the rules decide, or both are possible.
     pub(crate) signed_operands: Option<bool>,
 }
 
-/// A code position that is an integer but for the rounding of 64-bit floats counts as one. No 32-bit
-/// float times 255 comes this near to an integer without being it (the least distance is 2^-31).
+/// A code position this near to an integer counts as the integer, because of the rounding of 64-bit floats.
+/// No 32-bit float times 255 comes this near to an integer unless it is one (the least distance is 2^-31).
 const INTEGER_SLACK: f64 = 1e-10;
 
 impl<'r> Judging<'r> {
@@ -112,7 +112,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Returns arithmetic under these rules whose blends are advanced.
+    /// Returns arithmetic under these rules for advanced blends.
     pub fn of_advanced_blends(rules: &'r Rules) -> Self {
         Self {
             rules,
@@ -125,8 +125,8 @@ impl<'r> Judging<'r> {
         self.rules.float_error.value()
     }
 
-    /// Returns the results that a shader may compute for an exact one. Values beyond 32-bit floats are
-    /// infinite or NaN, and subnormal ones may be zero.
+    /// Returns the results that a shader may compute for an exact result. Values beyond 32-bit floats are
+    /// infinite or NaN, and subnormal ones may be flushed to zero.
     fn computed(&self, value: Interval) -> Interval {
         let most = f64::from(f32::MAX);
         if value.low < -most || value.high > most {
@@ -151,9 +151,9 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Returns the results of a shader's binary logarithm: within 3 units in the last place, between
-    /// a half and 2 an absolute error of 2^-21 (Vulkan, Precision of GLSL.std.450 Instructions; WGSL,
-    /// 15.7.4), or within a shader's precision if that is more.
+    /// Returns the results of a shader's binary logarithm: within 3 units in the last place, or within an
+    /// absolute error of 2^-21 between a half and 2 (Vulkan, Precision of GLSL.std.450 Instructions; WGSL,
+    /// 15.7.4), or within a shader's general precision if that is coarser.
     fn logarithm(&self, value: Interval) -> Interval {
         if value.low <= 0.0 || value.may_be_nan() {
             return Interval::EVERYTHING;
@@ -164,14 +164,15 @@ impl<'r> Judging<'r> {
     }
 
     /// Returns the results of a shader's power of two: within 3 + 2 |x| units in the last place (Vulkan,
-    /// Precision of GLSL.std.450 Instructions; WGSL, 15.7.4), or within a shader's precision if that is more.
+    /// Precision of GLSL.std.450 Instructions; WGSL, 15.7.4), or within a shader's general precision if that
+    /// is coarser.
     fn power_of_two(&self, value: Interval) -> Interval {
         if value.may_be_nan() {
             return value;
         }
         let largest = value.low.abs().max(value.high.abs());
         let units = 3.0 + 2.0 * largest;
-        // The last place of subnormal numbers is as far as that of the least normal one.
+        // Subnormal numbers have the same unit in the last place as the least normal one.
         let least = f64::from(f32::EPSILON) * f64::from(f32::MIN_POSITIVE);
         let wide = value
             .map_increasing(f64::exp2)
@@ -183,13 +184,14 @@ impl<'r> Judging<'r> {
         })
     }
 
-    /// Returns the results of a shader's square root, which may be one over the inverse square root, within 2
-    /// and 2.5 units in the last place (Vulkan, Precision of GLSL.std.450 Instructions; WGSL, 15.7.4).
+    /// Returns the results of a shader's square root. It may be computed as one over the inverse square root,
+    /// with errors of 2 and 2.5 units in the last place (Vulkan, Precision of GLSL.std.450 Instructions;
+    /// WGSL, 15.7.4).
     fn root(&self, value: Interval) -> Interval {
         if value.low < 0.0 || value.may_be_nan() {
             return Interval::EVERYTHING;
         }
-        // A subnormal number may count as 0.
+        // A subnormal number may be flushed to 0.
         let counted = |v: f64| {
             if v < f64::from(f32::MIN_POSITIVE) {
                 0.0
@@ -205,7 +207,7 @@ impl<'r> Judging<'r> {
         self.computed(exact.widen_relative(units))
     }
 
-    /// True if blending may be as coarse as the destination.
+    /// Returns true if blending may have only the destination's precision.
     fn is_coarse(&self) -> bool {
         let precision = if self.advanced {
             &self.rules.advanced_blend
@@ -215,15 +217,15 @@ impl<'r> Judging<'r> {
         precision.value() == BlendPrecision::DestinationCodes
     }
 
-    /// Widens an operand or an exact result, whose computed values lie in `computed`, by the rounding of the
-    /// shortest significand that has the destination's precision.
+    /// Widens an operand or an exact result, whose computed values are in `computed`, by the rounding to the
+    /// shortest significand with the destination's precision.
     fn float_outward(
         &self,
         encoding: ChannelEncoding,
         exact: Interval,
         computed: Interval,
     ) -> Interval {
-        // Every step of floats is rounded to codes instead.
+        // Every step of a blend into floats is rounded to codes instead.
         let Some(bits) = self.bits(encoding) else {
             return computed;
         };
@@ -259,7 +261,7 @@ impl<'r> Judging<'r> {
         self.float_outward(encoding, exact, exact.widen_relative(self.error()))
     }
 
-    /// Returns the results that one step of a blend may compute for an exact one.
+    /// Returns the results that one step of a blend may compute for an exact result.
     fn rounded_once(&self, encoding: ChannelEncoding, exact: Range) -> Range {
         Range {
             float: self.float_step(encoding, exact.float),
@@ -286,7 +288,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Returns one over a value that is above 0 where it counts.
+    /// Returns one over a value; values not above 0 do not matter.
     fn inverse(&self, encoding: ChannelEncoding, value: Range) -> Range {
         let exact = value.map(|v| {
             let least = f64::from(f32::MIN_POSITIVE);
@@ -299,7 +301,7 @@ impl<'r> Judging<'r> {
         self.rounded_once(encoding, exact)
     }
 
-    /// Returns the results for a quotient: in one step, or as a product with the inverse.
+    /// Returns the results of a quotient, computed in one step or as a product with the inverse.
     fn divided(
         &self,
         encoding: ChannelEncoding,
@@ -327,7 +329,7 @@ impl<'r> Judging<'r> {
                 Grid::Codes => to_codes(encoding, value),
                 Grid::Fixed => to_steps(self.steps(encoding), value),
             },
-            // The codes of sRGB are spaced in the encoded value.
+            // The codes of sRGB are evenly spaced in the encoded value.
             ChannelEncoding::Srgb8 => {
                 let position = |v: f64| encoding.position(v).unwrap_or(0.0);
                 let linear = |code: f64| srgb_to_linear((code / 255.0).clamp(0.0, 1.0));
@@ -341,7 +343,7 @@ impl<'r> Judging<'r> {
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
                 let low = encoding.value_of_order(encoding.order_below(value.low));
                 let high = encoding.value_of_order(encoding.order_above(value.high));
-                // A format without a sign may be computed without one.
+                // Blending into a format without a sign may be computed without one.
                 Interval {
                     low: low.min(value.low),
                     high: high.max(value.high),
@@ -351,7 +353,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Clamps what is blended into a normalized format.
+    /// Clamps an operand of a blend into a normalized format.
     fn blend_clamp(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         let Some((low, high)) = encoding.normalized_range() else {
             return value;
@@ -385,8 +387,9 @@ impl<'r> Judging<'r> {
             encoding.position(held)
         };
         if let (Some(low), Some(high)) = (position(value.low), position(value.high)) {
-            // The code before rounding, f * (2^b - 1), is itself computed. Ends of the range are exact by
-            // the text, and what was rounded to codes before is no result of floating-point.
+            // The code before rounding, f * (2^b - 1), is itself computed. The specification makes the ends
+            // of the range exact, and a value that was already rounded to codes is not a floating-point
+            // result.
             let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
             let error = if is_computed { self.error() } else { 0.0 };
             let off = |at: f64| {
@@ -429,7 +432,7 @@ impl<'r> Judging<'r> {
             v if v > limit => encoding.max_order(),
             v => encoding.order_below(v),
         };
-        // Past the largest value, that or infinity.
+        // Past the largest value, it or infinity is stored.
         let high = match value.high {
             v if v > limit => encoding.max_order() + 1,
             v => encoding.order_above(v),
@@ -439,7 +442,7 @@ impl<'r> Judging<'r> {
         } else {
             low
         };
-        // Where the rules say so, values below the normal ones may be flushed to zero.
+        // If the rules permit it, values below the normal ones may be flushed to zero.
         let normal = match encoding {
             ChannelEncoding::Ufloat(mantissa) => 1 << mantissa,
             _ => 1 << 10,
@@ -470,13 +473,13 @@ fn to_steps(steps: f64, value: Interval) -> Interval {
     }
 }
 
-/// Units in the last place that a square root may be off by: it may be one over an inverse root.
+/// The maximum error of a square root in units in the last place: it may be one over an inverse root.
 const ROOT_UNITS: f64 = 5.0;
 
-/// The bits of a 16-bit float's significand, the hidden one among them.
+/// The number of bits in a 16-bit float's significand, including the hidden one.
 const HALF_SIGNIFICAND: u32 = 11;
 
-/// Widens to floats on either side whose significands have so many bits.
+/// Widens to the nearest floats on either side with `bits` significand bits.
 fn to_significand(bits: u32, value: Interval) -> Interval {
     let unit = 1_u64 << (f64::MANTISSA_DIGITS - bits);
     let towards_zero = |v: f64| f64::from_bits(v.to_bits() & !(unit - 1));
@@ -502,7 +505,7 @@ fn to_significand(bits: u32, value: Interval) -> Interval {
     }
 }
 
-/// Widens to 16-bit floats on either side, of which the subnormal ones may be missing.
+/// Widens to the nearest 16-bit floats on either side; subnormal ones may be missing.
 fn to_half(value: Interval) -> Interval {
     let half = ChannelEncoding::Float16;
     let normal = 1 << 10;
@@ -519,7 +522,7 @@ fn to_half(value: Interval) -> Interval {
     }
 }
 
-/// Returns the order of the largest float without a sign not above a value: finite for a finite one.
+/// Returns the order of the largest unsigned float that is not above a value: finite for a finite one.
 fn towards_zero(encoding: ChannelEncoding, value: f64) -> i64 {
     let most = encoding.max_order();
     if value == f64::INFINITY {
@@ -533,7 +536,7 @@ fn towards_zero(encoding: ChannelEncoding, value: f64) -> i64 {
     }
 }
 
-/// Returns the order of the nearest float without a sign, of two the larger one: finite for a finite value.
+/// Returns the order of the nearest unsigned float, the larger one of a tie: finite for a finite value.
 fn nearest(encoding: ChannelEncoding, value: f64) -> i64 {
     let below = towards_zero(encoding, value);
     if below >= encoding.max_order() || value <= 0.0 {
@@ -547,7 +550,7 @@ fn nearest(encoding: ChannelEncoding, value: f64) -> i64 {
     }
 }
 
-/// Returns all codes of a float encoding, those of infinities and NaN too.
+/// Returns all codes of a float encoding, including infinities and NaN.
 pub(crate) fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
     match encoding {
         ChannelEncoding::Ufloat(mantissa) => CodeInterval::new(0, (32 << mantissa) - 1),
@@ -647,16 +650,15 @@ impl Arithmetic for Judging<'_> {
         a.high < b.low && !a.may_be_nan() && !b.may_be_nan()
     }
 
-    /// The terms of the transform are as large as the axis, and so is what their error is relative
-    /// to.
+    /// The terms of the transform are as large as the axis, and the error is relative to that.
     fn window_coordinate(&mut self, value: Range, length: f32) -> Range {
         let largest = value.float.low.abs().max(value.float.high.abs());
         let scale = largest.max(f64::from(length));
         Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
-    /// The terms are as large as the viewport's depths; if the near one is 0 there is one term only, or the middle of
-    /// the range.
+    /// The terms are as large as the viewport's depths. If the near depth is 0, the form with the near plane
+    /// has only one term.
     fn window_depth(&mut self, value: Range, range: [f32; 2]) -> Range {
         let error = self.error();
         let largest = f64::from(range[0].max(range[1]));
@@ -685,7 +687,8 @@ impl Arithmetic for Judging<'_> {
                     ..Range::same(value)
                 }
             }
-            // Within half a code of the encoded value (Direct3D 11.3, 3.2.3.7); no text is tighter.
+            // Within half a code of the encoded value (Direct3D 11.3, 3.2.3.7); no other specification is
+            // tighter.
             ChannelEncoding::Srgb8 => {
                 let linear = |code: f64| srgb_to_linear(code / 255.0);
                 let ends = |order: i64, by: f64| match order {
@@ -751,7 +754,7 @@ impl Arithmetic for Judging<'_> {
         })
     }
 
-    /// No text says whether a factor of zero is multiplied or leaves its side out.
+    /// No specification says whether a factor of zero is multiplied or its side is left out.
     fn blend_zero(&mut self, operand: Range) -> Range {
         operand.map(|v| {
             if v.low.is_finite() && v.high.is_finite() {
@@ -787,8 +790,8 @@ impl Arithmetic for Judging<'_> {
         let float = if a.float.is(0.0) || b.float.is(0.0) {
             sum.float
         } else {
-            // The error is relative to the sides, of which the sum may be a small difference. That of an infinite
-            // side is none.
+            // The error is relative to the sides: their sum can be a small difference. An infinite side adds
+            // no error.
             let greatest = f64::from(f32::MAX);
             let largest = [a.float.low, a.float.high, b.float.low, b.float.high]
                 .into_iter()
@@ -810,9 +813,9 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// An exact 0 and a divisor of 1 leave the quotient exact. A colour that is not 0 where alpha may be
-    /// is undefined (OpenGL ES 3.2, 15.1.5.3: ill-formed). At the precision of a normalized destination,
-    /// quotients above 1 may be beyond its range.
+    /// An exact 0 and a divisor of 1 leave the quotient exact. A nonzero colour with a possibly zero alpha is
+    /// undefined (OpenGL ES 3.2, 15.1.5.3: ill-formed). At the precision of a normalized destination,
+    /// quotients above 1 can be beyond its range.
     fn blend_quotient(&mut self, encoding: ChannelEncoding, color: Range, alpha: Range) -> Range {
         let exact = color.zip(alpha, |c, a| match (c.is(0.0), a.contains(0.0)) {
             (true, _) => c,
@@ -830,7 +833,7 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// Where a divisor may be 0, only what is above counts: 0 itself is not divided by.
+    /// If the divisor can be 0, only its positive values count: no blend divides by 0.
     fn blend_ratio(&mut self, encoding: ChannelEncoding, a: Range, b: Range) -> Range {
         let exact = a.zip(b, |a, b| {
             if a.may_be_nan() || b.may_be_nan() {
@@ -862,7 +865,7 @@ impl Arithmetic for Judging<'_> {
             ChannelEncoding::Float16 | ChannelEncoding::Float32
         ) && self.is_coarse()
         {
-            // Within the units that a shader's root has, of 16-bit floats.
+            // The error of a shader's root, in units of 16-bit floats.
             let half = ROOT_UNITS * 2_f64.powi(1 - HALF_SIGNIFICAND as i32);
             let wide = exact.map(|v| v.widen_relative(half));
             return Range {
@@ -876,7 +879,7 @@ impl Arithmetic for Judging<'_> {
             .zip(self.rounded_once(encoding, product), Interval::hull)
     }
 
-    /// Each way of computing decides for itself.
+    /// Each way of computing decides separately.
     fn blend_select(&mut self, a: Range, b: Range, at_most: Range, otherwise: Range) -> Range {
         let one = |[a, b, at_most, otherwise]: [Interval; 4]| {
             let unknown = a.may_be_nan() || b.may_be_nan();
@@ -894,7 +897,7 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// Exact for exact codes; the hull of all outcomes for a few codes; anything otherwise.
+    /// Exact for exact codes; the hull of all outcomes for a few codes; otherwise anything.
     fn logic(
         &mut self,
         encoding: ChannelEncoding,
@@ -936,7 +939,7 @@ mod tests {
         assert_eq!(a.encode(e, back), CodeInterval::new(99, 101));
     }
 
-    /// 254/255 is between two 16-bit floats, and 1 less the lower one is an eighth more than 1 less 254/255.
+    /// 254/255 is between two 16-bit floats, and 1 minus the lower one exceeds 1 minus 254/255 by an eighth.
     #[test]
     fn a_blend_in_16_bit_floats_is_legal_although_they_lack_the_codes() {
         let rules = Rules::of(&crate::test_limits::limits(Api::Vulkan));

@@ -1,17 +1,17 @@
-//! Legal sets that are known already. Most scenes touch few permissions, and the texts and the yardstick agree on
-//! most of these, so that one set often serves several rules.
+//! A cache of legal sets. Most scenes depend on few permissions, and the specification and the yardstick
+//! agree on most of these, so that one set often serves several rules.
 
 use crate::rules::{AskedValues, Rules};
 use etalon_frame::LegalSet;
 use std::sync::Arc;
 
-/// The legal sets of one scene under equal limits, each with the permissions that it was computed by.
+/// The legal sets of one scene under equal limits, each with the permissions that its computation asked for.
 #[derive(Debug, Default)]
 pub struct KnownSets(Vec<(AskedValues, Arc<LegalSet>)>);
 
 impl KnownSets {
-    /// Returns the set of some rules: one that is known by the values that were asked for, or the one that
-    /// `compute` gives, which is known from then on.
+    /// Returns the set of some rules: a cached one if the rules have the same values for all permissions it
+    /// asked for; otherwise the result of `compute`, which is then cached.
     pub fn get(
         &mut self,
         rules: &Rules,
@@ -21,7 +21,7 @@ impl KnownSets {
         if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
-        // A clone has not been asked for anything yet.
+        // A clone starts without recorded permissions, so it records those of this computation alone.
         let rules = rules.clone();
         let set = Arc::new(compute(&rules));
         self.0.push((rules.asked(), Arc::clone(&set)));

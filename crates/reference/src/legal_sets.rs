@@ -1,4 +1,4 @@
-//! Legal sets and stories: whole pictures in both bands, or one sample.
+//! Legal sets and stories: both bands of whole pictures, or one sample.
 
 use crate::counting::Tally;
 use crate::known_sets::KnownSets;
@@ -21,34 +21,34 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Both bands of one scene for one possible set of limits.
+/// Both bands of one scene for one possible encoding of each depth format.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// The limits that were assumed: every depth format has one encoding.
+    /// The assumed limits: every depth format has one encoding.
     pub limits: Limits,
-    /// The values that the API's text allows.
+    /// The values that the API's specification allows.
     pub legal: Arc<LegalSet>,
     /// The values within the yardstick.
     pub yardstick: Arc<LegalSet>,
-    /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
-    /// others nothing is asserted.
+    /// The number of judged samples of all images of one size, summed over sizes and sample counts. Nothing
+    /// is asserted about other samples.
     pub looked_at: u64,
-    /// The rules of the legal set, with what was assumed of them.
+    /// The rules of the legal set, with the assumptions about them.
     pub rules: Rules,
 }
 
-/// Returns both bands of a scene, once per depth encoding that the adapter may have.
+/// Returns both bands of a scene, once per depth encoding that the adapter can have.
 pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
     judgements_of(scene, limits, Texels::All)
 }
 
-/// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
-/// texels: unless all are judged, nothing is asserted of counters either.
+/// Returns [`judgements`] of some texels; nothing is asserted about others. Counters are sums over all
+/// texels: unless all are judged, nothing is asserted about counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
     judgements_by(scene, limits, texels, &shared_sets(scene, texels))
 }
 
-/// Returns sets of some texels of a scene that share what they computed before.
+/// Returns the function that gives the sets of some texels of a scene, with a cache.
 pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
     let known: RefCell<FxHashMap<Limits, KnownSets>> = RefCell::default();
     move |limits, rules| {
@@ -60,9 +60,9 @@ pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) ->
     }
 }
 
-/// Gives the legal set of some texels of a scene for limits and rules: [`legal_set_of_texels`]'s of these, or of equal
-/// limits and rules whose values are the same as far as they were asked for. The limits are those that
-/// sets depend on, without all others.
+/// Gives the legal set of some texels of a scene for limits and rules: the result of [`legal_set_of_texels`]
+/// for these, or for equal limits and rules with the same values for all permissions that were asked for. The
+/// limits contain only what sets depend on.
 pub type Sets<'a> = dyn Fn(&Limits, &Rules) -> Arc<LegalSet> + 'a;
 
 /// Returns the legal set of a scene for limits under which every depth format has one encoding.
@@ -70,7 +70,7 @@ pub fn set_by(scene: &Scene, limits: &Limits, rules: &Rules, sets: &Sets<'_>) ->
     as_read(sets(&basis(scene, limits), rules), scene, limits, rules)
 }
 
-/// Returns [`judgements_of`] with sets that `sets` gives.
+/// Returns [`judgements_of`] with sets from `sets`.
 pub fn judgements_by(
     scene: &Scene,
     limits: &Limits,
@@ -100,8 +100,7 @@ pub fn judgements_by(
         .collect()
 }
 
-/// Returns the limits that the legal sets of a scene depend on; the others have the same values for all
-/// adapters.
+/// Returns the limits that the legal sets of a scene depend on; the others are replaced by constants.
 fn basis(scene: &Scene, limits: &Limits) -> Limits {
     let formats = scene.formats().into_iter().filter_map(|format| {
         let support = limits.formats.get(&format)?;
@@ -109,7 +108,7 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
             samples: Vec::new(),
             blendable: false,
             depth: support.depth.clone(),
-            // How it is read comes after the walk.
+            // How it is read is applied after the walk.
             read: ReadPath::Copy,
         };
         Some((format, basis))
@@ -117,7 +116,7 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
     let counts = scene.attachments.iter().map(|a| a.samples);
     let positions = counts.filter_map(|n| Some((n, limits.sample_positions.get(&n)?.clone())));
     Limits {
-        // The rules tell what depends on these three.
+        // These three affect sets only through the rules.
         api: Api::Vulkan,
         version: ApiVersion::UNKNOWN,
         properties: BTreeSet::new(),
@@ -132,13 +131,13 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
     }
 }
 
-/// Returns the legal set of all attachments that the scene reads back. Of a depth format with several
-/// possible encodings the first is assumed; see [`judgements`].
+/// Returns the legal set of all attachments that the scene reads back. For a depth format with several
+/// possible encodings, the first is assumed; see [`judgements`].
 pub fn legal_set(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     legal_set_of_texels(scene, limits, rules, Texels::All)
 }
 
-/// Returns [`legal_set`]'s set of some texels; see [`judgements_of`].
+/// Returns the result of [`legal_set`] for some texels; see [`judgements_of`].
 pub fn legal_set_of_texels(
     scene: &Scene,
     limits: &Limits,
@@ -166,7 +165,7 @@ pub fn legal_set_of_texels(
     let pictures = walk.pictures.borrow();
     for group in 0..builder.groups() {
         let (size, samples) = builder.shape(group);
-        // Of each state, the number of its set.
+        // For each state, the number of its set.
         let mut sets: Vec<Option<u32>> = Vec::new();
         let mut open = None;
         let states = pictures.of_shape((size, samples));
@@ -211,7 +210,7 @@ pub fn legal_set_of_texels(
     builder.build()
 }
 
-/// Returns the shapes of passes that count.
+/// Returns the shapes of passes with counters.
 fn counted(scene: &Scene) -> BTreeSet<Shape> {
     let counts = scene
         .passes
@@ -222,9 +221,9 @@ fn counted(scene: &Scene) -> BTreeSet<Shape> {
         .collect()
 }
 
-/// Returns the story of one sample: the ruling, then every operation on it with its outcome and the citation of each
-/// permission that was used, and every draw and primitive that ends before it with its clause. With the frame that a
-/// driver returned, the ruling holds the values that came back.
+/// Returns the story of one sample: the ruling, then every operation on it with its outcome and the citation
+/// of each permission that was used, and every draw and primitive that ends before it with its clause. If the
+/// frame that a driver returned is given, the ruling includes its values.
 pub fn explain(
     scene: &Scene,
     limits: &Limits,
@@ -248,7 +247,7 @@ fn explained(
     at: Sample,
     frame: Option<&Frame>,
 ) -> (TexelSet, Ruling, Vec<Note>) {
-    // A sampler may read what was drawn to other texels.
+    // A sampler can read what was drawn to other texels.
     let samples = |draw: &Draw| draw.sampler.is_some();
     let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
     let texels = if later.any(samples) {

@@ -1,8 +1,8 @@
 //! The reference: the values that the specifications allow at every sample of a scene.
 //!
 //! [`legal_set()`] walks a scene sample by sample with the judging number system ([`Judging`]) and returns a
-//! [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] returns the story of one sample. A sample
-//! is followed through worlds, not one hull: a texel on an edge is covered or it is not, and no value in
+//! [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] returns the story of one sample. A sample is
+//! followed through worlds, not through one hull: a texel on an edge is covered or it is not, and no value in
 //! between is legal. The permissions are data in [`rules`], with their citations.
 
 mod bias;

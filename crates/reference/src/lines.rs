@@ -1,6 +1,6 @@
-//! Lines whose fragments are too few. Which texel of a column a fragment of a line lies in is open, so that a line that
-//! is missing breaks no texel's legal set; how many fragments there are is not open. A column has one if a texel of it
-//! may hold what the line leaves there.
+//! Lines with too few fragments. It is open in which texel of a column a line has its fragment, so a missing
+//! line violates no single texel's legal set. The number of fragments is not open, though. A column counts as
+//! having one if any of its texels can contain what the line leaves there.
 
 use crate::notes::Notes;
 use crate::primitive::{Edge, Shape, Side, SnappedPrimitive, line_times};
@@ -14,17 +14,17 @@ use etalon_pipeline::Point;
 use etalon_scene::{Draw, PolygonMode, PrimitiveTopology, Scene};
 use std::ops::Range;
 
-/// The most columns of lines of a scene that are looked at.
+/// The maximum number of columns of a scene's lines that are checked.
 const MOST_COLUMNS: usize = 4096;
 
-/// A line with fewer fragments than any algorithm may give it.
+/// A line with fewer fragments than any algorithm can give it.
 #[derive(Clone, Debug)]
 pub struct LineGap {
-    /// The pass, the draw and the primitive that the line is, or is an edge of.
+    /// The pass, the draw and the primitive that is the line, or has it as an edge.
     pub origin: [usize; 3],
-    /// The fewest fragments that are legal, and the most that the frame can hold.
+    /// The least legal number of fragments, and the greatest number that the frame can contain.
     pub fragments: [usize; 2],
-    /// A texel of each column without a fragment, as it must be if the line covers it.
+    /// A texel of each column without a fragment, with its values if the line covered it.
     pub wrong: Vec<WrongTexel>,
     /// The clause.
     pub citation: &'static str,
@@ -39,8 +39,8 @@ struct Line<'a> {
     ends: [SnapBox; 2],
 }
 
-/// Returns the first line of a scene that has too few fragments in a frame of the legal set's images; `None` if no line
-/// has.
+/// Returns the first line of a scene that has too few fragments in a frame of the legal set's images; `None`
+/// if every line has enough.
 pub fn line_gap(
     scene: &Scene,
     limits: &Limits,
@@ -95,13 +95,13 @@ pub fn line_gap(
     None
 }
 
-/// True if a draw's primitives are lines, or drawn as lines.
+/// Returns true if a draw's primitives are lines, or are drawn as lines.
 fn has_lines(draw: &Draw) -> bool {
     let lines = [PrimitiveTopology::LineList, PrimitiveTopology::LineStrip];
     lines.contains(&draw.topology) || draw.polygon_mode == PolygonMode::Line
 }
 
-/// Returns the lines of a primitive. Edges that are cut have no ends that are known.
+/// Returns the lines of a primitive. Cut edges are left out, since their ends are unknown.
 fn segments(primitive: &SnappedPrimitive) -> Vec<[SnapBox; 2]> {
     match &primitive.shape {
         Shape::Line(ends) => vec![*ends],
@@ -121,8 +121,9 @@ fn along(point: Point, axis: usize) -> i64 {
     if axis == 0 { point.x } else { point.y }
 }
 
-/// Returns the axis along which a line is longer, wherever its ends are snapped, and the columns, or rows, that it crosses
-/// from side to side: the diamond-exit rule gives each a fragment. `None` if the axis depends on the snapping.
+/// Returns the axis along which a line is longer, wherever its ends are snapped, and the columns (or rows)
+/// that it crosses from side to side: the diamond-exit rule gives each a fragment. `None` if the axis depends
+/// on the snapping.
 fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
     let inner = |axis: usize| {
         let (first, second) = if along(a.low, axis) <= along(b.low, axis) {
@@ -141,14 +142,14 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
         .into_iter()
         .find(|axis| least(*axis) > most(1 - axis))?;
     let (low, high) = inner(axis);
-    // At either side of its texel an end may lie in the next one's diamond.
+    // An end at a side of its texel can be in the next texel's diamond.
     let (first, end) = (low.div_euclid(units) + 1, -(-high).div_euclid(units) - 1);
     Some((axis, first..end.max(first)))
 }
 
 impl Walk<'_> {
-    /// Returns the number of columns in which a frame can hold a fragment of a line, those out of sight included, and a
-    /// texel of each column of `due` that has none; `None` if a part of the line may be clipped.
+    /// Returns the number of columns in which a frame can have a fragment of a line, including invisible
+    /// ones, and a texel of each column of `due` that has none; `None` if a part of the line may be clipped.
     fn fragments(
         &self,
         line: Line<'_>,
@@ -158,7 +159,8 @@ impl Walk<'_> {
     ) -> Option<(usize, Vec<WrongTexel>)> {
         let [a, b] = line.ends;
         let all = a.hull(b);
-        // A fragment is off by at most a texel, and an end on the side of a texel may count as the next one's.
+        // A fragment is off by at most a texel, and an end on the side of a texel can count as the next
+        // one's.
         let cells = |axis: usize| {
             let low = (along(all.low, axis) - 1).div_euclid(self.units);
             let high = along(all.high, axis).div_euclid(self.units);
@@ -208,7 +210,8 @@ impl Walk<'_> {
         Some((found, wrong))
     }
 
-    /// Returns a texel with its legal values if a line covers it; `None` if no fragment shows there.
+    /// Returns a texel with its legal values if a line covers it; `None` if no fragment would be visible
+    /// there.
     fn covered_by(&self, line: Line<'_>, texel: [i64; 2]) -> Option<(Sample, TexelSet)> {
         let pass = &self.scene.passes[line.pass];
         let size = self.scene.pass_size(pass);

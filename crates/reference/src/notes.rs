@@ -1,5 +1,5 @@
-//! The notes of a walk, of which the story of a sample is made. Each holds an event, and the contents that a store
-//! leaves.
+//! The notes of a walk, from which the story of a sample is made. Each has an event and, for a store, the new
+//! contents.
 
 use crate::world::Cell;
 use etalon_frame::{Effect, Event, Origin, Rejection, Step, Target};
@@ -8,7 +8,7 @@ use etalon_frame::{Effect, Event, Origin, Rejection, Step, Target};
 #[derive(Clone, Debug)]
 pub(crate) struct Note {
     pub(crate) event: Event,
-    /// The new contents of the attachment, of a store.
+    /// The new contents of the attachment, for a store.
     pub(crate) stored: Option<Cell>,
 }
 
@@ -34,7 +34,7 @@ impl Note {
     }
 }
 
-/// The notes, if a story is made; without one, they cost nothing.
+/// The notes, if a story is being made; otherwise they cost nothing.
 pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Vec<Note>>);
 
 impl Notes<'_> {
@@ -64,8 +64,8 @@ impl Notes<'_> {
     }
 }
 
-/// The primitives of a draw that do not come to a fragment at the sample, with the reason; without a
-/// reason, those that have notes of their own. Collected only if a story is made.
+/// The primitives of a draw without a fragment at the sample, each with the reason, or `None` if it has notes
+/// of its own. Collected only if a story is being made.
 pub(crate) struct Skipped(pub(crate) Option<Vec<(u32, Option<Rejection>)>>);
 
 impl Skipped {

@@ -1,7 +1,7 @@
 //! Load and store operations and clear commands of passes.
 //!
-//! A clear stores what the first clear of an attachment stores. What is discarded stays in the worlds: the
-//! walk goes on with it, and at the end everything that depends on it is opened.
+//! A clear stores the same as the initial clear of an attachment. Discarded contents stay in the worlds: the
+//! walk goes on with them, and at the end everything that depends on them is opened.
 
 use crate::judging::{Judging, all_codes};
 use crate::notes::{Note, Notes};
@@ -12,7 +12,7 @@ use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Origin, Step};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::ClearTarget;
 
-/// Returns every value that a channel can hold.
+/// Returns every value that a channel can have.
 fn everything(encoding: ChannelEncoding) -> CodeInterval {
     if encoding.is_float() {
         all_codes(encoding)

@@ -1,7 +1,7 @@
-//! Whole pictures. Every sample is in a *state*: the worlds that it may be in, shared by all samples that
-//! have the same. A draw takes a state and a signature to another state, which is computed once, for the
-//! first sample that needs it. The cost grows with the number of texels, by little, and with the number of
-//! different things that happen to texels.
+//! Whole pictures. Every sample is in a *state*: the set of its possible worlds, shared by all samples with
+//! the same set. A draw takes a state and a signature to another state, which is computed once, for the first
+//! sample that needs it. The cost depends mostly on the number of different things that happen to texels, and
+//! little on the number of texels.
 
 use crate::bins::Segments;
 use crate::notes::Notes;
@@ -22,13 +22,14 @@ use std::ops::Range;
 struct Known {
     by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
     key: SmallVec<[u64; 6]>,
-    /// For each draw, the outcomes that were asked for and those that were known.
+    /// For each draw, the number of outcomes that were looked up and the number found.
     asked: FxHashMap<u32, [u32; 2]>,
 }
 
 impl Known {
-    /// True if outcomes of a draw come up again often enough to keep them. Where every sample has a signature of its
-    /// own, as with interpolated depths or a shader that reads its place, keeping them costs more than it saves.
+    /// Returns true if outcomes of a draw recur often enough to keep them. If every sample has a signature of
+    /// its own, as with interpolated depths or a shader that reads its position, keeping them costs more than it
+    /// saves.
     fn pays(&mut self, draw: u32) -> bool {
         const TRIED: u32 = 512;
         let [asked, found] = *self.asked.entry(draw).or_default();
@@ -44,7 +45,7 @@ impl Known {
 }
 
 impl Walk<'_> {
-    /// Walks the pictures of some shapes through all passes; [`Walk::earlier`] then tells of every judged
+    /// Walks the pictures of some shapes through all passes; [`Walk::earlier`] then answers for every judged
     /// sample.
     pub(crate) fn paint(&self, shapes: &[Shape]) {
         {
@@ -66,7 +67,7 @@ impl Walk<'_> {
         let count = size[0] as usize * size[1] as usize * samples as usize;
         let lattice = self.texels.lattice(size);
         let attachments = || self.scene.attachments.iter().enumerate();
-        // Textures that nothing is drawn to are not part of the state.
+        // Textures that no pass draws to are not part of the state.
         let held = held(self.scene, (size, samples));
         let uploaded = attachments().filter(|(index, _)| held[*index]);
         let uploaded: Vec<(usize, usize)> = uploaded
@@ -138,7 +139,7 @@ impl Walk<'_> {
         let Some(index) = self.pictures.borrow().shape(shape) else {
             return;
         };
-        // Draws that sample the picture see it as it was before the pass.
+        // Draws that sample the picture see its contents from before the pass.
         let mut picture = self.pictures.borrow().samples[index].clone();
         if !pass.cleared().is_empty() {
             self.each_state(&mut picture, |worlds| {
@@ -168,8 +169,8 @@ impl Walk<'_> {
         self.pictures.borrow_mut().samples[index] = picture;
     }
 
-    /// Opens the samples of draws whose vertices are open. These may cover any texel, also one that no known primitive
-    /// touches.
+    /// Opens the samples of draws whose vertices are open. Such draws can cover any texel, even one that no known
+    /// primitive touches.
     fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [State]) {
         let draws = self.scene.passes[p].draws.iter();
         for (draw, texts) in draws.zip(&self.open_texts[p]) {
@@ -362,7 +363,7 @@ impl Walk<'_> {
     }
 }
 
-/// Returns, of each attachment, true if it is of a shape and drawn to or read back.
+/// Returns for each attachment whether it has a shape and is drawn to or read back.
 fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
     let mut held = vec![false; scene.attachments.len()];
     for index in drawn_or_read(scene) {
@@ -406,7 +407,7 @@ fn for_each_judged(lattice: Lattice, [width, height]: [u32; 2], mut found: impl 
     }
 }
 
-/// The draws of one pass, as they go over a picture.
+/// The draws of one pass, applied to a picture.
 struct Brush<'b, 'a> {
     walk: &'b Walk<'a>,
     pass: usize,
@@ -416,7 +417,7 @@ struct Brush<'b, 'a> {
     known: Known,
     /// The signatures of the first and the last texel of a run.
     ends: [SampleKey; 2],
-    /// Signatures whose room is used again.
+    /// Signatures whose memory is reused.
     spare: Vec<SampleKey>,
 }
 

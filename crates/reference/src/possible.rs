@@ -1,18 +1,18 @@
-//! Whether something happens, as far as the rules tell.
+//! Whether something happens under the rules.
 
-/// Whether something happens, in ascending order.
+/// Whether something happens under the rules, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Possible {
-    /// Under no reading of the rules.
+    /// Under no reading.
     Never,
-    /// Under some.
+    /// Under some readings.
     Maybe,
-    /// Under all.
+    /// Under all readings.
     Always,
 }
 
 impl Possible {
-    /// Returns the possibility of what can happen, and must where `must` is true.
+    /// Returns whether something happens that can happen if `can` is true, and must if `must` is true.
     pub(crate) fn of(can: bool, must: bool) -> Self {
         match (can, must) {
             (_, true) => Self::Always,
@@ -21,17 +21,17 @@ impl Possible {
         }
     }
 
-    /// True if it can happen.
+    /// Returns true if it can happen.
     pub(crate) fn can(self) -> bool {
         self != Self::Never
     }
 
-    /// True if it must happen.
+    /// Returns true if it must happen.
     pub(crate) fn must(self) -> bool {
         self == Self::Always
     }
 
-    /// Returns the possibility that this and another thing happen.
+    /// Returns whether both this and another thing happen.
     pub(crate) fn and(self, other: Self) -> Self {
         self.min(other)
     }

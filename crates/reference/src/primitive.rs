@@ -24,8 +24,9 @@ pub(crate) enum Shape {
     Point(SnapBox),
 }
 
-/// The identity of a vertex's place in the picture: its clip-space x, y and w, bit for bit. Edges are the
-/// same if both ends are; x and y alone would join vertices that the perspective division parts.
+/// The identity of a vertex's position in the picture: its clip-space x, y and w, bit for bit. Edges are the
+/// same if both ends are. Comparing x and y alone would join vertices that the perspective division
+/// separates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct VertexId([u32; 3]);
 
@@ -39,11 +40,11 @@ impl VertexId {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
     pub(crate) edges: [Edge; 3],
-    /// The identities of the vertices' places.
+    /// The identities of the vertices' positions.
     pub(crate) ids: [VertexId; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
-    /// The most by which legal snapping changes an edge function near the triangle.
+    /// The maximum change of an edge function near the triangle through legal snapping.
     moved: i64,
 }
 
@@ -52,8 +53,8 @@ pub(crate) struct Triangle {
 pub(crate) enum Edge {
     /// Between two snapped vertices.
     Between([SnapBox; 2]),
-    /// What is left of an edge that reaches behind the eye, or farther than vertices are snapped: a line whose value
-    /// is at most so much where legal clipping may put it.
+    /// What is left of an edge that reaches behind the eye, or farther than vertices are snapped: the line's
+    /// value is at most `off` wherever legal clipping can put the edge.
     Cut { line: DepthPlane, off: f64 },
 }
 
@@ -65,7 +66,7 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) beyond: bool,
     /// The flat vertex colour.
     pub(crate) color: [Interval; 4],
-    /// Texels it may touch: left, top, right, bottom, the last two excluded.
+    /// The texels that it can touch: left, top, right, bottom, the last two excluded.
     pub(crate) bounds: [i64; 4],
     /// Window depth, before any bias.
     pub(crate) window_depth: Depth,
@@ -75,27 +76,27 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) bias: Interval,
     /// All snapped vertices.
     pub(crate) all: SnapBox,
-    /// Texture coordinates, where the shader reads them.
+    /// Texture coordinates, if the shader reads them.
     pub(crate) uv: Option<Box<[Varying; 2]>>,
-    /// 1 over the clip-space w, where the shader reads it.
+    /// 1 over the clip-space w, if the shader reads it.
     pub(crate) reciprocal_w: Option<Box<Varying>>,
-    /// The clip distances that clip.
+    /// The enabled clip distances.
     pub(crate) distances: Vec<Distance>,
-    /// A number that is equal for the same vertices under the same viewport; none if the draw tests no
-    /// depth, or no other fragment of the scene can have the same.
+    /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
+    /// depth, or if no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
-    /// Its place in the draw.
+    /// Its index in the draw.
     pub(crate) index: u32,
 }
 
-/// The side of one edge on which a sample lies.
+/// The side of an edge on which a sample is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Side {
-    /// On the side where the edge function is positive, whatever the snapping.
+    /// The edge function is positive, whatever the snapping.
     Positive,
-    /// On the side where it is negative.
+    /// The edge function is negative, whatever the snapping.
     Negative,
-    /// On the edge exactly, whatever the snapping.
+    /// Exactly on the edge, whatever the snapping.
     On,
     /// It depends on the snapping.
     Unknown,
@@ -107,7 +108,7 @@ impl Triangle {
         let moved = vertices.map(size).into_iter().max().unwrap_or(0);
         let [a, b, c] = vertices;
         let all = a.hull(b).hull(c);
-        // A sample of a texel that it may touch is no farther from any vertex.
+        // A sample of a texel that the triangle can touch is no farther from any vertex.
         let reach = (all.high.x - all.low.x) + (all.high.y - all.low.y) + 4 * units;
         Self {
             edges: [[a, b], [b, c], [c, a]].map(Edge::Between),
@@ -117,7 +118,8 @@ impl Triangle {
         }
     }
 
-    /// Returns a triangle of which some edges may be cut; a cut one is decided by the primitive alone.
+    /// Returns a triangle that can have cut edges; whether a sample is inside a cut edge never depends on
+    /// other primitives.
     pub(crate) fn cut(edges: [Edge; 3], ids: [VertexId; 3], area: (i64, i64)) -> Self {
         Self {
             edges,
@@ -127,7 +129,7 @@ impl Triangle {
         }
     }
 
-    /// Returns the side of the edge from vertex `i` to the next one on which a point lies.
+    /// Returns the side of the edge from vertex `i` to the next one on which a point is.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = match self.edges[i] {
             Edge::Between([p, q]) => (p, q),
@@ -148,7 +150,7 @@ impl Triangle {
             value if value < -self.moved => return Side::Negative,
             _ => {}
         }
-        // The edge function is linear in each coordinate alone, so its extremes lie at corners.
+        // The edge function is linear in each coordinate alone, so its extremes are at corners.
         let (mut least, mut most) = (i64::MAX, i64::MIN);
         for p in p.corners() {
             for q in q.corners() {
@@ -168,8 +170,8 @@ impl Triangle {
         }
     }
 
-    /// Returns the columns of a row whose texels a triangle may touch, and those that it covers for
-    /// certain, among some columns.
+    /// Returns the columns of a row, within `among`, whose texels a triangle can touch, and the columns that
+    /// it certainly covers.
     pub(crate) fn columns(&self, row: u32, among: Range<u32>, units: i64) -> [Range<u32>; 2] {
         let (least, most) = self.area;
         let mut outer = i64::from(among.start)..i64::from(among.end);
@@ -193,8 +195,8 @@ impl Triangle {
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
-            // The edge function over the texel of column x is at least start + growth * x, and at most
-            // as much more as one texel adds.
+            // The edge function over the texel of column x is at least start + growth * x, and at most that
+            // plus the variation within a texel.
             let start = dy * p.x;
             let lowest = start + one.min(other) + growth.min(0);
             let highest = start + one.max(other) + growth.max(0);
@@ -211,7 +213,7 @@ impl Triangle {
         [range(outer), range(inner)]
     }
 
-    /// Returns the end points of an edge that lies on its sample exactly; `None` of one that is cut.
+    /// Returns the end points of an edge that passes exactly through its sample; `None` for a cut edge.
     pub(crate) fn edge(&self, i: usize) -> Option<(Point, Point)> {
         match self.edges[i] {
             Edge::Between([p, q]) => Some((p.low, q.low)),
@@ -220,7 +222,7 @@ impl Triangle {
     }
 }
 
-/// Restricts columns to those at which a linear function is at most a number.
+/// Restricts columns to those in which a linear function is at most `most`.
 fn keep_below(columns: &mut Range<i64>, start: i64, growth: i64, most: i64) {
     let room = most - start;
     match growth {
@@ -251,7 +253,7 @@ impl SnappedPrimitive {
                     Edge::Cut { .. } => (0, 1),
                 });
                 let most = each.iter().map(|t| t.1).sum();
-                // Edges that overlap may be drawn once.
+                // The rules let overlapping edges be drawn once.
                 (each.iter().map(|t| t.0).max().unwrap_or(0), most)
             }
             Shape::Triangle(_) => (0, 1),
@@ -264,8 +266,8 @@ impl SnappedPrimitive {
         Values::same(depth.plus(self.bias))
     }
 
-    /// Returns the depth that a shader reads. With several samples it may be that of any point of the
-    /// texel; with or without the bias.
+    /// Returns the depth that a shader reads, with or without the bias. With several samples it can be that
+    /// of any point of the texel.
     pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Values {
         let mut depth = self.window_depth.at(at);
         if samples > 1 {
@@ -301,18 +303,19 @@ impl SnappedPrimitive {
         Some(seen(value, at, units, samples))
     }
 
-    /// True if a depth bias may move its fragments.
+    /// Returns true if a depth bias can move its fragments.
     pub(crate) fn is_biased(&self) -> bool {
         !self.bias.is(0.0)
     }
 
-    /// True if all vertices lie inside a rectangle of left, top, width and height.
+    /// Returns true if all vertices are inside a rectangle of left, top, width and height.
     pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
         let (low, high) = (self.all.low, self.all.high);
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
-    /// True if all vertices lie beyond one side of a rectangle by more than some units, wherever they are snapped to.
+    /// Returns true if all vertices are beyond one side of a rectangle by more than `by` units, wherever they
+    /// are snapped to.
     pub(crate) fn beyond_rect(&self, [x, y, w, h]: [f64; 4], by: f64) -> bool {
         let [low, high] = [self.all.low, self.all.high].map(|p| [p.x as f64, p.y as f64]);
         let beyond = |axis: usize, start: f64, length: f64| {
@@ -321,7 +324,7 @@ impl SnappedPrimitive {
         beyond(0, x, w) || beyond(1, y, h)
     }
 
-    /// Returns whether a covered sample lies between the near and far planes.
+    /// Returns whether a covered sample is between the near and far planes.
     pub(crate) fn inside_depth(&self, at: Point) -> Possible {
         let depth = self.clip_depth.at(at);
         Possible::of(
@@ -332,8 +335,8 @@ impl SnappedPrimitive {
 }
 
 impl SnappedPrimitive {
-    /// Returns whether clip distances leave a covered sample at a point, or anywhere in its texel of so
-    /// many units.
+    /// Returns whether the clip distances keep a covered sample: at a point, or anywhere in its texel if
+    /// `spread` gives the units per texel.
     pub(crate) fn inside_distances(&self, at: Point, spread: Option<i64>) -> Possible {
         let mut inside = Possible::Always;
         for distance in &self.distances {
@@ -346,8 +349,8 @@ impl SnappedPrimitive {
     }
 }
 
-/// Returns a value that a shader reads. With several samples it may be that of any point of the texel, also of a
-/// centre outside of the primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+/// Returns a value that a shader reads. With several samples it can be that of any point of the texel, even
+/// of a centre outside the primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
 fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
     if samples > 1 {
         value.at(at).hull(value.over_texel(at, units))
@@ -368,15 +371,16 @@ fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
     (u32::from(x.1 && y.1), u32::from(x.0 && y.0))
 }
 
-/// A line that runs along an axis covers, away from its ends, the texels it runs through; near the ends and beside
-/// slanted lines the rules (diamond exit, rectangle) differ, so that anything is legal there.
+/// Returns how often a line covers a sample. A line along an axis covers the texels it runs through, except
+/// near its ends. Near the ends and at slanted lines, the rules (diamond exit, rectangle) differ, so anything
+/// is legal there.
 pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let [a, b] = ends;
     let all = a.hull(b);
     let unit = units as f64;
     let (dx, dy) = ((b.low.x - a.low.x) as f64, (b.low.y - a.low.y) as f64);
     let length = dx.hypot(dy);
-    // Half a texel for the diamond, and one along each axis by which a fragment may be off.
+    // Half a texel for the diamond, and one texel along each axis for a fragment that deviates.
     let along_axes = if length > 0.0 {
         (dx.abs() + dy.abs()) / length
     } else {
@@ -394,7 +398,7 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         && center.x <= all.high.x + far
         && center.y >= all.low.y - far
         && center.y <= all.high.y + far;
-    // An edge function is linear in each end, so its extremes lie at corners of the boxes.
+    // An edge function is linear in each end, so its extremes are at corners of the boxes.
     let values = a
         .corners()
         .into_iter()
@@ -410,10 +414,12 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     if !near || (length > 0.0 && nearest > length * reach) {
         return (0, 0);
     }
-    // Certain are texels past half a texel for the diamond at an end, and one for a fragment that is off or missing.
+    // Certain texels are past half a texel for the diamond at an end, and one texel for a fragment that
+    // deviates or is missing.
     let along =
         |low: i64, high: i64, at: i64| at - units * 3 / 2 > low && at + units * 3 / 2 < high;
-    // True if a line between two positions runs neither through the sample's texel nor through one beside it.
+    // True if a line between two positions runs neither through the sample's texel nor through an adjacent
+    // one.
     let misses = |low: i64, high: i64, at: i64| !touches(low - units, high + units, at, units);
     let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
         let (least, most) = (low(line.low), low(line.high));
@@ -429,22 +435,22 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let y = (a.high.y.min(b.high.y), a.low.y.max(b.low.y));
     let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
         || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
-    // An axis-aligned line covers nothing farther beside it than a texel: a fragment may deviate by one unit from
-    // that of the diamond-exit rule (OpenGL 3.3, 3.5.1; OpenGL 4.6, 14.5.1; OpenGL ES 3.2, 13.6.1; Vulkan,
-    // Bresenham Line Segment Rasterization, which lines that are not strict may follow).
+    // An axis-aligned line covers nothing farther away than the adjacent texel: a fragment may deviate by one
+    // unit from that of the diamond-exit rule (OpenGL 3.3, 3.5.1; OpenGL 4.6, 14.5.1; OpenGL ES 3.2, 13.6.1;
+    // Vulkan, Bresenham Line Segment Rasterization, which lines that are not strict may follow).
     let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
         || (vertical && misses(all.low.x, all.high.x, at.x));
     (u32::from(must), u32::from(!beside))
 }
 
-/// True if a line between two positions can run through a sample's texel.
+/// Returns true if a line between two positions can run through a sample's texel.
 fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
     let cell = at.div_euclid(units);
     low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
 }
 
-/// Returns the inner side of a triangle's edges. With y down, a triangle of positive area (y up) lies
-/// where edge functions are negative.
+/// Returns the inner side of a triangle's edges. With y down, edge functions are negative inside a triangle
+/// of positive area (y up).
 pub(crate) fn inside_of(positive_area: bool) -> Side {
     if positive_area {
         Side::Negative
@@ -453,14 +459,14 @@ pub(crate) fn inside_of(positive_area: bool) -> Side {
     }
 }
 
-/// True if a sample is outside a triangle of either orientation, and so uncovered in every world.
+/// Returns true if a sample is outside a triangle of either orientation, and so uncovered in every world.
 pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
     let (least, most) = triangle.area;
     let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
     least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
 }
 
-/// True if a side of one edge is certainly outside a triangle.
+/// Returns true if a side of an edge is certainly outside a triangle.
 pub(crate) fn is_outside(side: Side, positive_area: bool) -> bool {
     matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }

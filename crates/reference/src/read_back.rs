@@ -1,6 +1,6 @@
-//! Legal sets as an adapter reads them back. A picture is walked for attachments that are copied; where a
-//! shader reads them, the set of the floats that it stores follows from the set of the codes, so adapters
-//! that differ in how they read share the walk.
+//! Legal sets as an adapter reads them back. A picture is walked as if attachments were copied. If a shader
+//! reads them instead, the set of the floats that it stores follows from the set of the codes, so adapters
+//! that differ only in how they read share the walk.
 
 use crate::judging::{Judging, Range, all_codes};
 use crate::rules::Rules;
@@ -14,7 +14,7 @@ use etalon_scene::Scene;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Returns the way in which an adapter reads attachments of a format.
+/// Returns how an adapter reads back attachments of a format.
 pub(crate) fn read_path(limits: &Limits, format: TextureFormat) -> ReadPath {
     let support = limits.formats.get(&format);
     support.map_or(ReadPath::Copy, |support| support.read)
@@ -32,7 +32,7 @@ pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) 
         .unwrap_or(ChannelEncoding::Float32)
 }
 
-/// Returns the codes that reading a stored depth may give, in another encoding than the stored one.
+/// Returns the codes that reading a stored depth can give in another encoding than the stored one.
 pub(crate) fn converted(
     rules: &Rules,
     stored: (ChannelEncoding, CodeInterval),
@@ -43,7 +43,7 @@ pub(crate) fn converted(
     judging.encode(read, Range::same(value.float))
 }
 
-/// Returns a set that was computed for attachments that are copied as the adapter's ways of reading give it.
+/// Converts a set that was computed for copied attachments to what the adapter reads back.
 pub(crate) fn as_read(
     set: Arc<LegalSet>,
     scene: &Scene,
@@ -81,7 +81,7 @@ pub(crate) fn as_read(
     }
     for (number, group) in set.groups.iter().enumerate() {
         let mut start = 0;
-        // Most sets come in many runs.
+        // Most sets occur in many runs.
         let mut known: HashMap<*const TexelSet, u32> = HashMap::new();
         for (end, texel) in group.runs() {
             let read = *known.entry(texel).or_insert_with(|| {
@@ -105,7 +105,7 @@ pub(crate) fn as_read(
 struct Change<'s> {
     image: &'s ImageInfo,
     stored: ChannelEncoding,
-    /// Its contents are undefined.
+    /// True if its contents are undefined.
     open: bool,
 }
 

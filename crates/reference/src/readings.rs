@@ -1,4 +1,4 @@
-//! Texts with two readings. A driver follows one of them: what lies between the results of both is not legal.
+//! Clauses with two readings. A driver follows one of them: nothing between the results of both is legal.
 
 use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
 use crate::world::{Contested, Decision, World, Worlds};
@@ -6,12 +6,12 @@ use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Draw, Pass, PrimitiveTopology, PrimitiveVertices, RESTART, Scene};
 use smallvec::{SmallVec, smallvec};
 
-/// What the texts leave open of a draw, wherever its fragments lie.
+/// What the specifications leave open about a draw, wherever its fragments are.
 pub(crate) struct OpenTexts {
-    /// The contested texts that matter to it.
+    /// The contested clauses that matter to it.
     contested: SmallVec<[Contested; 2]>,
-    /// True if an index that may not be a restart leads out of the vertices, or a line may go on beyond the near or far
-    /// plane: what is drawn then is not followed.
+    /// True if an index that need not be a restart points past the vertices, or if a line can continue beyond
+    /// the near or far plane. What is drawn then is not modelled.
     pub(crate) vertices: bool,
 }
 
@@ -26,7 +26,7 @@ impl OpenTexts {
         }
     }
 
-    /// Splits a world by the readings that matter to the draw and that it has not taken yet.
+    /// Splits a world by the readings that matter to the draw and that the world has not chosen yet.
     pub(crate) fn by_reading(&self, world: World) -> Worlds {
         let mut worlds: Worlds = smallvec![world];
         for contested in &self.contested {
@@ -44,7 +44,7 @@ impl OpenTexts {
     }
 }
 
-/// True if an end of a line lies beyond the near or far plane, or behind the eye.
+/// Returns true if an end of a line is beyond the near or far plane, or behind the eye.
 fn has_line_beyond(draw: &Draw) -> bool {
     let is_beyond = |vertex: usize| {
         let [.., z, w] = draw.mesh.vertices[vertex].position;
@@ -64,7 +64,7 @@ fn has_line_beyond(draw: &Draw) -> bool {
             })
 }
 
-/// Returns the contested texts that matter to a draw.
+/// Returns the contested clauses that matter to a draw.
 fn contested(rules: &Rules, scene: &Scene, pass: &Pass, draw: &Draw) -> SmallVec<[Contested; 2]> {
     let colors = &pass.color;
     let formats = colors.iter().map(|i| scene.attachments[*i].format);

@@ -1,5 +1,5 @@
 //! Notes of what does not happen: the draws, primitives and fragments that change nothing at a sample.
-//! Primitives share a note by reason: most of a mesh covers another texel.
+//! Primitives with the same reason share a note: most of a mesh covers other texels.
 
 use crate::clause::clause;
 use crate::notes::{Note, Notes, Skipped};
@@ -7,11 +7,11 @@ use crate::walk::{Hit, Place, Walk};
 use etalon_frame::{Effect, Event, Origin, Rejection, Step};
 use etalon_scene::Draw;
 
-/// A draw with the numbers of its pass and of itself.
+/// A draw with its pass index and its own index.
 type Numbered<'a> = (usize, usize, &'a Draw);
 
 impl Walk<'_> {
-    /// Notes that a draw ends as a whole: by rasterizer discard, or else by its scissor rectangle.
+    /// Notes that a draw ends as a whole: by rasterizer discard, or otherwise by its scissor rectangle.
     pub(crate) fn note_draw(&self, notes: &mut Notes<'_>, draw: Numbered<'_>) {
         let (rejection, step) = if draw.2.rasterizer_discard {
             (Rejection::RasterizerDiscard, Step::RasterizerDiscard)
@@ -22,8 +22,7 @@ impl Walk<'_> {
         self.note_primitives(notes, draw, Vec::new(), rejection, step);
     }
 
-    /// Notes the primitives that were skipped, by reason. Those that were never added do not reach the
-    /// texel.
+    /// Notes the skipped primitives by reason. Primitives missing from `skipped` do not reach the texel.
     pub(crate) fn note_skipped(&self, notes: &mut Notes<'_>, draw: Numbered<'_>, skipped: Skipped) {
         let Some(all) = skipped.0 else { return };
         let count = draw.2.primitives().len();
@@ -50,8 +49,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes that a whole draw, or some of its primitives, ends at a sample. No primitives stand for the
-    /// draw.
+    /// Notes that some primitives of a draw end at a sample; with an empty list, that the whole draw does.
     fn note_primitives(
         &self,
         notes: &mut Notes<'_>,
@@ -76,7 +74,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Notes a primitive that the sides of the view volume, or else its near and far planes, may clip.
+    /// Notes a primitive that the sides of the view volume, or otherwise its near and far planes, can clip.
     pub(crate) fn note_clipping(&self, notes: &mut Notes<'_>, place: Place<'_>, hit: Hit) {
         let rejection = match (hit.in_viewport, hit.in_depth) {
             (false, _) => Rejection::Viewport,

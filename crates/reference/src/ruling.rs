@@ -1,5 +1,6 @@
-//! The ruling on one sample: the value that the rules demand, the operations that decide it, and the value that
-//! came back. Made from the legal set and from the effects of the notes alone, so that it cannot contradict the judge.
+//! The ruling on one sample: the value that the rules demand, the operations that decide it, and the value
+//! that came back. It is made from the legal set and the effects of the notes alone, so it cannot contradict
+//! the judge.
 
 use crate::notes::{Note, Notes};
 use crate::sample::Sample;
@@ -11,7 +12,7 @@ use etalon_frame::{
 };
 use etalon_scene as scene;
 
-/// The most outcomes, and the most draws, that a ruling lists.
+/// The maximum number of outcomes, and of draws, that a ruling lists.
 const LISTED: usize = 3;
 
 /// One aspect of one attachment, as part of a legal set.
@@ -29,12 +30,12 @@ impl View {
         &channels[self.first..self.first + self.encodings.len()]
     }
 
-    /// Returns its contents, given all channels of the set.
+    /// Returns the view's contents, given all channels of the set.
     fn contents(&self, channels: &[CodeInterval]) -> Contents {
         self.holding(self.of(channels))
     }
 
-    /// Returns contents of the view.
+    /// Returns these codes as contents of the view.
     fn holding(&self, codes: &[CodeInterval]) -> Contents {
         Contents {
             attachment: self.name.clone(),
@@ -44,17 +45,17 @@ impl View {
     }
 }
 
-/// The sample of a ruling, with all that is known of it.
+/// The sample of a ruling, with everything known about it.
 struct Known<'a> {
     walk: &'a Walk<'a>,
     notes: &'a [Note],
     set: &'a TexelSet,
-    /// The first contents, in the channels of the set.
+    /// The initial contents, in the channels of the set.
     initial: Vec<CodeInterval>,
     views: Vec<View>,
 }
 
-/// Returns the ruling on a sample. With a frame, it also holds the values that came back.
+/// Returns the ruling on a sample. If a frame is given, the ruling also has the values that came back.
 pub(crate) fn ruling(
     walk: &Walk<'_>,
     at: Sample,
@@ -105,7 +106,7 @@ fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {
 }
 
 impl Known<'_> {
-    /// Returns the values that came back, in the channels of the set; `None` if the frame is of another
+    /// Returns the values that came back, in the channels of the set; `None` if the frame does not fit the
     /// scene.
     fn actual(&self, at: Sample, frame: &Frame) -> Option<Vec<i64>> {
         let mut orders = Vec::new();
@@ -160,8 +161,8 @@ impl Known<'_> {
         }))
     }
 
-    /// Returns the views in which values leave the nearest outcome. If each of them is legal in some other
-    /// outcome, all views: then only the values together are wrong.
+    /// Returns the views whose values differ from the nearest outcome. If each of these values is legal in
+    /// some other outcome, returns all views: then only the combination is wrong.
     fn wrong_views(&self, orders: &[i64]) -> Vec<&View> {
         let inside = |channels: &[CodeInterval], view: &View| {
             let both = view.of(channels).iter().zip(view.of(orders));
@@ -180,7 +181,7 @@ impl Known<'_> {
         }
     }
 
-    /// Returns the allowed outcomes in some views, and how many more there are.
+    /// Returns the allowed outcomes in some views, and the number of outcomes that are not listed.
     fn allowed(&self, focus: &[&View]) -> (Vec<Vec<Allowed>>, usize) {
         let mut outcomes: Vec<Vec<&[CodeInterval]>> = Vec::new();
         for world in &self.set.worlds {
@@ -209,7 +210,7 @@ impl Known<'_> {
         (allowed.collect(), outcomes.len().saturating_sub(LISTED))
     }
 
-    /// Returns earlier contents of a view that came back instead of what later draws had to store.
+    /// Returns earlier contents of a view that came back although later draws had to replace them.
     fn kept(&self, view: &View, orders: &[i64]) -> Option<Returned> {
         if self.set.worlds.len() != 1 {
             return None;
@@ -257,8 +258,8 @@ impl Known<'_> {
         })
     }
 
-    /// Returns the operations that decide a view: the last draw that stores, and the ends of those after
-    /// it; then the number of draws that end and are not listed.
+    /// Returns the operations that decide a view: the last draw that stores, and the rejections of later
+    /// draws; then the number of rejected draws that are not listed.
     fn reasons(&self, view: &View) -> (Vec<Reason>, usize) {
         let mut reasons = Vec::new();
         let mut since = None;
@@ -290,7 +291,7 @@ impl Known<'_> {
         self.notes.iter().map(|note| &note.event)
     }
 
-    /// Returns the reason that the draw gives that stores last.
+    /// Returns the reason for the contents that the last storing draw leaves.
     fn stored(&self, store: &Event, aspect: Aspect) -> Reason {
         let of_fragment = || self.events().rev().filter(|e| e.origin == store.origin);
         let color = aspect == Aspect::Color;
@@ -303,7 +304,7 @@ impl Known<'_> {
         }
     }
 
-    /// Returns the ends of all draws after one, or of all: the operation that each comes to at last.
+    /// Returns the rejections of all draws, or of those after `since`: the last operation that each reaches.
     fn ends(&self, view: &View, since: Option<(usize, usize)>) -> Vec<Reason> {
         let mut draws: Vec<(usize, usize)> = Vec::new();
         let effective = self.events().filter(|e| !e.effect.is_none());
@@ -313,7 +314,7 @@ impl Known<'_> {
             }
         }
         let ends: Vec<Reason> = draws.iter().map(|draw| self.end(view, *draw)).collect();
-        // Draws that are elsewhere for the same reason share one.
+        // Adjacent draws that miss the sample for the same reason share an entry.
         let together = ends.chunk_by(|a, b| elsewhere(a).is_some() && elsewhere(a) == elsewhere(b));
         together
             .map(|group| match &group[0] {
@@ -326,7 +327,7 @@ impl Known<'_> {
             .collect()
     }
 
-    /// Returns the end of a draw that does not store to a view.
+    /// Returns the rejection of a draw that does not store to a view.
     fn end(&self, view: &View, (pass, draw): (usize, usize)) -> Reason {
         let events = || {
             let mine = |e: &&Event| e.origin.draw() == Some((pass, draw));
@@ -361,7 +362,7 @@ impl Known<'_> {
         }
     }
 
-    /// Returns the source of the contents that a view starts from.
+    /// Returns the source of a view's initial contents.
     fn first_source(&self, view: &View) -> Initial {
         match &self.walk.scene.attachments[view.attachment].contents {
             scene::Contents::Texels(_) => Initial::Upload,
@@ -370,7 +371,7 @@ impl Known<'_> {
     }
 }
 
-/// Returns the rejection that keeps a draw from coming near a sample; `None` for a draw that comes to it.
+/// Returns the rejection that keeps a draw away from a sample; `None` for a draw that reaches it.
 fn elsewhere(reason: &Reason) -> Option<Rejection> {
     let Reason::Ended { by, .. } = reason else {
         return None;
@@ -386,7 +387,7 @@ fn elsewhere(reason: &Reason) -> Option<Rejection> {
     })
 }
 
-/// Returns values that came back, in some views.
+/// Returns the values that came back, in some views.
 fn returned(views: &[&View], orders: &[i64]) -> Vec<Contents> {
     let exact: Vec<CodeInterval> = orders.iter().map(|o| CodeInterval::exact(*o)).collect();
     views.iter().map(|view| view.contents(&exact)).collect()

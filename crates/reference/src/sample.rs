@@ -1,6 +1,6 @@
-//! Samples and the shapes of attachments that hold them.
+//! Samples, and the shapes of their attachments.
 
-/// The size and the samples of attachments.
+/// The size and the sample count of attachments.
 pub(crate) type Shape = ([u32; 2], u32);
 
 /// One sample of the attachments of one shape.
@@ -8,7 +8,7 @@ pub(crate) type Shape = ([u32; 2], u32);
 pub struct Sample {
     /// The attachments' width and height.
     pub size: [u32; 2],
-    /// Their samples per texel.
+    /// The samples per texel.
     pub samples: u32,
     /// Column.
     pub x: u32,
@@ -19,7 +19,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Returns the sample's place among all of its shape, row by row.
+    /// Returns the sample's index among all samples of its shape, row by row.
     pub(crate) fn place(self) -> usize {
         let texel = self.y as usize * self.size[0] as usize + self.x as usize;
         texel * self.samples as usize + self.sample as usize

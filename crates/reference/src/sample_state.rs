@@ -1,4 +1,5 @@
-//! Sample shading and sample coverage: where a fragment's inputs lie, and the samples that a share draws.
+//! Sample shading and sample coverage: where a fragment's inputs are evaluated, and the samples that coverage
+//! keeps.
 
 use crate::interval::Interval;
 use crate::judging::Range;
@@ -26,18 +27,18 @@ enum ShadedAt {
     Texel,
 }
 
-/// Returns where the fragment's coordinates lie that a shader reads, of several samples.
+/// Returns the point whose coordinates a shader reads as the fragment's, with several samples.
 fn frag_coord_at(rules: &Rules, state: &Multisample, samples: u32) -> ShadedAt {
     match (rules.frag_coord.value(), state.min_sample_shading) {
         (FragCoord::Inputs, _) => inputs_at(rules, state),
         (FragCoord::Sample, None) => ShadedAt::Center,
-        // As many runs as samples, each with a sample at least: each sample has its own.
+        // With as many runs as samples, and at least one sample per run, each run has one sample.
         (FragCoord::Sample, Some(_)) if state.least_runs(samples) == samples => ShadedAt::Sample,
         (FragCoord::Sample, Some(_)) => ShadedAt::AnySample,
     }
 }
 
-/// Returns where inputs are interpolated that ask for no place of their own, of several samples.
+/// Returns the point at which undecorated inputs are interpolated, with several samples.
 fn inputs_at(rules: &Rules, state: &Multisample) -> ShadedAt {
     match state.min_sample_shading {
         Some(1.0) if rules.inputs_at_samples.value() => ShadedAt::Sample,
@@ -46,7 +47,7 @@ fn inputs_at(rules: &Rules, state: &Multisample) -> ShadedAt {
 }
 
 impl Walk<'_> {
-    /// Returns the coordinates of the fragment that a shader reads, in texels.
+    /// Returns the fragment coordinates that a shader reads, in texels.
     pub(crate) fn frag_coord(&self, place: Place<'_>) -> [Range; 2] {
         let Sample { x, y, samples, .. } = place.at;
         let units = self.units as f64;
@@ -74,8 +75,8 @@ impl Walk<'_> {
         w.map_or(Range::exact(0.0), Range::same)
     }
 
-    /// Returns the number of samples among which the point may be chosen at which inputs are
-    /// interpolated: 1 if it is the sample's own.
+    /// Returns the number of samples whose points may be the one at which inputs are interpolated: 1 if it is
+    /// the sample's own.
     pub(crate) fn samples_shaded(&self, place: Place<'_>) -> u32 {
         let own = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
         match place.primitive.shape {
@@ -84,7 +85,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Splits a world by sample coverage. Returns each with true if the sample is drawn.
+    /// Splits a world by sample coverage. Each result has `true` if the sample is drawn.
     pub(crate) fn by_sample_coverage(
         &self,
         place: Place<'_>,
@@ -92,11 +93,11 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> SmallVec<[(World, bool); 2]> {
         let state = place.draw.multisample.sample_coverage;
-        // The step is skipped without several samples.
+        // Without multisampling, the step is skipped.
         let Some(SampleCoverage { value, invert }) = state.filter(|_| place.at.samples > 1) else {
             return smallvec![(world, true)];
         };
-        // Adding 0 removes the sign of a negative zero.
+        // Adding 0 turns a negative zero into a positive one.
         let value = value.clamp(0.0, 1.0) + 0.0;
         let decision = Decision::SampleCoverage {
             value: value.to_bits(),

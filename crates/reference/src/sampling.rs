@@ -14,15 +14,16 @@ use etalon_scene::{AddressMode, FilterMode, Sampler};
 struct Texture {
     /// The attachment.
     index: usize,
-    /// The pass that reads it, where an earlier one drew to it.
+    /// The reading pass, if an earlier pass drew to the texture.
     pass: Option<usize>,
 }
 
-/// The most texels of a drawn texture that one coordinate may meet; past it the result may be anything.
+/// The maximum number of texels of a drawn texture that one coordinate can reach; beyond it, any result is
+/// legal.
 const MOST_DRAWN_TEXELS: usize = 9;
 
 impl Walk<'_> {
-    /// Returns the value that the shader reads of a texture at the sample, in a world.
+    /// Returns the value that the shader reads from a texture at the sample, in a world.
     pub(crate) fn texel(&self, place: Place<'_>, world: &World, t: usize) -> [Range; 4] {
         let Some(index) = place.draw.textures.get(t).copied() else {
             return [Range::exact(0.0); 4];
@@ -34,7 +35,7 @@ impl Walk<'_> {
                     index,
                     pass: drawn.then_some(place.pass),
                 };
-                // A linear filter of what was drawn is not followed: it meets four texels at a time.
+                // Linear filtering of a drawn texture, which combines four texels, is not modelled.
                 match sampler.filter {
                     FilterMode::Linear if drawn => self.anything(index),
                     _ => self
@@ -61,14 +62,14 @@ impl Walk<'_> {
             .uv_seen(place.point, self.units, samples, sampling)
     }
 
-    /// True if a pass before this one draws or resolves to an attachment.
+    /// Returns true if an earlier pass draws or resolves to an attachment.
     pub(crate) fn is_drawn_before(&self, index: usize, pass: usize) -> bool {
         self.scene.passes[..pass]
             .iter()
             .any(|pass| pass.color.contains(&index) || pass.resolve.contains(&Some(index)))
     }
 
-    /// Returns the result of a sampler on a texture whose texels are not followed.
+    /// Returns the result of sampling a texture whose texels are not modelled.
     pub(crate) fn anything(&self, index: usize) -> [Range; 4] {
         let encodings = self.scene.attachments[index].format.color_channels();
         let slack = self.rules.float_error.value() * 4.0;
@@ -86,8 +87,8 @@ impl Walk<'_> {
         texel
     }
 
-    /// Returns the texel under the sample after earlier passes: this world's in a pass of its own shape, else
-    /// all that it can be.
+    /// Returns the texel under the sample after earlier passes: this world's contents if the shapes agree,
+    /// otherwise everything that it can contain.
     fn left_before(&self, place: Place<'_>, world: &World, index: usize) -> [Range; 4] {
         let attachment = &self.scene.attachments[index];
         let at = place.at;
@@ -113,7 +114,7 @@ impl Walk<'_> {
         )
     }
 
-    /// Returns one texel of a texture that nothing was drawn to.
+    /// Returns one texel of a texture that no pass drew to.
     fn fetched(&self, index: usize, at: [usize; 2]) -> [Range; 4] {
         self.decoded(index, self.first_contents(index, at).channels)
     }
@@ -130,8 +131,8 @@ impl Walk<'_> {
     }
 
     /// Returns all results of legal filtering at a coordinate: the hull over all coordinates that rounding
-    /// can lead to; `None` if a texel among them may hold anything. A linear filter is linear in each
-    /// coordinate between two texel centres, so its extremes lie at ends and centres.
+    /// can lead to; `None` if a texel among them can contain anything. A linear filter is linear in each
+    /// coordinate between two texel centres, so its extremes are at ends and centres.
     fn sampled(&self, texture: Texture, sampler: Sampler, uv: [Interval; 2]) -> Option<[Range; 4]> {
         if uv
             .iter()
@@ -146,7 +147,7 @@ impl Walk<'_> {
             let scaled = uv[axis].map_increasing(|v| v * f64::from(size));
             let reach = scaled.widen(step);
             match sampler.filter {
-                // The nearest texel changes at whole numbers.
+                // The nearest texel changes at integers.
                 FilterMode::Nearest => whole(reach.low.floor(), reach.high.floor(), size),
                 FilterMode::Linear => {
                     let (low, high) = (reach.low - 0.5, reach.high - 0.5);
@@ -193,11 +194,12 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns one texel of a texture after earlier passes: all that it can be; `None` if that is not known.
+    /// Returns everything that a texel of a texture can contain after earlier passes; `None` if that is
+    /// unknown.
     fn drawn(&self, index: usize, [x, y]: [usize; 2], pass: usize) -> Option<[Range; 4]> {
         let attachment = &self.scene.attachments[index];
         let (x, y) = (x as u32, y as u32);
-        // Away from the judged texels not all primitives are set up.
+        // Away from the judged texels, not all primitives are set up.
         if attachment.samples != 1 || !self.texels.contains(attachment.size, x, y) {
             return None;
         }
@@ -214,14 +216,14 @@ impl Walk<'_> {
         Some(self.decoded(index, hull))
     }
 
-    /// Returns the average at a position counted from the centre of the first texel: in floats, and by steps that may
-    /// be rounded to codes.
+    /// Returns the average at a position relative to the centre of the first texel: in floats, and in steps
+    /// that may be rounded to codes.
     fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Range; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
         let mut largest: f64 = 0.0;
-        // Averages along one axis: of the rows, and of the columns.
+        // Averages along one axis: of the rows and of the columns.
         let mut lines = [[[Interval::exact(0.0); 4]; 2]; 2];
         let part = |axis: usize, far: i64| match far {
             0 => 1.0 - weight[axis],
@@ -274,8 +276,7 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the integers from one to another, at most twice around the texture: by then all texels have
-/// been met.
+/// Returns the integers between two numbers, at most twice around the texture, which reaches every texel.
 fn whole(low: f64, high: f64, size: u32) -> Vec<f64> {
     let most = 2 * size as usize + 1;
     std::iter::successors(Some(low), |v| Some(v + 1.0))

@@ -27,12 +27,12 @@ struct Vertex {
 
 /// What the primitives of one draw share.
 struct Vertices {
-    /// The vertices that were set up for a primitive before.
+    /// The vertices that have been set up for an earlier primitive.
     known: Vec<Option<Vertex>>,
     geometry: DefaultHasher,
 }
 
-/// Returns a draw's primitives in drawing order, without those that are far from all judged texels.
+/// Returns a draw's primitives in drawing order, except those far from all judged texels.
 pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
@@ -53,7 +53,7 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         if is_far(context, draw, one) {
             continue;
         }
-        // Without a convention, the flat colour may be that of any vertex.
+        // Without a convention, any vertex may provide the flat colour.
         let own: SmallVec<[usize; 3]> = match (&provoking, one) {
             (Some(all), _) => all[index].clone(),
             (None, PrimitiveVertices::Point(i)) => smallvec![i],
@@ -71,8 +71,8 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
     primitives
 }
 
-/// True if no judged texel is near a primitive, by a rough estimate: it is the whole cost of most of a
-/// million small triangles.
+/// Returns true if no judged texel is near a primitive, by a rough estimate: for most of a million small
+/// triangles, this is the whole cost.
 fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> bool {
     if context.lattice == Lattice::ALL {
         return false;
@@ -93,7 +93,7 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
             if !v.is_finite() {
                 return false;
             }
-            // More than the rules let a position be off or a line reach beyond its ends.
+            // More than the legal error of a position, or the reach of a line beyond its ends.
             let slack = 4.0 + v.abs() / 1024.0;
             low[axis] = low[axis].min(v - slack);
             high[axis] = high[axis].max(v + slack);
@@ -110,13 +110,13 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
     ])
 }
 
-/// What differs between shapes of a primitive.
+/// What differs between the shapes of a primitive.
 struct Parts {
     shape: Shape,
     window_depth: Depth,
     clip_depth: Depth,
     bias: Interval,
-    /// All snapped vertices, or what is seen.
+    /// The hull of all snapped vertices, or of the visible part.
     all: SnapBox,
     uv: Option<[Varying; 2]>,
     reciprocal_w: Option<Varying>,
@@ -176,7 +176,7 @@ fn primitive(
     })
 }
 
-/// Returns a primitive whose vertices lie in front of the eye and are snapped.
+/// Returns a primitive whose vertices are in front of the eye and are snapped.
 fn snapped(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -208,7 +208,7 @@ fn snapped(
             (
                 Shape::Line(v.map(|v| v.snapped)),
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units, error),
-                // Vertices decide whether anything is clipped.
+                // Only the vertices decide whether anything is clipped.
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units, 0.0),
             )
         }
@@ -230,11 +230,11 @@ fn snapped(
                 PolygonMode::Fill => Shape::Triangle(triangle),
                 PolygonMode::Line => Shape::Outline(triangle),
             };
-            // Vertices decide whether anything is clipped.
+            // Only the vertices decide whether anything is clipped.
             let clip_z = v.map(|v| v.clip_z);
             let inside = clip_z.iter().all(|z| z.low >= 0.0 && z.high <= 1.0);
             let clip = if inside && draw.polygon_mode == PolygonMode::Fill {
-                // Nothing is clipped, wherever the sample lies.
+                // Nothing is clipped, wherever the sample is.
                 Depth::flat(&clip_z)
             } else {
                 Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z)
@@ -272,8 +272,8 @@ fn known(context: &PassContext<'_>, draw: &Draw, vertices: &mut Vertices, i: usi
     *vertices.known[i].get_or_insert_with(|| vertex(context, draw, position))
 }
 
-/// Returns a point behind the eye, or too far out for the grid, if the rules let it be drawn: then where the division
-/// by w puts it.
+/// Returns a point behind the eye, or too far out for the grid, at the position that the division by w gives,
+/// if the rules let it be drawn.
 fn point_behind(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -288,7 +288,7 @@ fn point_behind(
         &draw.viewport,
     );
     let near = across.abs() < 4.0 * width && down.abs() < 4.0 * height;
-    // Without near and far planes nothing but the view volume's sides discards it, which OpenGL leaves open.
+    // Without near and far planes, only the sides of the view volume discard it, and OpenGL leaves that open.
     let clips = context.rules.clips_points.value() && !draw.depth_clamp;
     if clips || w == 0.0 || !near {
         return None;
@@ -298,7 +298,7 @@ fn point_behind(
     Some(parts)
 }
 
-/// Returns what is left of a triangle that reaches behind the eye.
+/// Returns the part of a triangle that clipping leaves if it reaches behind the eye.
 fn cut_triangle(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -336,7 +336,8 @@ fn cut_triangle(
     })
 }
 
-/// Returns what is left of a line that reaches behind the eye or crosses the near or far plane.
+/// Returns the part of a line that clipping leaves if it reaches behind the eye or crosses the near or far
+/// plane.
 fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<Parts> {
     let cut = CutLine::new(context, draw, line)?;
     let units = units_per_texel(context.limits);
@@ -360,7 +361,7 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
     Some(Parts {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
-        // The planes have clipped it.
+        // The near and far planes have already clipped it.
         clip_depth: Depth::flat(&[Interval::exact(0.5)]),
         bias: Interval::exact(0.0),
         all: a.hull(b),
@@ -373,7 +374,7 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
     })
 }
 
-/// Begins a number for the inputs of depth that all primitives of a draw share.
+/// Begins the hash of the inputs of depth with the ones shared by all primitives of a draw.
 fn draw_geometry(draw: &Draw) -> DefaultHasher {
     let mut hasher = DefaultHasher::new();
     let viewport = &draw.viewport;
@@ -386,7 +387,7 @@ fn draw_geometry(draw: &Draw) -> DefaultHasher {
     hasher
 }
 
-/// Returns a number for the vertices of a primitive in order and all other inputs of its depth.
+/// Returns the hash of a primitive's vertices in order and of all other inputs of its depth.
 fn geometry(draw: &Draw, one: PrimitiveVertices, mut hasher: DefaultHasher) -> u64 {
     let own = match one {
         PrimitiveVertices::Point(i) => [i, i, i],
@@ -404,10 +405,10 @@ fn geometry(draw: &Draw, one: PrimitiveVertices, mut hasher: DefaultHasher) -> u
 struct Over<'a> {
     context: &'a PassContext<'a>,
     draw: &'a Draw,
-    /// True if the edges of a triangle are drawn.
+    /// True if only the edges of a triangle are drawn.
     outline: bool,
     one: PrimitiveVertices,
-    /// The snapped vertices, the first ones again where there are fewer than three.
+    /// The snapped vertices; the first ones are repeated if there are fewer than three.
     boxes: [SnapBox; 3],
 }
 
@@ -453,7 +454,7 @@ impl Over<'_> {
         }
     }
 
-    /// Returns a value that is linear over the window.
+    /// Returns a value that is linear in the window.
     fn linear(&self, value: impl Fn(usize) -> f64) -> Depth {
         let [units, grid] = self.grids();
         let error = self.context.rules.float_error.value();
@@ -475,13 +476,13 @@ impl Over<'_> {
         }
     }
 
-    /// Returns 1 over w, which is linear over the window.
+    /// Returns 1 over w, which is linear in the window.
     fn reciprocal_w(&self) -> Varying {
         let error = self.context.rules.float_error.value();
         Varying::Linear(self.linear(|i| 1.0 / self.w(i)).interpolated(error))
     }
 
-    /// Returns the clip distances that clip.
+    /// Returns the enabled clip distances.
     fn distances(&self) -> Vec<Distance> {
         let error = self.context.rules.float_error.value();
         let [a, b, _] = self.boxes;
@@ -501,7 +502,7 @@ impl Over<'_> {
                     PrimitiveVertices::Line(own) if self.w(own[0]) == self.w(own[1]) => {
                         Distance::along([a, b], own.map(value), self.grids()[0])
                     }
-                    // Along a line under a perspective they are not linear in the picture.
+                    // Along a line in perspective, clip distances are not linear in the picture.
                     PrimitiveVertices::Triangle(own) => Distance::between(&own.map(value)),
                     PrimitiveVertices::Line(own) => Distance::between(&own.map(value)),
                     PrimitiveVertices::Point(own) => Distance::between(&[value(own)]),
@@ -511,13 +512,13 @@ impl Over<'_> {
     }
 }
 
-/// Returns the numbers of the clip distances that clip.
+/// Returns the indices of the enabled clip distances.
 fn clipping_distances(draw: &Draw) -> impl Iterator<Item = usize> {
     let clipping = draw.clipping_distances();
     (0..draw.shader.clip_distances() as usize).filter(move |n| clipping & (1 << n) != 0)
 }
 
-/// True if a line with these clip distances at its ends may be drawn beyond the end that they clip.
+/// Returns true if a line with these clip distances at its ends can legally continue beyond a clipped end.
 fn may_stay_unclipped(context: &PassContext<'_>, distances: [f64; 2]) -> bool {
     let is_clipped = distances.iter().any(|distance| *distance < 0.0);
     is_clipped && !context.rules.clips_lines_by_distance.value()

@@ -1,6 +1,6 @@
-//! Signatures: all that one draw's outcome at a sample depends on, besides what the sample held before.
-//! Samples of equal signature that held the same hold the same afterwards, so that one of them is judged
-//! for all.
+//! Signatures: everything that a draw's outcome at a sample depends on, apart from the sample's earlier
+//! contents. Samples with equal signatures and equal contents have equal contents afterwards, so one of them
+//! is judged for all.
 
 use crate::interval::Interval;
 use crate::judging::Range;
@@ -14,33 +14,33 @@ use etalon_scene::{Contents, Draw, EarlyTests, InterpolationSampling, Multisampl
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-/// The inputs of a draw's fragments that its signatures must tell apart.
+/// The inputs of a draw's fragments that its signatures must distinguish.
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
-    /// The fragment's own depth is tested, stored or both.
+    /// Whether the fragment's own depth is tested, stored or both.
     depth: bool,
-    /// The shader reads the fragment's depth.
+    /// Whether the shader reads the fragment's depth.
     depth_seen: bool,
     coordinates: bool,
-    /// The shader reads the sample mask.
+    /// Whether the shader reads the sample mask.
     mask_seen: bool,
-    /// The number of the sample, or its position among others.
+    /// Whether the number of the sample, or its position in the texel, matters.
     sample: bool,
-    /// The primitives themselves: counters name them.
+    /// Whether the primitives themselves matter, because counters identify fragments by them.
     primitives: bool,
     textures: SmallVec<[Texture; 2]>,
-    /// Of each primitive, what is the same all over it.
+    /// For each primitive, the number of what is constant over it.
     kinds: Vec<u32>,
 }
 
-/// How a texture that a draw reads enters its signatures.
+/// How a texture that a draw reads affects its signatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Texture {
-    /// By nothing but what the sample held, and the coordinates.
+    /// Only through the sample's contents and the coordinates.
     Known,
-    /// By the texel under the sample, as uploaded.
+    /// Through the texel under the sample, as uploaded.
     Uploaded(usize),
-    /// By the value that the shader reads.
+    /// Through the value that the shader reads.
     Value(usize),
 }
 
@@ -51,28 +51,28 @@ pub(crate) struct Part {
     pub(crate) start: u32,
 }
 
-/// The signature of a sample over all draws of a pass that may touch it.
+/// The signature of a sample over all draws of a pass that can touch it.
 #[derive(Debug, Default)]
 pub(crate) struct SampleKey {
     pub(crate) words: Vec<u64>,
     /// The draws that touch the sample, in order.
     pub(crate) parts: Vec<Part>,
-    /// The sides of all primitives, those that miss the sample too.
+    /// The sides for all primitives, even if they miss the sample.
     sides: Vec<[Side; 3]>,
-    /// True if samples between this one and one of equal signature and sides in the same row have the
-    /// same.
+    /// True if all samples of a row between this one and one with equal signature and sides have that
+    /// signature too.
     constant: bool,
 }
 
 impl SampleKey {
-    /// Returns the words of one of its draws.
+    /// Returns the words of one of the draws.
     pub(crate) fn words_of(&self, part: usize) -> &[u64] {
         let end = self.parts.get(part + 1).map(|next| next.start as usize);
         &self.words[self.parts[part].start as usize..end.unwrap_or(self.words.len())]
     }
 
-    /// True if all samples of a row between two with these signatures have the same one. The sides of
-    /// an edge on which a sample certainly lies are half-planes, whose points in a row are an interval.
+    /// Returns true if all samples of a row between two with these signatures have the same one. A side on
+    /// which a sample certainly is, is a half-plane, whose points in a row form an interval.
     pub(crate) fn spans(&self, other: &Self) -> bool {
         self.constant
             && other.constant
@@ -142,7 +142,7 @@ impl Walk<'_> {
         let same_size = attachment.size == self.scene.pass_size(own);
         let same_shape = same_size && attachment.samples == self.scene.pass_samples(own);
         match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {
-            // The coordinates tell which texels, and these are the same for all.
+            // The coordinates say which texels, and these are the same for all samples.
             (Some(_), false) => Texture::Known,
             (Some(_), true) => Texture::Value(index),
             (None, true) if same_shape || !same_size => Texture::Known,
@@ -154,8 +154,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns the signature of a sample; `members` are the primitives of the pass that may touch it, as draw
-    /// and place in the draw's setup, in drawing order.
+    /// Returns the signature of a sample. `members` are the primitives of the pass that can touch it, each as
+    /// draw and index in the draw's setup, in drawing order.
     pub(crate) fn sign(
         &self,
         pass: usize,
@@ -179,8 +179,8 @@ impl Walk<'_> {
             let hit = match self.hit((pass, d as usize), primitive, sides, point) {
                 Ok(hit) => hit,
                 Err(reason) => {
-                    // Clipped at both ends of a row, it may still lie between them; a line that misses both may
-                    // cross the row there.
+                    // A primitive that is clipped at both ends of a run of texels can still reach between
+                    // them, and a line that misses both ends can cross the row there.
                     let triangle = matches!(primitive.shape, Shape::Triangle(_));
                     signature.constant &= triangle && reason == Rejection::Coverage;
                     continue;
@@ -315,7 +315,7 @@ impl Walk<'_> {
 }
 
 impl Inputs {
-    /// Returns what is the same all over a primitive.
+    /// Returns what is constant over a primitive.
     fn kind(&self, primitive: &SnappedPrimitive) -> SmallVec<[u64; 24]> {
         let mut words: SmallVec<[u64; 24]> = SmallVec::new();
         words.push(match &primitive.shape {
@@ -342,7 +342,7 @@ impl Inputs {
     }
 }
 
-/// Returns a number below 4 for the ways in which a triangle of such areas may face.
+/// Returns a number below 4 for the facings that a triangle of such areas can have.
 fn facings((least, most): (i64, i64)) -> u64 {
     u64::from(least < 0) | u64::from(most > 0) << 1
 }

@@ -1,4 +1,4 @@
-//! Snapped positions: boxes of integers, since legal snapping leaves a position open by a step of the grid.
+//! Snapped positions as boxes of integers, since legal snapping leaves a position open by a step of the grid.
 
 use etalon_frame::Limits;
 use etalon_pipeline::{Point, signed_area};
@@ -40,8 +40,7 @@ impl SnapBox {
     }
 }
 
-/// Returns the units per texel: fine enough for the adapter's grid and for sample positions in 1/256
-/// texel.
+/// Returns the units per texel: enough for the adapter's grid and for sample positions in 1/256 texel.
 pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
     1 << limits.sub_pixel_bits.max(8)
 }

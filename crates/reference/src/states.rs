@@ -1,4 +1,4 @@
-//! The states of samples: the worlds that a sample may be in, each set of them once, under a number.
+//! The states of samples: each distinct set of possible worlds, under a number.
 
 use crate::sample::{Sample, Shape};
 use crate::world::Worlds;
@@ -8,10 +8,10 @@ use std::rc::Rc;
 /// The number of a state; [`OPEN`] if the sample is open.
 pub(crate) type State = u32;
 
-/// The state of samples of which nothing is asserted.
+/// The state of samples about which nothing is asserted.
 pub(crate) const OPEN: State = u32::MAX;
 
-/// All states, each once.
+/// All states, each stored once.
 #[derive(Debug, Default)]
 pub(crate) struct States {
     all: Vec<Rc<Worlds>>,
@@ -31,17 +31,17 @@ impl States {
         state
     }
 
-    /// The worlds of a state; `None` if the sample is open.
+    /// Returns the worlds of a state; `None` if the sample is open.
     pub(crate) fn worlds(&self, state: State) -> Option<&Rc<Worlds>> {
         self.all.get(state as usize)
     }
 }
 
-/// The states of all samples, one picture per shape, as far as they are walked.
+/// The states of all samples, one picture per shape, after the passes walked so far.
 #[derive(Debug, Default)]
 pub(crate) struct Pictures {
     pub(crate) shapes: Vec<Shape>,
-    /// Of each shape, sample by sample.
+    /// For each shape, the states of its samples.
     pub(crate) samples: Vec<Vec<State>>,
     pub(crate) states: States,
 }
@@ -51,18 +51,18 @@ impl Pictures {
         self.shapes.iter().position(|s| *s == shape)
     }
 
-    /// True if a sample is in one of the pictures.
+    /// Returns true if a sample belongs to one of the pictures.
     pub(crate) fn has(&self, at: Sample) -> bool {
         self.shape((at.size, at.samples)).is_some()
     }
 
-    /// The state of a sample.
+    /// Returns the state of a sample.
     pub(crate) fn state(&self, at: Sample) -> State {
         let shape = self.shape((at.size, at.samples));
         shape.map_or(OPEN, |s| self.samples[s][at.place()])
     }
 
-    /// The states of a shape's samples.
+    /// Returns the states of a shape's samples.
     pub(crate) fn of_shape(&self, shape: Shape) -> &[State] {
         self.shape(shape).map_or(&[], |s| &self.samples[s])
     }

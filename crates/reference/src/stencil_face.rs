@@ -1,7 +1,7 @@
-//! The stencil state by which a fragment is tested: that of its face, with the draw's reference or the one
-//! that its shader writes.
+//! The stencil state that a fragment is tested with: that of its face, with the reference of the draw or of
+//! its shader.
 //!
-//! Tests that come before the shader have the draw's reference, whatever the shader writes.
+//! Tests before the shader use the draw's reference, whatever the shader writes.
 
 use crate::judging::Range;
 use crate::notes::Notes;
@@ -15,7 +15,7 @@ use smallvec::{SmallVec, smallvec};
 /// The stencil state of a fragment's face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face {
-    /// The state, with the reference that counts.
+    /// The state, with the reference that applies.
     pub(crate) state: StencilFace,
     /// True if the shader wrote that reference.
     pub(crate) exported: bool,
@@ -33,8 +33,8 @@ impl Face {
 }
 
 impl Walk<'_> {
-    /// Returns the state by which a fragment is tested after its shader; several where the reference that
-    /// the shader writes is not known.
+    /// Returns the stencil states that a fragment can be tested with after its shader: several if the
+    /// reference that the shader writes is not known exactly.
     pub(crate) fn faces(
         &self,
         place: Place<'_>,
@@ -72,7 +72,7 @@ impl Walk<'_> {
         smallvec![with(counts)]
     }
 
-    /// Notes that the reference which a shader writes comes too late.
+    /// Notes that the reference that a shader writes comes too late.
     pub(crate) fn note_late_reference(&self, place: Place<'_>, front: bool, notes: &mut Notes<'_>) {
         let Some(face) = Face::of(place.draw, front) else {
             return;
@@ -89,7 +89,7 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the clause by which a shader's reference replaces the draw's.
+/// Returns the clause that lets a shader's reference replace the draw's.
 fn replaces(api: Api) -> &'static str {
     match api {
         Api::Vulkan => {
@@ -104,7 +104,7 @@ fn replaces(api: Api) -> &'static str {
     }
 }
 
-/// Returns the clause by which forced tests have the draw's reference.
+/// Returns the clause that makes forced early tests use the draw's reference.
 fn comes_late(api: Api) -> &'static str {
     match api {
         Api::Vulkan => {

@@ -70,7 +70,7 @@ impl Walk<'_> {
         judging.encode(encoding, value)
     }
 
-    /// True if logic operations apply to a format.
+    /// Returns true if logic operations apply to a format.
     fn has_logic(&self, format: TextureFormat, world: &World) -> bool {
         takes_logic(format)
             || format == TextureFormat::Rgba8UnormSrgb
@@ -196,7 +196,7 @@ impl Walk<'_> {
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
                     let codes = self.store_color(&mut judging, *encoding, value[c], world);
-                    // On sRGB attachments the operation works on the codes, which are those of 8 bits.
+                    // On sRGB attachments the operation works on the 8-bit codes.
                     let bits = match encoding {
                         ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
                         other => *other,
@@ -213,7 +213,7 @@ impl Walk<'_> {
     }
 }
 
-/// The value of a destination's missing channel in blending: colours 0, alpha 1 (Vulkan, Blending;
+/// Returns the values of a destination's missing channels in blending: colours 0, alpha 1 (Vulkan, Blending;
 /// OpenGL 4.6, 17.3.6).
 fn missing_channels(channels: usize) -> [Option<f64>; 4] {
     std::array::from_fn(|c| {

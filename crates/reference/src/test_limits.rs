@@ -2,7 +2,8 @@
 
 use etalon_frame::{Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
 
-/// Limits of an adapter that has everything, copies everything, and has 8 sub-pixel bits.
+/// Returns the limits of an adapter that has every feature, reads everything back by a copy, and has 8
+/// sub-pixel bits.
 pub(crate) fn limits(api: Api) -> Limits {
     let formats = TextureFormat::ALL
         .into_iter()

@@ -1,21 +1,21 @@
-//! The texels of an image that are judged: all, or a lattice. A large picture is there to be measured, and
-//! judging all of it would take longer than drawing it.
+//! The judged texels of an image: all of them, or a lattice. Large pictures are there to be measured, and
+//! judging one completely would take longer than drawing it.
 
 use etalon_scene::{Attachment, Scene};
 
-/// The texels that are judged. Of others nothing is computed or asserted.
+/// The texels that are judged. Nothing is computed or asserted for others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Texels {
     /// All.
     All,
-    /// At most so many of each image, on a lattice that is the same for all images of one size. It meets
+    /// At most this many of each image, on a lattice that is the same for all images of one size. It reaches
     /// every row and column if the number allows it.
     AtMost(u64),
-    /// One, in column and row.
+    /// One texel, as column and row.
     One([u32; 2]),
 }
 
-/// The judged texels of images of one size: one, or each whose column plus five times its row is a
+/// The judged texels of images of one size: a single one, or all whose column plus five times the row is a
 /// multiple of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lattice {
@@ -23,17 +23,17 @@ pub(crate) enum Lattice {
     One([u32; 2]),
 }
 
-/// The shift of a lattice from one row to the next. Prime, as all steps but 1 are, so that a step of
-/// lattice rows meets each column.
+/// The shift of a lattice from one row to the next. It is prime, as are all steps except 1, so that any run
+/// of as many lattice rows as the step reaches every column.
 const SHEAR: u64 = 5;
 
 impl Texels {
-    /// True if all texels are judged.
+    /// Returns true if all texels are judged.
     pub fn is_all(self) -> bool {
         self == Self::All
     }
 
-    /// Returns the choice for a scene: [`Texels::All`] if it leaves out nothing there.
+    /// Returns the choice for a scene: [`Texels::All`] if it would leave out nothing there.
     pub(crate) fn of(self, scene: &Scene) -> Self {
         let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
         if scene.attachments.iter().all(whole) {
@@ -43,7 +43,7 @@ impl Texels {
         }
     }
 
-    /// True if a texel of an image of this size is judged.
+    /// Returns true if a texel of an image of this size is judged.
     pub fn contains(self, size: [u32; 2], x: u32, y: u32) -> bool {
         self.lattice(size).contains(x, y)
     }
@@ -65,7 +65,7 @@ impl Texels {
                 }
                 let fits = |step: &u64| Lattice::Step(*step).count(size) <= most;
                 let primes = (texels.div_ceil(most)..).filter(|n| is_prime(*n) && *n != SHEAR);
-                // A step past the number of texels leaves one lattice point, so that one step always fits.
+                // A step as large as the number of texels leaves one lattice point, so one step always fits.
                 Lattice::Step(primes.into_iter().find(fits).unwrap_or(texels))
             }
         }
@@ -80,7 +80,7 @@ impl Lattice {
         self.first(x, y) == Some(x)
     }
 
-    /// Returns the first judged column of a row, from a column on.
+    /// Returns the first judged column of a row at or after `from`.
     pub(crate) fn first(self, from: u32, y: u32) -> Option<u32> {
         match self {
             Self::One([x, row]) => (row == y && x >= from).then_some(x),
@@ -92,7 +92,8 @@ impl Lattice {
         }
     }
 
-    /// True if a rectangle of left, top, right and bottom, the last two excluded, holds one of them.
+    /// Returns true if a rectangle of left, top, right and bottom, the last two excluded, contains a judged
+    /// texel.
     pub(crate) fn meets(self, [left, top, right, bottom]: [u32; 4]) -> bool {
         (top..bottom).any(|y| self.first(left, y).is_some_and(|x| x < right))
     }

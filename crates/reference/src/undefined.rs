@@ -1,8 +1,8 @@
 //! Results that depend on discarded contents.
 //!
-//! A store operation discards an aspect as a whole, and a draw that reads undefined contents is taken to
-//! make all that it writes undefined. So what is undefined follows from the scene alone, whatever the
-//! sample, and no world carries it.
+//! A store operation discards an aspect as a whole, and a draw that reads undefined contents is assumed to
+//! make everything that it writes undefined. What is undefined therefore follows from the scene alone,
+//! whatever the sample, and is not part of the worlds.
 
 use etalon_frame::Aspect;
 use etalon_scene::{Clear, ClearTarget, CompareFunction, Draw, Pass, ResolveMode, Scene};
@@ -26,12 +26,12 @@ impl Undefined {
         all
     }
 
-    /// True if an aspect of an attachment is undefined at the end.
+    /// Returns true if an aspect of an attachment is undefined at the end.
     pub(crate) fn aspect(&self, attachment: usize, aspect: Aspect) -> bool {
         self.aspects.contains(&(attachment, aspect))
     }
 
-    /// True if a counter depends on undefined contents.
+    /// Returns true if a counter depends on undefined contents.
     pub(crate) fn counter(&self, counter: usize) -> bool {
         self.counters.contains(&counter)
     }
@@ -74,7 +74,7 @@ impl Undefined {
         self.aspects.extend(pass.discarded());
     }
 
-    /// Clear commands define what they write all of.
+    /// Marks as defined everything that clear commands write completely.
     fn clears(&mut self, pass: &Pass, clears: &[Clear]) {
         let whole = |clear: &&Clear| clear.rect.is_none() && !clear.target.is_masked();
         for clear in clears.iter().filter(whole) {
@@ -99,8 +99,8 @@ impl Undefined {
         }
     }
 
-    /// True if the fragments of a draw, or their values, depend on undefined contents. Blending is no
-    /// part of it: it changes only what is undefined already.
+    /// Returns true if the fragments of a draw, or their values, depend on undefined contents. Blending does
+    /// not count: it changes only what is undefined already.
     fn is_read(&self, pass: &Pass, draw: &Draw) -> bool {
         let undefined = |aspect| pass.depth_stencil.is_some_and(|i| self.aspect(i, aspect));
         let reads = |function: CompareFunction| {
@@ -138,7 +138,7 @@ mod tests {
     use super::*;
     use etalon_case::{CaseFile, Profile};
 
-    /// The scene of passes over `color`, `other` and `depth`, with a counter.
+    /// Returns what is undefined after passes over `color`, `other` and `depth`, with a counter.
     fn undefined(passes: &str) -> Undefined {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
@@ -154,7 +154,7 @@ mod tests {
         Undefined::of(&case.build().expect("it builds").scene)
     }
 
-    /// Indices follow the attachments' names.
+    /// Indices follow the order of the attachments' names.
     const COLOR: (usize, Aspect) = (0, Aspect::Color);
     const DEPTH: (usize, Aspect) = (1, Aspect::Depth);
     const MANY: (usize, Aspect) = (2, Aspect::Color);

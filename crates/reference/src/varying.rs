@@ -1,12 +1,13 @@
-//! Values that are interpolated over a primitive, as far as snapping leaves them open.
+//! Values interpolated over a primitive, which legal snapping leaves partly open.
 
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::snap::SnapBox;
 use etalon_pipeline::{DepthPlane, Point};
 
-/// The roundings of a quotient of two interpolated values: both, and the quotient. Texts promise no other precision
-/// than that of floating-point (Vulkan, Basic Polygon Rasterization; OpenGL 4.6, 2.3.4.1 and 14.6.1).
+/// The roundings of a quotient of two interpolated values: each value, and the quotient. The specifications
+/// promise no precision beyond that of floating-point (Vulkan, Basic Polygon Rasterization; OpenGL 4.6,
+/// 2.3.4.1 and 14.6.1).
 const ROUNDINGS: f64 = 4.0;
 
 /// A value over a primitive.
@@ -21,9 +22,9 @@ pub(crate) enum Varying {
 /// A value that is linear in space.
 #[derive(Clone, Debug)]
 pub(crate) struct Perspective {
-    /// The planes of the value over w and of 1 over w, for each of the positions that legal snapping allows.
+    /// The planes of the value over w and of 1 over w, for each position that legal snapping allows.
     choices: Vec<[DepthPlane; 2]>,
-    /// How far a position may be off besides, right or left and up or down.
+    /// The additional error of a position: horizontally, and vertically.
     off: [f64; 2],
     error: f64,
     /// The range of the vertices' values, with the error of interpolating between them.
@@ -31,7 +32,7 @@ pub(crate) struct Perspective {
 }
 
 impl Varying {
-    /// True if it is the same all over the primitive.
+    /// Returns true if the value is the same all over the primitive.
     pub(crate) fn is_flat(&self) -> bool {
         match self {
             Self::Linear(depth) => depth.is_flat(),
@@ -39,7 +40,7 @@ impl Varying {
         }
     }
 
-    /// The range of the vertices' values.
+    /// Returns the range of the vertices' values.
     pub(crate) fn hull(&self) -> Interval {
         match self {
             Self::Linear(depth) => depth.hull,
@@ -55,7 +56,7 @@ impl Varying {
         }
     }
 
-    /// Returns the hull over the texel that holds a point, inside of the primitive or not.
+    /// Returns the hull over the texel that contains a point, inside the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
         match self {
             Self::Linear(depth) => depth.over_texel(point, units),
@@ -76,8 +77,9 @@ impl Varying {
 }
 
 impl Perspective {
-    /// The value over a triangle in front of the eye, from its values and w at the vertices. A quotient of functions
-    /// that are linear in each coordinate of a vertex alone, its extremes lie at the corners of the snapped positions.
+    /// Returns the value over a triangle in front of the eye, from its values and w at the vertices. As a
+    /// quotient of functions that are linear in each coordinate of a vertex, it has its extremes at the
+    /// corners of the snapped positions.
     pub(crate) fn over(
         boxes: [SnapBox; 3],
         w: [f64; 3],
@@ -105,7 +107,8 @@ impl Perspective {
         Self::of(choices.collect(), [grid as f64; 2], values, float_error)
     }
 
-    /// The value with known planes of it over w and of 1 over w, at positions that may be off by so much.
+    /// Returns the value with known planes of it over w and of 1 over w, at positions that can be off by
+    /// `off`.
     pub(crate) fn of(
         choices: Vec<[DepthPlane; 2]>,
         off: [f64; 2],
@@ -126,7 +129,7 @@ impl Perspective {
         }
     }
 
-    /// Returns the values over a rectangle: along each axis the quotient is monotone wherever w is positive.
+    /// Returns the values over a rectangle: along each axis the quotient is monotone if w is positive.
     fn within(&self, [low, high]: [Point; 2]) -> Interval {
         let [right, down] = self.off;
         let across = [low.x as f64 - right, high.x as f64 + right];
@@ -148,7 +151,7 @@ impl Perspective {
     }
 }
 
-/// Returns the value of a plane at a point between units.
+/// Returns the value of a plane at a fractional point, in units.
 fn at(plane: &DepthPlane, x: f64, y: f64) -> f64 {
     let [value, dx, dy] = plane.parts();
     value + x * dx + y * dy

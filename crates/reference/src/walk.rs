@@ -1,5 +1,5 @@
-//! The walk of one sample through its worlds. Samples are walked one by one, so that a story needs no walk
-//! over the others.
+//! The walk of one sample through its worlds. Samples are walked one by one, so that a story needs no walk of
+//! the others.
 
 use crate::bins::PassSetup;
 use crate::context::PassContext;
@@ -29,10 +29,10 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Worlds by sample and passes; `None` if the sample is open.
+/// Worlds by sample and number of passes; `None` if the sample is open.
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
-/// True if a texel lies inside a draw's scissor rectangle.
+/// Returns true if a texel is inside a draw's scissor rectangle.
 pub(crate) fn in_scissor(draw: &Draw, at: Sample) -> bool {
     draw.scissor
         .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
@@ -53,9 +53,9 @@ pub(crate) struct Walk<'a> {
     pub(crate) texels: Texels,
     /// The results that depend on discarded contents.
     pub(crate) undefined: Undefined,
-    /// The samples after some passes that a story needed.
+    /// Samples of other texels that a story needed, by number of passes.
     known: RefCell<Known>,
-    /// The line that covers a sample, whatever the rules leave open.
+    /// A line that is made to cover a sample, even if the rules leave that open.
     pub(crate) forced: Cell<Option<Forced>>,
     pub(crate) pictures: RefCell<Pictures>,
 }
@@ -66,25 +66,25 @@ pub(crate) struct Forced {
     pub(crate) at: Sample,
     /// The draw, counted over the scene from 1.
     pub(crate) draw: u32,
-    /// The primitive's place in the draw.
+    /// The primitive's index in the draw.
     pub(crate) primitive: u32,
 }
 
-/// How a primitive meets a sample.
+/// How a primitive covers a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Hit {
-    /// The sample's sides of a triangle's edges.
+    /// The sides of a triangle's edges on which the sample is.
     pub(crate) sides: [Side; 3],
-    /// True if the sample lies inside the viewport for certain.
+    /// True if the sample is certainly inside the viewport.
     pub(crate) in_viewport: bool,
-    /// True if it is not clipped by the near and far planes for certain.
+    /// True if the near and far planes certainly do not clip it.
     pub(crate) in_depth: bool,
-    /// True if no clip distance takes it away for certain.
+    /// True if certainly no clip distance clips it.
     pub(crate) in_distances: bool,
 }
 
 impl Hit {
-    /// True if the fragment is not clipped away for certain.
+    /// Returns true if the fragment is certainly not clipped.
     pub(crate) fn is_certain(self) -> bool {
         self.in_viewport && self.in_depth && self.in_distances
     }
@@ -96,7 +96,7 @@ pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
     /// The sample's position in sub-texel units.
     pub(crate) point: Point,
-    /// Its sides of a triangle's edges.
+    /// The sides of a triangle's edges on which the sample is.
     pub(crate) sides: [Side; 3],
     pub(crate) pass: usize,
     pub(crate) draw_index: usize,
@@ -105,7 +105,7 @@ pub(crate) struct Place<'a> {
     pub(crate) primitive: &'a SnappedPrimitive,
     /// Unique over the scene.
     pub(crate) draw_id: u32,
-    /// The number of the world and how many there are, for the story; 0 if there is one.
+    /// The index of the world and the number of worlds, for the story; 0 if there is only one.
     pub(crate) world: (usize, usize),
 }
 
@@ -168,8 +168,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Returns another sample after the first passes; `None` if it is open: from its picture where that is
-    /// painted, which has come as far as the pass that asks.
+    /// Returns the worlds of another sample after the first passes; `None` if it is open. A sample of a
+    /// picture is taken from there, since the picture has been painted up to the current pass.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
         let pictures = self.pictures.borrow();
         if pictures.has(at) {
@@ -185,13 +185,13 @@ impl<'a> Walk<'a> {
         worlds
     }
 
-    /// Takes away what was kept of other samples.
+    /// Forgets the worlds of other samples.
     #[cfg(test)]
     pub(crate) fn forget(&self) {
         self.known.borrow_mut().clear();
     }
 
-    /// Makes a line cover a sample from now on, and no other one.
+    /// Makes a line cover a sample from now on, instead of any earlier one.
     pub(crate) fn force(&self, forced: Forced) {
         self.forced.set(Some(forced));
         self.known.borrow_mut().clear();
@@ -216,7 +216,7 @@ impl<'a> Walk<'a> {
                 (ReadPath::Shader, _) => (Cow::Borrowed(&[ChannelEncoding::Float32]), read),
                 (ReadPath::Copy, encoding) => (Cow::Owned(vec![encoding]), read),
             },
-            // Integers are exact however they are read.
+            // Integers are exact, however they are read.
             Aspect::Stencil => (Cow::Borrowed(&[ChannelEncoding::Uint(8)]), ReadPath::Copy),
         }
     }
@@ -317,7 +317,7 @@ impl<'a> Walk<'a> {
             }
             let before = (!hit.is_certain()).then(|| worlds.clone());
             worlds = self.primitive(place, worlds, notes);
-            // A sample that may be clipped away also keeps what it was.
+            // A sample that may be clipped away can also keep its contents.
             worlds.extend(before.into_iter().flatten());
             if !merge(&mut worlds) {
                 notes.add(
@@ -331,14 +331,14 @@ impl<'a> Walk<'a> {
             }
         }
         self.note_skipped(notes, (p, d, draw), skipped);
-        // No later draw refers to this one's edges.
+        // Later draws do not share this one's edges.
         let outlives = |(decision, _): &(Decision, bool)| decision.outlives_its_draw();
         worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
         merge(&mut worlds);
         Some(worlds)
     }
 
-    /// Returns how a primitive meets a sample on these sides of its edges, or why it does not.
+    /// Returns how a primitive covers a sample with these sides of its edges, or why it does not.
     pub(crate) fn hit(
         &self,
         (p, d): (usize, usize),
@@ -392,14 +392,13 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Takes away the choices of a pass that ends.
+    /// Forgets the decisions of a pass at its end.
     pub(crate) fn end_pass(&self, worlds: &mut Worlds) {
         worlds.iter_mut().for_each(|w| w.decisions.clear());
         merge(worlds);
     }
 
-    /// Returns the resolves at the end of a pass whose targets have the shape of a sample's attachments,
-    /// as source and target.
+    /// Returns the resolves at the end of a pass into attachments of a sample's shape, as source and target.
     pub(crate) fn resolves_into(&self, pass: usize, at: Sample) -> Vec<(usize, usize)> {
         let pass = &self.scene.passes[pass];
         let both = pass.color.iter().zip(&pass.resolve);
@@ -411,7 +410,7 @@ impl<'a> Walk<'a> {
         .collect()
     }
 
-    /// Returns the sides of a triangle's edges on which a sample lies; of other shapes, nothing is known.
+    /// Returns the sides of a triangle's edges on which a sample is; unknown sides for other shapes.
     pub(crate) fn sides_of(
         &self,
         primitive: &SnappedPrimitive,
@@ -428,7 +427,7 @@ impl<'a> Walk<'a> {
         if at.samples == 1 || self.rules.covers_at_positions.value() {
             return [0, 1, 2].map(|i| triangle.side(i, point));
         }
-        // Wherever in the texel the sample is covered: on one side only if all of the texel is.
+        // The sample's position in the texel is open: it is certainly on one side only if the whole texel is.
         let corner = |dx: i64, dy: i64| Point {
             x: (i64::from(at.x) + dx) * self.units,
             y: (i64::from(at.y) + dy) * self.units,
@@ -460,7 +459,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Returns the set of a sample of a picture; of an open one, nothing is asserted.
+    /// Returns the legal set of a sample of a picture; nothing is asserted about an open sample.
     pub(crate) fn set(
         &self,
         worlds: Option<&Rc<Worlds>>,
@@ -478,7 +477,7 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Returns the boxes of the attachments that are read back.
+    /// Returns the legal set of the attachments that are read back.
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
         for (w, world) in worlds.iter().enumerate() {
@@ -535,7 +534,8 @@ impl<'a> Walk<'a> {
     ) -> CodeInterval {
         let least = encoding.min_order();
         let stored = match encoding {
-            // No API copies samples: a shader reads them, to which both codes of -1 are one value.
+            // No API copies individual samples: a shader reads them, and it sees both codes of -1 as one
+            // value.
             ChannelEncoding::Snorm(_) if samples > 1 && stored.low == least => {
                 stored.hull(CodeInterval::exact(least + 1))
             }
@@ -546,7 +546,7 @@ impl<'a> Walk<'a> {
             return stored;
         }
         match encoding {
-            // Both codes of -1.
+            // Both codes of -1 are possible.
             ChannelEncoding::Snorm(_) if stored.low <= encoding.min_order() + 1 => {
                 CodeInterval::new(encoding.min_order(), stored.high)
             }
@@ -578,8 +578,8 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Takes the geometry from triangles that no other primitive of the scene repeats: with nothing to be the
-/// same as, it would only part what is equal otherwise.
+/// Removes the geometry numbers of primitives that no other primitive of the scene repeats: they would only
+/// distinguish states that are otherwise equal.
 fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
     let mut times: FxHashMap<u64, u32> = FxHashMap::default();
     let all = setups.iter_mut().flat_map(PassSetup::primitives_mut);

@@ -23,14 +23,14 @@ pub struct Attachment {
 pub enum Contents {
     /// A colour clear in red, green, blue, alpha, converted by the API.
     Color([f32; 4]),
-    /// A depth and stencil clear; the part that the format lacks is ignored.
+    /// A depth and stencil clear; a format without depth or stencil ignores that part.
     DepthStencil {
         /// Depth in 0..=1.
         depth: f32,
         /// Stencil.
         stencil: u8,
     },
-    /// Uploaded codes, index `(y * width + x) * channels + channel`, row 0 at the top. Only
-    /// single-sample colour.
+    /// Uploaded codes, index `(y * width + x) * channels + channel`, row 0 at the top. Only for single-sample
+    /// colour.
     Texels(Vec<u32>),
 }

@@ -49,7 +49,7 @@ state_enum! {
 }
 
 impl BlendFactor {
-    /// True if the factor comes from the second source.
+    /// Returns true if the factor comes from the second source.
     pub fn is_second_source(self) -> bool {
         matches!(
             self,
@@ -98,13 +98,13 @@ pub struct BlendState {
 
 state_enum! {
     /// A separable mode of advanced blending: a function f of source and destination, each divided by its
-    /// alpha. Source and destination are premultiplied; each counts in full where it lies alone.
+    /// alpha. Source and destination are premultiplied; where only one of them covers, it counts in full.
     AdvancedBlend {
         /// Source times destination.
         Multiply = "multiply",
         /// Both inverted, multiplied and inverted again.
         Screen = "screen",
-        /// Multiply or screen, twice as strong, as the destination decides.
+        /// Multiply or screen with doubled strength; the destination decides which.
         Overlay = "overlay",
         /// The smaller of the two.
         Darken = "darken",
@@ -114,13 +114,13 @@ state_enum! {
         ColorDodge = "color-dodge",
         /// The inverted destination divided by the source, inverted.
         ColorBurn = "color-burn",
-        /// Multiply or screen, twice as strong, as the source decides.
+        /// Multiply or screen with doubled strength; the source decides which.
         HardLight = "hard-light",
-        /// The destination darkened or lightened, as the source decides.
+        /// The destination darkened or lightened; the source decides which.
         SoftLight = "soft-light",
         /// The distance between the two.
         Difference = "difference",
-        /// As `difference`, with less contrast.
+        /// Like `difference`, with less contrast.
         Exclusion = "exclusion",
     }
 }
@@ -128,23 +128,23 @@ state_enum! {
 /// The state of a draw for one colour attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ColorTarget {
-    /// Blending; `None` is off.
+    /// Blending; `None` turns it off.
     pub blend: Option<BlendState>,
-    /// Advanced blending instead; `None` is off.
+    /// Advanced blending, in place of `blend`; `None` turns it off.
     pub advanced: Option<AdvancedBlend>,
-    /// Written channels: bit 0 red to bit 3 alpha.
+    /// The mask of written channels: bit 0 is red, bit 3 alpha.
     pub write_mask: u8,
 }
 
 impl ColorTarget {
-    /// True if what is stored depends on the destination's colour.
+    /// Returns true if the stored colour depends on the destination's colour.
     pub fn blends(&self) -> bool {
         self.blend.is_some() || self.advanced.is_some()
     }
 }
 
 impl Default for ColorTarget {
-    /// All channels, not blended.
+    /// Returns a target that writes all channels without blending.
     fn default() -> Self {
         Self {
             blend: None,

@@ -1,7 +1,7 @@
-//! Draw calls: what backends upload and pass on.
+//! Draw calls: what backends upload and pass to the API.
 //!
-//! Every backend takes mesh and [`Fetch`](crate::Fetch) from [`Draw::call`], so that all of them put the same
-//! unused vertices, indices and instances around those that are drawn.
+//! Every backend turns mesh and [`Fetch`](crate::Fetch) into a call with [`Draw::call`], so that all of them
+//! add the same unused vertices, indices and instances before and after the drawn ones.
 
 use crate::draw::Draw;
 use crate::fetch::IndexFormat;
@@ -14,17 +14,17 @@ use std::borrow::Cow;
 pub struct Call<'a> {
     /// The vertex buffer.
     pub vertices: Cow<'a, [Vertex]>,
-    /// The index buffer, in an indexed draw; [`RESTART`] whatever the size of an index.
+    /// The index buffer of an indexed draw, with [`RESTART`] for any index size.
     pub indices: Option<Cow<'a, [u32]>>,
     /// The size of an index.
     pub index: IndexFormat,
     /// The first index, or the first vertex of a draw without indices.
     pub first: u32,
-    /// The number of indices, or of vertices of a draw without indices.
+    /// The number of indices, or of vertices in a draw without indices.
     pub count: u32,
     /// The number added to every index.
     pub base_vertex: i32,
-    /// The colours of the buffer that advances once an instance; empty if colours come from vertices.
+    /// The colours in the buffer that advances once per instance; empty if colours come from vertices.
     pub colors: Vec<[f32; 4]>,
     /// The first instance.
     pub first_instance: u32,
@@ -33,35 +33,35 @@ pub struct Call<'a> {
 }
 
 impl Call<'_> {
-    /// The vertices as bytes, [`Vertex`] after [`Vertex`].
+    /// Returns the vertices as bytes, [`Vertex`] after [`Vertex`].
     pub fn vertex_bytes(&self) -> &[u8] {
         bytemuck::cast_slice(&self.vertices)
     }
 
-    /// The indices as bytes of their size.
+    /// Returns the indices as bytes of their size.
     pub fn index_bytes(&self) -> Vec<u8> {
         let all = self.indices.iter().flat_map(|list| list.iter());
         match self.index {
             IndexFormat::Uint32 => all.flat_map(|i| i.to_ne_bytes()).collect(),
             IndexFormat::Uint16 => {
-                // `RESTART` becomes the greatest of 16 bits.
+                // `RESTART` becomes the greatest 16-bit index.
                 all.flat_map(|i| (*i as u16).to_ne_bytes()).collect()
             }
         }
     }
 
-    /// The colours of the instances as bytes.
+    /// Returns the colours of the instances as bytes.
     pub fn color_bytes(&self) -> &[u8] {
         bytemuck::cast_slice(&self.colors)
     }
 
-    /// True if an index ends a strip.
+    /// Returns true if an index restarts a strip.
     pub fn restarts(&self) -> bool {
         self.indices.as_ref().is_some_and(|i| i.contains(&RESTART))
     }
 
-    /// The indices without those that end a strip and the incomplete primitives before them: the same
-    /// primitives for APIs that restart no lists. Strips and fans keep theirs.
+    /// Returns the call without restart indices and the incomplete primitives before them, for APIs that
+    /// cannot restart lists: the primitives are the same. Strips and fans keep their restarts.
     #[must_use]
     pub fn without_list_restarts(mut self, topology: PrimitiveTopology) -> Self {
         let size = match topology {
@@ -89,11 +89,11 @@ impl Call<'_> {
 }
 
 impl Draw {
-    /// The draw call: what a backend uploads, and the numbers that it passes.
+    /// Returns the draw call: what a backend uploads, and the numbers that it passes.
     ///
-    /// Unused vertices are corners of a triangle over everything, unused instances have a colour of
-    /// their own, and unused indices name the mesh's vertices from the last one on, so that whatever is
-    /// drawn of them shows. They stand behind as well as in front: a number that is added twice stays
+    /// Unused vertices are corners of a triangle over everything, unused instances have a colour of their
+    /// own, and unused indices refer to the mesh's vertices from the last one on, so that drawing any of them
+    /// is visible. They come before as well as after the used ones: even an offset that is added twice stays
     /// inside the buffers.
     pub fn call(&self) -> Call<'_> {
         let (mesh, fetch) = (&self.mesh, &self.fetch);
@@ -141,13 +141,13 @@ impl Draw {
     }
 }
 
-/// The first of several equal runs, which a restart index parts.
+/// Returns the first of several equal runs, which restart indices separate.
 fn one_of(indices: &[u32], parts: usize) -> &[u32] {
     // n runs of k indices and n - 1 restarts between them are n (k + 1) - 1 indices.
     &indices[..(indices.len() + 1) / parts - 1]
 }
 
-/// A list between so many unused values on either side.
+/// Returns a list with `unused` unused values before and after it.
 fn between<T: Clone>(list: &[T], unused: usize, value: impl Fn(usize) -> T) -> Cow<'_, [T]> {
     if unused == 0 {
         return Cow::Borrowed(list);
@@ -157,10 +157,10 @@ fn between<T: Clone>(list: &[T], unused: usize, value: impl Fn(usize) -> T) -> C
     Cow::Owned(all.collect())
 }
 
-/// The colour of what is not drawn: no exact code of a normalized format.
+/// The colour of unused vertices and instances: not an exact code of any normalized format.
 const UNUSED_COLOR: [f32; 4] = [0.3, 0.6, 0.3, 0.6];
 
-/// A vertex that is not drawn.
+/// Returns a vertex that is not drawn.
 fn unused_vertex(index: usize) -> Vertex {
     let [x, y] = [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]][index % 3];
     Vertex {
@@ -171,9 +171,9 @@ fn unused_vertex(index: usize) -> Vertex {
 }
 
 impl Mesh {
-    /// The mesh once for each of these colours, in their order: what instances of it draw.
+    /// Returns the mesh repeated once for each colour, in order: what its instances draw.
     ///
-    /// Indexed parts are separated by [`RESTART`], which ends a strip and leaves lists as they are.
+    /// Indexed parts are separated by [`RESTART`], which restarts strips and does not affect lists.
     #[must_use]
     pub fn instanced(&self, colors: &[[f32; 4]]) -> Self {
         let mut whole = Self {
@@ -229,7 +229,7 @@ mod tests {
         }
     }
 
-    /// The vertices that an API would fetch for the first instance.
+    /// Returns the vertices that an API would fetch for the first instance.
     fn fetched(call: &Call<'_>) -> Vec<Option<Vertex>> {
         let range = call.first as usize..(call.first + call.count) as usize;
         match &call.indices {
@@ -259,7 +259,7 @@ mod tests {
                 let call = draw.call();
                 assert_eq!(fetched(&call), due);
                 assert_eq!((call.first, call.base_vertex), (first_index, base_vertex));
-                // A lost or doubled offset fetches something else, and nothing outside.
+                // A lost or doubled offset fetches other vertices, but never reaches outside the buffers.
                 if base_vertex > 0 {
                     let lost = Call {
                         base_vertex: 0,

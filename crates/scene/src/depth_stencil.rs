@@ -37,24 +37,24 @@ pub struct DepthState {
 }
 
 impl DepthState {
-    /// A test that nothing passes.
+    /// A test that always fails.
     pub const REJECTING: Self = Self {
         compare: CompareFunction::Never,
         write: true,
     };
 }
 
-/// The depth bias of a polygon: `constant * r + slope * m`, where `r` is the least step of
-/// the attachment's depth and `m` the polygon's steepest slope, then held to `clamp` where that is
-/// not 0. Off when all are 0.
+/// The depth bias of a polygon: `constant * r + slope * m`, where `r` is the least step of the attachment's
+/// depth and `m` the polygon's steepest slope, then limited by `clamp` unless that is 0. Off if all three are
+/// 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DepthBias {
-    /// In least steps; WebGPU wants an integer.
+    /// The constant term in least steps; WebGPU requires an integer.
     pub constant: i32,
-    /// Per unit of slope.
+    /// The factor of the slope.
     pub slope: f32,
-    /// The most that is added, or with a minus sign the least.
+    /// The upper limit of the bias if positive, the lower limit if negative.
     pub clamp: f32,
 }
 
@@ -69,9 +69,9 @@ state_enum! {
         Replace = "replace",
         /// All bits inverted.
         Invert = "invert",
-        /// Plus one, held at the largest value.
+        /// Plus one, clamped to the largest value.
         IncrementClamp = "increment-clamp",
-        /// Minus one, held at 0.
+        /// Minus one, clamped to 0.
         DecrementClamp = "decrement-clamp",
         /// Plus one, the largest value becoming 0.
         IncrementWrap = "increment-wrap",
@@ -94,22 +94,22 @@ pub struct StencilState {
 pub struct StencilFace {
     /// The comparison: masked reference on the left, masked stored value on the right.
     pub compare: CompareFunction,
-    /// The operation where the stencil test fails.
+    /// The operation if the stencil test fails.
     pub fail_op: StencilOperation,
-    /// The operation where the stencil test passes and the depth test fails.
+    /// The operation if the stencil test passes and the depth test fails.
     pub depth_fail_op: StencilOperation,
-    /// The operation where both pass.
+    /// The operation if both pass.
     pub pass_op: StencilOperation,
-    /// Bits that take part in the comparison.
+    /// The bits that are compared.
     pub read_mask: u8,
-    /// Bits that an operation may change.
+    /// The bits that an operation can change.
     pub write_mask: u8,
     /// The reference.
     pub reference: u8,
 }
 
 impl StencilFace {
-    /// A test that nothing passes, and that changes all bits.
+    /// A test that always fails, and an operation that changes all bits.
     pub const REJECTING: Self = Self {
         compare: CompareFunction::Never,
         fail_op: StencilOperation::Invert,

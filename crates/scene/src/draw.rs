@@ -18,14 +18,14 @@ use serde::{Deserialize, Serialize};
 pub struct Draw {
     /// Vertices.
     pub mesh: Mesh,
-    /// The path of the mesh's vertices to the pipeline.
+    /// How the mesh's vertices reach the pipeline.
     pub fetch: Fetch,
     /// The topology.
     pub topology: PrimitiveTopology,
-    /// The tessellation of patches of three vertices, which the topology's triangles are; `None` is off.
+    /// The tessellation of patches, which are the topology's triangles; `None` turns it off.
     #[serde(default)]
     pub tessellation: Option<Tessellation>,
-    /// The vertex whose attributes are flat over a primitive; with `None` it is open.
+    /// The vertex whose attributes are flat over a primitive; `None` leaves it open.
     #[serde(default)]
     pub provoking: Option<ProvokingVertex>,
     /// Vertex and fragment shader.
@@ -34,42 +34,42 @@ pub struct Draw {
     pub params: Params,
     /// The order of fragment tests and fragment shader.
     pub early_tests: EarlyTests,
-    /// Indices of the attachments that the shader reads: single-sample colour, as it was uploaded,
-    /// cleared or left by earlier passes, and no part of the pass.
+    /// Indices of the attachments that the shader reads: single-sample colour attachments, uploaded, cleared
+    /// or left by earlier passes, that are not part of the pass.
     pub textures: Vec<usize>,
-    /// The sampler of the textures; `None` where the shader fetches single texels.
+    /// The sampler of the textures; `None` if the shader fetches single texels.
     pub sampler: Option<Sampler>,
-    /// Indices of the scene's counters that this draw adds to: one of each kind at most, and one
-    /// occlusion query at most.
+    /// Indices of the scene's counters that this draw adds to: at most one of each kind, and at most one
+    /// occlusion query.
     pub counters: Vec<usize>,
     /// Culled faces.
     pub cull: CullMode,
     /// The front face's winding.
     pub front_face: FrontFace,
-    /// Inside or edges.
+    /// The part of a polygon that is drawn.
     pub polygon_mode: PolygonMode,
     /// True if primitives are discarded before rasterization.
     pub rasterizer_discard: bool,
     /// The viewport.
     pub viewport: Viewport,
-    /// Left, top, width and height of the texels that may be written; `None` is all.
+    /// Left, top, width and height of the texels that can be written; `None` for all texels.
     pub scissor: Option<[u32; 4]>,
-    /// Bit `i` lets the shader's clip distance `i` clip.
+    /// Bit `i` enables the shader's clip distance `i`.
     #[serde(default = "all_clip_distances")]
     pub clip_distances: u8,
     /// The depth bias of polygons.
     pub depth_bias: DepthBias,
     /// True if depths beyond the viewport's range are clamped instead of clipped.
     pub depth_clamp: bool,
-    /// Stored depths outside this range reject fragments; `None` is off.
+    /// The range of stored depths outside which fragments are rejected; `None` turns the test off.
     pub depth_bounds: Option<[f32; 2]>,
-    /// Depth test; `None` is off.
+    /// Depth test; `None` turns it off.
     pub depth: Option<DepthState>,
-    /// Stencil test; `None` is off.
+    /// Stencil test; `None` turns it off.
     pub stencil: Option<StencilState>,
-    /// One per colour attachment of the pass.
+    /// The state for each colour attachment of the pass.
     pub targets: Vec<ColorTarget>,
-    /// The logic operation of all targets, instead of blending; `None` is off.
+    /// The logic operation of all targets, in place of blending; `None` turns it off.
     pub logic: Option<LogicOperation>,
     /// The samples that are drawn.
     pub multisample: Multisample,
@@ -78,19 +78,19 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// True if alpha reduces the coverage: where the first output is of integers, alpha to coverage and alpha to one
-    /// are skipped (Vulkan, Multisample Coverage; OpenGL 4.6, 17.3.1; OpenGL ES 3.2, 15.1.1).
+    /// Returns true if alpha reduces the coverage. Alpha to coverage and alpha to one are skipped if the
+    /// first output is an integer (Vulkan, Multisample Coverage; OpenGL 4.6, 17.3.1; OpenGL ES 3.2, 15.1.1).
     pub fn alpha_to_coverage(&self) -> bool {
         self.multisample.alpha_to_coverage && !self.shader.writes_integers()
     }
 
-    /// True if alpha then counts as 1.
+    /// Returns true if alpha counts as 1 after alpha to coverage.
     pub fn alpha_to_one(&self) -> bool {
         self.multisample.alpha_to_one && !self.shader.writes_integers()
     }
 
-    /// Returns the vertex indices of each primitive that is rasterized, in order: the mesh's own, which
-    /// tessellation may turn over.
+    /// Returns the vertex indices of each rasterized primitive, in order: those of the mesh, in reverse
+    /// winding if tessellation reverses it.
     pub fn primitives(&self) -> Vec<PrimitiveVertices> {
         let mut all = self.mesh.primitives(self.topology);
         if self.tessellation.is_some_and(|t| !t.keeps_order()) {
@@ -103,7 +103,8 @@ impl Draw {
         all
     }
 
-    /// True if primitives share vertices in their order: those of a strip or fan without indices.
+    /// Returns true if the mesh is a strip or fan without indices, whose primitives share vertices by their
+    /// order.
     pub fn is_unindexed_strip(&self) -> bool {
         let strips = match self.topology {
             PrimitiveTopology::LineStrip
@@ -116,14 +117,14 @@ impl Draw {
         strips && self.mesh.indices.is_none()
     }
 
-    /// The bits of the shader's clip distances that clip.
+    /// Returns the bits of the shader's enabled clip distances.
     pub fn clipping_distances(&self) -> u8 {
-        // A shader has eight at most.
+        // A shader has at most eight.
         let own = (1_u32 << self.shader.clip_distances()) - 1;
         self.clip_distances & own as u8
     }
 
-    /// A draw of triangles with every test off and no blending, to one colour attachment.
+    /// Returns a draw of triangles to one colour attachment, with every test off and no blending.
     pub fn new(shader: Shader, mesh: Mesh, viewport: Viewport) -> Self {
         Self {
             mesh,
@@ -167,12 +168,12 @@ fn all_clip_distances() -> u8 {
 pub struct Params {
     /// A colour.
     pub color: [f32; 4],
-    /// A second colour, of back faces.
+    /// A second colour, for back faces.
     pub back_color: [f32; 4],
 }
 
 impl Params {
-    /// The block as the shader sees it: two `vec4f`, little endian.
+    /// Returns the block as the shader sees it: two `vec4f`, little endian.
     pub fn to_bytes(self) -> [u8; 32] {
         let mut bytes = [0; 32];
         let values = self.color.iter().chain(&self.back_color);

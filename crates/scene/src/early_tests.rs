@@ -1,15 +1,15 @@
-//! The order of fragment tests and fragment shader.
+//! The order of the fragment tests and the fragment shader.
 
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// The order of depth bounds, stencil and depth tests and the fragment shader.
+    /// When the depth bounds, stencil and depth tests happen, relative to the fragment shader.
     EarlyTests {
-        /// As the API says of the shader: in effect afterwards.
+        /// The API's default for the shader: in effect afterwards.
         Implicit = "implicit",
-        /// Before, whatever the shader does.
+        /// Before the shader, whatever it does.
         Forced = "forced",
         /// In effect afterwards; the shader promises a depth not below the fragment's own.
         GreaterEqual = "greater-equal",
@@ -21,7 +21,7 @@ state_enum! {
 }
 
 impl EarlyTests {
-    /// The word of WGSL's `early_depth_test` attribute; `None` where the shader has none.
+    /// Returns the argument of WGSL's `early_depth_test` attribute; `None` without the attribute.
     pub fn attribute(self) -> Option<&'static str> {
         match self {
             Self::Implicit => None,
@@ -32,7 +32,7 @@ impl EarlyTests {
         }
     }
 
-    /// True if the shader makes a promise about the depth that it writes.
+    /// Returns true if the shader makes a promise about the depth that it writes.
     pub fn is_conservative(self) -> bool {
         !matches!(self, Self::Implicit | Self::Forced)
     }

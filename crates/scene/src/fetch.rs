@@ -1,7 +1,7 @@
-//! The fetch of a draw's vertices: the numbers that a draw call takes beside its mesh.
+//! How a draw's vertices are fetched: the numbers that a draw call takes in addition to its mesh.
 //!
-//! A [`Mesh`](crate::Mesh) is what is drawn, and all that judges and rasterizers look at. A [`Fetch`] is the
-//! path on which a driver gets there: it changes buffers and arguments, never the picture.
+//! A [`Mesh`](crate::Mesh) is what is drawn, and the judge and rasterizers look at nothing else. A [`Fetch`]
+//! is the way a driver gets there: it changes buffers and arguments, but never the picture.
 
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
@@ -10,33 +10,34 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The size of an index.
     IndexFormat {
-        /// 16 bits; [`RESTART_16`] ends a strip.
+        /// 16 bits; [`RESTART_16`] restarts a strip.
         Uint16 = "uint16",
-        /// 32 bits; [`RESTART`](crate::RESTART) ends a strip.
+        /// 32 bits; [`RESTART`](crate::RESTART) restarts a strip.
         Uint32 = "uint32",
     }
 }
 
-/// The 16-bit index that ends a strip.
+/// The 16-bit index that restarts a strip.
 pub const RESTART_16: u16 = u16::MAX;
 
-/// The path of vertices to the pipeline. The default is that of most draws: 32-bit indices, everything
-/// from the first on, no instances.
+/// The way of vertices to the pipeline. The default serves most draws: 32-bit indices, everything from the
+/// first one on, no instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fetch {
     /// The size of an index.
     pub index: IndexFormat,
-    /// The number added to every index. The vertices are moved, or the indices are if it is negative, so
-    /// that the sum names the mesh's vertex.
+    /// The number added to every index. The vertices are moved to match, or the indices if it is negative, so
+    /// that the sums refer to the mesh's vertices.
     pub base_vertex: i32,
-    /// The number of unused indices in front.
+    /// The number of unused indices before the used ones.
     pub first_index: u32,
-    /// The number of unused vertices in front of a draw without indices.
+    /// The number of unused vertices before the used ones in a draw without indices.
     pub first_vertex: u32,
-    /// The number of instances; 0 draws none of them and takes colours from vertices. The mesh is then so
-    /// many equal parts, each of one colour, which comes from a buffer that advances once an instance.
+    /// The number of instances. With 0, the draw is not instanced and colours come from vertices. Otherwise
+    /// the mesh consists of this many equal parts of one colour each, which comes from a buffer that advances
+    /// once per instance.
     pub instances: u32,
-    /// The number of unused instances in front.
+    /// The number of unused instances before the used ones.
     pub first_instance: u32,
 }
 

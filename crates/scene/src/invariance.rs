@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// A reason why two pictures must be the same although the rules leave each of them open.
     Invariance {
-        /// The same commands again.
+        /// The same commands are repeated.
         Repeat = "repeat",
-        /// Another scissor rectangle.
+        /// Only the scissor rectangle differs.
         Scissor = "scissor",
-        /// Other write masks of colour, depth or stencil.
+        /// Only write masks of colour, depth or stencil differ.
         WriteMask = "write-mask",
-        /// Other contents of the attachments: clear values, uploads, earlier draws.
+        /// Only the contents of the attachments differ: clear values, uploads, earlier draws.
         Contents = "contents",
-        /// Several colour attachments that get the same output.
+        /// Several colour attachments get the same output.
         Attachments = "attachments",
-        /// Other parameters of a test, of blending or of a logic operation that is on in both.
+        /// Only parameters differ, of a test, of blending or of a logic operation that is on in both.
         Parameters = "parameters",
-        /// A picture moved by whole texels.
+        /// The picture is moved by whole texels.
         Translation = "translation",
     }
 }

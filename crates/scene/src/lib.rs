@@ -1,9 +1,9 @@
 //! Scenes: what a driver is asked to draw.
 //!
-//! A [`Scene`] is data: attachments, passes, draws with all their state, and what is read back. It
-//! names no case and no expected value, so a backend, which depends on this crate and not on the
-//! cases, cannot see what it is judged by. States are spelled as WebGPU spells them, extended where
-//! OpenGL and Vulkan have more.
+//! A [`Scene`] is data: attachments, passes, draws with all their state, and what is read back. It contains
+//! no case name and no expected value. A backend depends on this crate and not on the cases, so it cannot see
+//! what it is judged by. States are named as in WebGPU, with extensions for what OpenGL and Vulkan have in
+//! addition.
 
 mod attachment;
 mod blend;

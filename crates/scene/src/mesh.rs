@@ -10,36 +10,36 @@ use serde::{Deserialize, Serialize};
 pub struct Vertex {
     /// Clip-space position, y up, depth 0..=w.
     pub position: [f32; 4],
-    /// Colour or any four values.
+    /// Colour, or any four values.
     pub color: [f32; 4],
     /// Texture coordinates.
     pub uv: [f32; 2],
 }
 
-/// The most vertices of one mesh.
+/// The maximum number of vertices in a mesh.
 pub const MAX_VERTICES: usize = 4 << 20;
 
 /// The index that ends a strip and begins the next one.
 pub const RESTART: u32 = u32::MAX;
 
-/// Vertices and, where they are not drawn in their own order, indices.
+/// Vertices, and indices if the vertices are not drawn in their own order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// The vertices.
     pub vertices: Vec<Vertex>,
-    /// Indices of the drawn vertices, in order; [`RESTART`] ends a strip.
+    /// Indices of the drawn vertices, in order; [`RESTART`] restarts a strip.
     pub indices: Option<Vec<u32>>,
 }
 
 impl Mesh {
-    /// The vertices as bytes, [`Vertex`] after [`Vertex`].
+    /// Returns the vertices as bytes, [`Vertex`] after [`Vertex`].
     pub fn bytes(&self) -> &[u8] {
         bytemuck::cast_slice(&self.vertices)
     }
 
-    /// The vertex indices of each primitive in order: one for points, two for lines, three for
-    /// triangles, which keep their winding (of a strip's odd triangles the first two vertices are
-    /// exchanged: Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
+    /// Returns the vertex indices of each primitive in order: one for points, two for lines, three for
+    /// triangles. Triangles keep their winding: in a strip's odd triangles, the first two vertices are
+    /// exchanged (Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
     pub fn primitives(&self, topology: PrimitiveTopology) -> Vec<PrimitiveVertices> {
         let order: Vec<u32> = match &self.indices {
             Some(indices) => indices.clone(),

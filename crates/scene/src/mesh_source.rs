@@ -24,10 +24,9 @@ use serde::{Deserialize, Serialize};
 
 /// A mesh as a case file describes it.
 ///
-/// Rectangles are given in texels of the draw's viewport and cover the samples at texel centres
-/// of a single-sample attachment, no others: every edge keeps at least 0.17 texels away from every
-/// centre, so that no legal snapping of vertices changes what is covered. Attributes are constant
-/// over each triangle.
+/// Rectangles are given in texels of the draw's viewport and cover exactly the samples at their texel centres
+/// in a single-sample attachment: every edge is at least 0.17 texels away from every centre, so no legal
+/// snapping of vertices changes the coverage. Attributes are constant over each triangle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum MeshSource {
@@ -43,7 +42,7 @@ pub enum MeshSource {
         #[serde(default = "ccw")]
         winding: FrontFace,
     },
-    /// Everything, every sample of every texel: one triangle that reaches far beyond the viewport.
+    /// Every sample of every texel: one triangle that reaches far beyond the viewport.
     Cover {
         /// Vertex depth.
         #[serde(default)]
@@ -69,7 +68,7 @@ pub enum MeshSource {
         #[serde(default = "ccw")]
         winding: FrontFace,
     },
-    /// The attachment divided into columns of equal width as far as whole texels allow.
+    /// The attachment divided into columns whose widths are whole texels and as equal as possible.
     Columns {
         /// The vertex colour of each column.
         values: Vec<Splat>,
@@ -80,7 +79,7 @@ pub enum MeshSource {
         #[serde(default = "one_ccw")]
         windings: Vec<FrontFace>,
     },
-    /// The attachment divided into rows of equal height as far as whole texels allow.
+    /// The attachment divided into rows whose heights are whole texels and as equal as possible.
     Rows {
         /// The vertex colour of each row.
         values: Vec<Splat>,
@@ -91,20 +90,20 @@ pub enum MeshSource {
         #[serde(default = "one_ccw")]
         windings: Vec<FrontFace>,
     },
-    /// Several layers over everything, one [`MeshSource::Cover`] after the other.
+    /// Several layers over everything, one [`MeshSource::Cover`] after another.
     Stack {
-        /// Vertex depth of each layer, in the order of drawing.
+        /// Vertex depth of each layer, in drawing order.
         z: Vec<f32>,
         /// Vertex colours of the layers, repeated as needed.
         #[serde(default = "one_splat")]
         values: Vec<Splat>,
     },
-    /// The whole viewport as a sheet of triangles that share their vertices, two to a cell.
+    /// The whole viewport as a sheet of triangles that share their vertices, two per cell.
     ///
-    /// Cells are alike but for the first of each row and column, which is narrower: so the lines between
-    /// cells keep a quarter of a cell or of a texel, whichever is less, away from texel centres, where the
-    /// cells' sides are whole texels or whole parts of one. Elsewhere edges may pass through centres, and
-    /// two triangles share what they cover there.
+    /// The first cell of each row and column is narrower, and all others are equal. If the cells' sides are
+    /// whole texels, or a texel is a whole number of them, this keeps the lines between cells away from texel
+    /// centres: by a quarter of a cell or of a texel, whichever is less. Other edges can pass through
+    /// centres, which two triangles then share.
     Grid {
         /// The number of cells across and down.
         cells: [u32; 2],
@@ -115,9 +114,8 @@ pub enum MeshSource {
         #[serde(default)]
         value: Splat,
     },
-    /// A torus seen along its axis: a closed mesh whose front half hides the back half. Triangles share
-    /// their vertices; seen from outside, they are counter-clockwise. Its middle lies in the viewport's
-    /// middle, at depth 0.5.
+    /// A torus seen along its axis: a closed mesh whose front half hides the back half. Triangles share their
+    /// vertices; seen from outside, they are counter-clockwise. It is centred in the viewport, at depth 0.5.
     Torus {
         /// The number of segments around the axis and around the tube, each at least 3.
         segments: [u32; 2],
@@ -127,15 +125,15 @@ pub enum MeshSource {
     },
     /// Separate primitives, each in a cell of its own, row by row from the top left.
     Field {
-        /// The primitives, which fit the draw's topology and polygon mode.
+        /// The primitives, which must fit the draw's topology and polygon mode.
         of: FieldOf,
-        /// Width and height of a cell in texels; without it, what the primitives need.
+        /// Width and height of a cell in texels; by default, what the primitives need.
         #[serde(default)]
         cell: Option<[u32; 2]>,
-        /// Column and row of the texel of its cell at which a primitive starts.
+        /// Column and row, within its cell, of the texel at which a primitive starts.
         #[serde(default)]
         at: [u32; 2],
-        /// The number of primitives; without it, as many as there are cells.
+        /// The number of primitives; by default, as many as there are cells.
         #[serde(default)]
         count: Option<u32>,
         /// Vertex depth.
@@ -147,15 +145,15 @@ pub enum MeshSource {
         /// True for an indexed draw.
         #[serde(default)]
         indexed: bool,
-        /// The number of vertices in front that no index names.
+        /// The number of vertices at the front that no index refers to.
         #[serde(default)]
         spare: u32,
     },
     /// One strip of primitives, each with texels of its own, row by row or column by column.
     Strip {
-        /// The primitives, which fit the draw's topology.
+        /// The primitives, which must fit the draw's topology.
         of: StripOf,
-        /// The number of primitives that have texels of their own; those that join them come on top.
+        /// The number of primitives with texels of their own, not counting the primitives that join them.
         count: u32,
         /// Vertex depth.
         #[serde(default)]
@@ -169,12 +167,14 @@ pub enum MeshSource {
     },
     /// Vertices one by one.
     Vertices {
-        /// Positions x, y, z and, where it is not 1, w.
+        /// Positions x, y, z and, if it is not 1, w.
         positions: Vec<Position>,
-        /// The units of positions: clip space, or texels from the top left corner, which x, y and z times w keep.
+        /// The units of positions: clip space, or texels from the top left corner. In texels, x, y and z are
+        /// multiplied by w, so that they are the position after the perspective division.
         #[serde(default)]
         units: Units,
-        /// Indices of the drawn vertices, in order; `null` ends a strip. Without it, all in order.
+        /// Indices of the drawn vertices, in order; `null` restarts a strip. By default, all vertices in
+        /// order.
         #[serde(default)]
         indices: Option<Vec<Option<u32>>>,
         /// Vertex colours, repeated as needed.
@@ -218,11 +218,11 @@ fn one_splat() -> Vec<Splat> {
 }
 
 impl MeshSource {
-    /// The mesh for a viewport of a size in texels, or what is wrong with the description.
+    /// Returns the mesh for a viewport of a size in texels.
     ///
     /// # Errors
-    /// A sentence when a list is empty, a rectangle is empty or reaches outside, or a part would
-    /// be narrower than a texel.
+    /// If a list is empty, a rectangle is empty or reaches outside, or a part would be narrower than a texel.
+    /// The message says which.
     pub fn expand(&self, size: [u32; 2]) -> Result<Mesh, String> {
         let mut builder = Builder::new(size);
         let mut indices = None;
@@ -253,7 +253,7 @@ impl MeshSource {
                 spare,
             } => {
                 if *spare > 0 && !indexed {
-                    return Err("vertices are spared by indices alone".to_owned());
+                    return Err("`spare` needs `indexed`".to_owned());
                 }
                 let values: Vec<_> = values.iter().map(|v| v.0).collect();
                 let field = Field {
@@ -324,7 +324,9 @@ impl MeshSource {
                 if let Some(list) = list {
                     let count = positions.len() as u32;
                     if let Some(wrong) = list.iter().flatten().find(|i| **i >= count) {
-                        return Err(format!("index {wrong} names none of {count} vertices"));
+                        return Err(format!(
+                            "index {wrong} is out of range: there are {count} vertices"
+                        ));
                     }
                     indices = Some(list.iter().map(|i| i.unwrap_or(RESTART)).collect());
                 }
@@ -335,7 +337,7 @@ impl MeshSource {
             all.into_iter().all(|c| c.is_finite())
         };
         if !builder.vertices.iter().all(finite) {
-            return Err("a vertex holds a value that is not a finite 32-bit float".to_owned());
+            return Err("a vertex has a value that is not a finite 32-bit float".to_owned());
         }
         Ok(Mesh {
             vertices: builder.vertices,

@@ -1,8 +1,8 @@
-//! A scene made over by its path.
+//! Scenes rewritten for their paths.
 //!
-//! The values of [`PathStart`], [`PathDraws`] and [`PathTests`] need nothing of an API that scenes cannot say: a load
-//! operation, a clear command, a draw, indices, a test. So they are made here once, as another scene with the same
-//! picture, and every backend has them; a backend executes the other keys itself.
+//! The values of [`PathStart`], [`PathDraws`] and [`PathTests`] need nothing of an API that a scene cannot
+//! express: a load operation, a clear command, a draw, indices, a test. They are therefore applied here once,
+//! as another scene with the same picture, for every backend; a backend executes the other keys itself.
 
 use crate::attachment::Contents;
 use crate::blend::ColorTarget;
@@ -21,12 +21,13 @@ use etalon_frame::{ChannelEncoding, PathDraws, PathStart, PathTests, TextureForm
 use std::borrow::Cow;
 
 impl Scene {
-    /// The scene that backends draw: the same picture, by the path's `start`, `draws` and `tests`.
+    /// Returns the scene that backends draw: the same picture, with the path's `start`, `draws` and `tests`
+    /// applied.
     ///
-    /// Attachments that receive their contents within a pass hold others before it, so that a start that is
-    /// lost shows. What a value does not apply to is as it was: texels are uploaded, an attachment that is
-    /// read or resolved to before it is drawn to is cleared by a transfer, and so are values that a draw
-    /// might convert in two ways.
+    /// Attachments that receive their contents within a pass have other contents before it, so that a lost
+    /// start is visible. Some contents are not affected and stay with a transfer: uploaded texels,
+    /// attachments that are read or resolved to before they are drawn to, and values that a draw might
+    /// convert in two ways.
     pub fn on_path(&self) -> Cow<'_, Self> {
         let Path {
             start,
@@ -47,8 +48,8 @@ impl Scene {
         Cow::Owned(made)
     }
 
-    /// Enables the tests of aspects that passes lack: they are skipped, or pass, and write nothing (Vulkan, Depth Test,
-    /// Stencil Test; OpenGL 4.6, 17.3.3, 17.3.4; OpenGL ES 3.2, 15.1.2, 15.1.3).
+    /// Enables the tests of aspects that passes do not have: such tests are skipped, or pass, and write
+    /// nothing (Vulkan, Depth Test, Stencil Test; OpenGL 4.6, 17.3.3, 17.3.4; OpenGL ES 3.2, 15.1.2, 15.1.3).
     fn test_unattached(&mut self) {
         for pass in &mut self.passes {
             let format = pass
@@ -102,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// Takes the contents of a colour attachment that its pass loads, and leaves others.
+    /// Takes the contents of a colour attachment that its pass loads, and puts others in their place.
     fn take_color(&mut self, pass: &Pass, location: usize, first: &[usize]) -> Option<[f32; 4]> {
         let index = pass.color[location];
         let loads = pass.color_operations(location).load == LoadOperation::Load;
@@ -190,8 +191,8 @@ impl Scene {
         pass.clears.splice(0..0, clears);
     }
 
-    /// Draws the first colour attachment, depth and stencil with values that no conversion changes. The shader's color is
-    /// of floats, which WebGPU refuses beside integers, whatever the write mask.
+    /// Draws the first colour attachment, depth and stencil with values that no conversion changes. The
+    /// shader's color is a float, which WebGPU refuses next to integer attachments, whatever the write mask.
     fn draw(&mut self, pass: &mut Pass, first: &[usize], tested: Option<usize>) {
         let integer = |index: &usize| self.attachments[*index].format.is_integer();
         if pass.color.iter().any(integer) {
@@ -264,7 +265,7 @@ impl Scene {
         }
     }
 
-    /// True if a draw stores exactly what a clear does.
+    /// Returns true if a draw stores exactly what a clear does.
     fn is_exact_color(&self, index: usize) -> bool {
         let attachment = &self.attachments[index];
         let Contents::Color(value) = attachment.contents else {
@@ -272,7 +273,7 @@ impl Scene {
         };
         let exact = |encoding: &ChannelEncoding, v: f32| match encoding {
             ChannelEncoding::Uint(_) => false,
-            // Few bits and a small exponent: what the least float format stores too.
+            // Few bits and a small exponent, which the smallest float format can store.
             _ if encoding.is_float() => v == 0.0 || v == 1.0 || v == 0.5 || v == 0.25,
             _ => v == 0.0 || v == 1.0,
         };
@@ -280,7 +281,7 @@ impl Scene {
         channels.iter().zip(value).all(|(e, v)| exact(e, v))
     }
 
-    /// True if a shader's depth is stored exactly as a clear's is.
+    /// Returns true if a shader's depth is stored exactly as a clear's is.
     fn is_exact_depth(&self, index: usize) -> bool {
         let attachment = &self.attachments[index];
         let Contents::DepthStencil { depth, .. } = attachment.contents else {
@@ -291,10 +292,10 @@ impl Scene {
     }
 }
 
-/// The vertices and indices in front of those of a draw with a base vertex.
+/// The number of vertices and indices before those of a draw with a base vertex.
 const UNUSED: u32 = 2;
 
-/// Makes a draw over to one with other draw calls, if it can be.
+/// Rewrites a draw for other draw calls, if possible.
 fn call_by(draw: &mut Draw, draws: PathDraws) {
     match draws {
         PathDraws::Direct
@@ -324,13 +325,13 @@ fn call_by(draw: &mut Draw, draws: PathDraws) {
     }
 }
 
-/// Gives a draw indices of a size, if it draws no instances and they fit.
+/// Gives a draw indices of this size, if it is not instanced and they fit.
 fn index(draw: &mut Draw, format: IndexFormat) {
     if draw.fetch.instances > 0 {
         return;
     }
     let vertices = draw.mesh.vertices.len() as u32;
-    // The greatest of 16 bits ends a strip.
+    // The greatest 16-bit index restarts a strip.
     if format == IndexFormat::Uint16 && vertices >= u32::from(RESTART_16) {
         return;
     }
@@ -341,7 +342,7 @@ fn index(draw: &mut Draw, format: IndexFormat) {
         .get_or_insert_with(|| (0..vertices).collect());
 }
 
-/// Makes a list a strip, whose primitives the greatest index parts.
+/// Turns a list into a strip, with restart indices between the primitives.
 fn restart(draw: &mut Draw) {
     let (topology, size) = match draw.topology {
         PrimitiveTopology::LineList => (PrimitiveTopology::LineStrip, 2),

@@ -1,16 +1,17 @@
-//! Draws whose primitives may reach a sample twice.
+//! Draws whose primitives can reach a sample twice.
 //!
 //! Advanced blending without coherence leaves the second time undefined (OpenGL ES 3.2, 15.1.5.3; Vulkan,
-//! Advanced Blend Operations), so such a draw needs the feature. The answer is yes wherever it would take
-//! more than a comparison of flat triangles to be sure: no case has to draw such a mesh.
+//! Advanced Blend Operations), so such a draw needs the feature for coherence. Whenever more than a
+//! comparison of flat triangles would be needed to decide, the answer is yes: no case has to draw such a
+//! mesh.
 
 use crate::draw::Draw;
 use crate::mesh::PrimitiveVertices;
 
-/// The most triangles that are compared with each other.
+/// The maximum number of triangles that are compared with each other.
 const COMPARED: usize = 256;
 
-/// True if two primitives of a draw may cover the same sample.
+/// Returns true if two primitives of a draw can cover the same sample.
 pub(crate) fn may_overlap(draw: &Draw) -> bool {
     let flat = |i: &usize| draw.mesh.vertices[*i].position[3] == 1.0;
     let mut triangles: Vec<[[f64; 2]; 3]> = Vec::new();
@@ -40,7 +41,7 @@ pub(crate) fn may_overlap(draw: &Draw) -> bool {
     false
 }
 
-/// True if no side of either triangle separates the two.
+/// Returns true if no side of either triangle separates the two.
 fn share_area(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3]) -> bool {
     let separates = |of: &[[f64; 2]; 3], from: &[[f64; 2]; 3]| {
         (0..3).any(|i| {

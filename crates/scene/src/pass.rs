@@ -1,8 +1,8 @@
-//! Passes: their attachments, and what happens to these around the draws.
+//! Passes: their attachments, and what happens to these before, between and after the draws.
 //!
-//! Load and store operations stand beside the lists of attachments, not in them, so that a pass without any
-//! is what it is without this file. Clear commands stand beside the draws for the same reason: each names
-//! the draw before which it is executed.
+//! Load and store operations are separate from the lists of attachments, and clear commands are separate from
+//! the draws, each with the index of the draw that it precedes. A pass without any is the same as if they did
+//! not exist.
 
 use crate::draw::Draw;
 use crate::path::Path;
@@ -10,18 +10,18 @@ use etalon_frame::{Aspect, PathResolves, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One render pass. Attachments keep their contents from the pass before, unless a load operation clears
+/// One render pass. Attachments keep their contents from the previous pass, unless a load operation clears
 /// them or a store operation discarded them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// Indices of the colour attachments, in location order.
     pub color: Vec<usize>,
-    /// The attachment to which each colour attachment is resolved at the end of the pass: a
-    /// single-sample attachment of the same format and size. As long as `color`.
+    /// The attachment to which each colour attachment is resolved at the end of the pass: a single-sample
+    /// attachment of the same format and size. As long as `color`.
     pub resolve: Vec<Option<usize>>,
     /// Index of the depth-stencil attachment.
     pub depth_stencil: Option<usize>,
-    /// True if the pass promises to write neither depth nor stencil.
+    /// True if the pass declares that it writes neither depth nor stencil.
     pub depth_stencil_read_only: bool,
     /// The resolve of depth and stencil at the end of the pass.
     #[serde(default)]
@@ -29,7 +29,7 @@ pub struct Pass {
     /// Load and store operations.
     #[serde(default)]
     pub operations: PassOperations,
-    /// Clear commands, in order; those before earlier draws first.
+    /// Clear commands, in the order of the draws that they precede.
     #[serde(default)]
     pub clears: Vec<Clear>,
     /// Draws, in order.
@@ -41,24 +41,24 @@ pub struct Pass {
 pub struct DepthStencilResolve {
     /// Index of the attachment that it writes: single-sample, of the same format and size.
     pub to: usize,
-    /// The mode of depth; [`ResolveMode::None`] where the format has none.
+    /// The mode of depth; [`ResolveMode::None`] for formats without depth.
     pub depth: ResolveMode,
-    /// The mode of stencil, never an average; [`ResolveMode::None`] where the format has none.
+    /// The mode of stencil, never an average; [`ResolveMode::None`] for formats without stencil.
     pub stencil: ResolveMode,
 }
 
 state_enum! {
-    /// The value of a texel that its samples are resolved to.
+    /// How the samples of a texel become one value.
     ResolveMode {
-        /// What it was: the aspect is not resolved.
+        /// The aspect is not resolved and keeps its value.
         None = "none",
-        /// That of the first sample.
+        /// The first sample.
         SampleZero = "sample-zero",
-        /// Their average.
+        /// The average of the samples.
         Average = "average",
-        /// The least of them.
+        /// The least sample.
         Min = "min",
-        /// The greatest of them.
+        /// The greatest sample.
         Max = "max",
     }
 }
@@ -67,18 +67,19 @@ state_enum! {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PassOperations {
-    /// Those of the colour attachments, in location order; attachments past the end are loaded and stored.
+    /// The operations of the colour attachments, in location order; attachments past the end are loaded and
+    /// stored.
     #[serde(default)]
     pub color: Vec<Operations<[f32; 4]>>,
-    /// Those of depth.
+    /// The operations of depth.
     #[serde(default)]
     pub depth: Operations<f32>,
-    /// Those of stencil.
+    /// The operations of stencil.
     #[serde(default)]
     pub stencil: Operations<u8>,
 }
 
-/// The load and store operation of one aspect, of which `V` is a clear value.
+/// The load and store operation of one aspect with clear values of type `V`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Operations<V> {
@@ -94,15 +95,15 @@ pub struct Operations<V> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LoadOperation<V> {
-    /// What it holds.
+    /// The previous contents.
     #[default]
     Load,
-    /// A value, in all texels and samples.
+    /// This value, in all texels and samples.
     Clear(V),
 }
 
 impl<V: Copy> LoadOperation<V> {
-    /// The clear value; `None` where nothing is cleared.
+    /// Returns the clear value; `None` if nothing is cleared.
     pub fn clear_value(self) -> Option<V> {
         match self {
             Self::Load => None,
@@ -112,13 +113,13 @@ impl<V: Copy> LoadOperation<V> {
 }
 
 state_enum! {
-    /// The fate of an aspect at the end of a pass.
+    /// What happens to an aspect at the end of a pass.
     #[derive(Default)]
     StoreOperation {
-        /// The aspect keeps what the pass left.
+        /// The aspect keeps its contents.
         #[default]
         Store = "store",
-        /// The aspect is undefined from here on, until the whole of it is cleared.
+        /// The aspect is undefined until it is cleared as a whole.
         Discard = "discard",
     }
 }
@@ -126,11 +127,11 @@ state_enum! {
 /// A clear command within a pass. Neither the scissor rectangle nor the masks of draws affect it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clear {
-    /// Index of the draw before which it is executed; the number of draws stands for the end.
+    /// Index of the draw before which it is executed; the number of draws for the end of the pass.
     pub before: usize,
     /// The cleared aspects with their values.
     pub target: ClearTarget,
-    /// Left, top, width and height of the cleared texels, inside the attachments; `None` is all.
+    /// Left, top, width and height of the cleared texels, inside the attachments; `None` for all.
     pub rect: Option<[u32; 4]>,
 }
 
@@ -139,28 +140,28 @@ pub struct Clear {
 pub enum ClearTarget {
     /// One colour attachment.
     Color {
-        /// Its place in the pass.
+        /// Its location in the pass.
         location: usize,
         /// Red, green, blue, alpha.
         value: [f32; 4],
-        /// Written channels: bit 0 red to bit 3 alpha.
+        /// The mask of written channels: bit 0 is red, bit 3 alpha.
         write_mask: u8,
     },
     /// Depth, stencil or both.
     DepthStencil {
-        /// Depth in 0..=1; `None` leaves it.
+        /// Depth in 0..=1; `None` leaves it unchanged.
         depth: Option<f32>,
-        /// Stencil; `None` leaves it.
+        /// Stencil; `None` leaves it unchanged.
         stencil: Option<u8>,
-        /// False if a mask keeps the depth.
+        /// False if depth writes are masked off.
         depth_write: bool,
-        /// Written bits of stencil.
+        /// The mask of written stencil bits.
         stencil_write_mask: u8,
     },
 }
 
 impl ClearTarget {
-    /// True if a mask keeps channels or bits from being written.
+    /// Returns true if a mask protects channels or bits.
     pub fn is_masked(&self) -> bool {
         match *self {
             Self::Color { write_mask, .. } => write_mask != 0b1111,
@@ -175,14 +176,14 @@ impl ClearTarget {
 }
 
 impl Pass {
-    /// The operations of the colour attachment at a location.
+    /// Returns the operations of the colour attachment at a location.
     pub fn color_operations(&self, location: usize) -> Operations<[f32; 4]> {
         let given = self.operations.color.get(location);
         given.copied().unwrap_or_default()
     }
 
-    /// The locations whose resolves are commands behind the pass, with their targets, where the path has such commands.
-    /// Contents that the pass discards are resolved with it.
+    /// Returns the locations whose resolves the path makes commands after the pass, with their targets.
+    /// Contents that the pass discards are still resolved within it.
     pub fn moved_resolves(&self, path: &Path) -> impl Iterator<Item = (usize, usize)> {
         let moved = path.resolves == PathResolves::Moved;
         let targets = self.resolve.iter().enumerate().filter(move |_| moved);
@@ -192,13 +193,13 @@ impl Pass {
         })
     }
 
-    /// Indices of the attachments that resolves write.
+    /// Returns the indices of the attachments that resolves write.
     pub fn resolve_targets(&self) -> impl Iterator<Item = usize> + '_ {
         let depth_stencil = self.depth_stencil_resolve.iter().map(|r| r.to);
         self.resolve.iter().flatten().copied().chain(depth_stencil)
     }
 
-    /// The clears that load operations stand for, as commands.
+    /// Returns the clears of the load operations as clear commands.
     pub fn loading_clears(&self) -> Vec<Clear> {
         let whole = |target| Clear {
             before: 0,
@@ -228,14 +229,14 @@ impl Pass {
         clears
     }
 
-    /// The clear commands that are executed before the draw of this index, or at the end.
+    /// Returns the clear commands that are executed before the draw with this index, or at the end.
     pub fn clears_before(&self, draw: usize) -> &[Clear] {
         let start = self.clears.partition_point(|c| c.before < draw);
         let end = self.clears.partition_point(|c| c.before <= draw);
         &self.clears[start..end]
     }
 
-    /// The aspects that load operations clear, by attachment.
+    /// Returns the aspects that load operations clear, by attachment.
     pub fn cleared(&self) -> Vec<(usize, Aspect)> {
         let Self { operations, .. } = self;
         self.aspects(
@@ -245,7 +246,7 @@ impl Pass {
         )
     }
 
-    /// The aspects that store operations discard, by attachment.
+    /// Returns the aspects that store operations discard, by attachment.
     pub fn discarded(&self) -> Vec<(usize, Aspect)> {
         let Self { operations, .. } = self;
         self.aspects(

@@ -1,8 +1,8 @@
-//! Paths: the way in which a scene reaches the driver.
+//! Paths: how a scene reaches the driver.
 //!
-//! A scene is what is drawn, a path how. A path holds only what leaves the legal set as it is, so neither
-//! the judge nor the rasterizer looks at it: they take every value and draw the scene. A backend says in
-//! its limits which values it has; each value that is not the default is a requirement.
+//! A scene is what is drawn, a path is how. A path contains only choices that do not change the legal set, so
+//! the judge and the rasterizer ignore it: they accept every value and draw the scene. A backend lists in its
+//! limits which values it supports; each value other than the default is a requirement.
 
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
@@ -12,50 +12,50 @@ use etalon_frame::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One value for each key. The default is the way that every adapter has.
+/// One value for each key. Every adapter supports the defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Path {
-    /// The way in which attachments receive their initial contents.
+    /// How attachments receive their initial contents.
     pub start: PathStart,
-    /// The object that a pass is.
+    /// The API object for a pass.
     pub pass: PathPass,
-    /// The way in which state is set.
+    /// How state is set.
     pub state: PathState,
-    /// The part of a texture that an attachment is.
+    /// The part of a texture that serves as an attachment.
     pub target: PathTarget,
     /// The command buffers of a submission.
     pub commands: PathCommands,
     /// The kind of draw calls.
     pub draws: PathDraws,
-    /// The way from an attachment to the host.
+    /// How an attachment reaches the host.
     pub end: PathEnd,
     /// The render area.
     pub area: PathArea,
     /// The calls that clear within passes.
     pub clears: PathClears,
-    /// The reading of queries.
+    /// How often queries are read.
     pub results: PathResults,
-    /// The clip volume's convention.
+    /// The convention of the clip volume.
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
     pub viewport: PathViewport,
     /// The layers of a pass.
     pub layers: PathLayers,
-    /// The tests of aspects that a pass lacks.
+    /// The tests of aspects that a pass does not have.
     pub tests: PathTests,
     /// The colour attachments of passes.
     pub colors: PathColors,
-    /// The resolves of colors.
+    /// How colors are resolved.
     pub resolves: PathResolves,
     /// The format of the textures that color attachments are views of.
     pub views: PathViews,
 }
 
 impl Path {
-    /// The values that are not the default.
+    /// Returns the values that are not the default.
     pub fn values(&self) -> Vec<PathValue> {
-        // A key that is added to the structure must be added here.
+        // Destructured so that a new key cannot be forgotten here.
         let Self {
             start,
             pass,

@@ -1,9 +1,9 @@
-//! Storage in which fragment shaders leave fragments for later passes.
+//! The storage in which fragment shaders leave fragments for later passes.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The words of a node: red, green, blue, alpha, depth, and the number of the node behind.
+/// The words of a node: red, green, blue, alpha, depth, and the index of the next node.
 const NODE_WORDS: u64 = 6;
 
 /// A pool of fragments, in a list for each texel. It is empty when a submission starts.
@@ -12,12 +12,13 @@ const NODE_WORDS: u64 = 6;
 pub struct Pool {
     /// Width and height in texels of the passes that use it.
     pub size: [u32; 2],
-    /// The most fragments that it holds.
+    /// The maximum number of fragments.
     pub nodes: u32,
 }
 
 impl Pool {
-    /// The most bytes of a pool: a storage buffer may have as many in every API (OpenGL 4.3, table 23.64).
+    /// The maximum size of a pool in bytes: every API supports storage buffers of this size (OpenGL 4.3,
+    /// table 23.64).
     pub const MOST_BYTES: u64 = 1 << 24;
 
     /// Returns the number of texels, and of lists.
@@ -25,12 +26,12 @@ impl Pool {
         u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
-    /// Returns the size in bytes of what is zeroed before a submission: the count and the heads.
+    /// Returns the size in bytes of the part that is zeroed before a submission: the count and the heads.
     pub fn cleared_bytes(self) -> u64 {
         4 * (1 + self.texels())
     }
 
-    /// Returns its size in bytes: a count, a head for each texel, and the nodes.
+    /// Returns the size in bytes: a count, a head for each texel, and the nodes.
     pub fn bytes(self) -> u64 {
         self.cleared_bytes() + 4 * NODE_WORDS * u64::from(self.nodes)
     }

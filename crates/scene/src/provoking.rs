@@ -1,7 +1,7 @@
-//! Provoking vertices: those whose attributes a flat primitive has.
+//! Provoking vertices: the vertices that give a primitive its flat attributes.
 //!
-//! The APIs number them by the vertices of the draw call and not by those of the primitive (of a strip's
-//! odd triangles the first two are exchanged), so they are found from the topology once more.
+//! The APIs number them by the vertices of the draw call, not of the primitive (in a strip's odd triangles,
+//! the first two are exchanged), so they are derived from the topology separately.
 
 use crate::draw::Draw;
 use crate::mesh::{Mesh, RESTART};
@@ -11,15 +11,15 @@ impl Mesh {
     /// Returns the first and the last vertex of each primitive, in the order of
     /// [`Mesh::primitives`] (OpenGL 4.6, table 13.2; Vulkan, Primitive Topologies).
     fn ends(&self, topology: PrimitiveTopology) -> Vec<[usize; 2]> {
-        // The primitives of a run of vertices: the number of vertices that the first takes, those that
-        // each further one takes, and the first and last of them by their place in it.
+        // For each topology: the number of vertices that the first primitive takes, the number that each
+        // further one adds, and the positions of the first and the last vertex within the primitive.
         let (size, step, [first, last]) = match topology {
             PrimitiveTopology::PointList => (1, 1, [0, 0]),
             PrimitiveTopology::LineList => (2, 2, [0, 1]),
             PrimitiveTopology::LineStrip => (2, 1, [0, 1]),
             PrimitiveTopology::TriangleList => (3, 3, [0, 2]),
             PrimitiveTopology::TriangleStrip => (3, 1, [0, 2]),
-            // The hub never provokes.
+            // The first vertex of a fan never provokes.
             PrimitiveTopology::TriangleFan => (3, 1, [1, 2]),
         };
         let order: Vec<u32> = match &self.indices {
@@ -41,8 +41,8 @@ impl Draw {
         self.mesh.ends(self.topology)
     }
 
-    /// Returns the provoking vertex of each primitive, in the order of [`Draw::primitives`]; the first
-    /// of each if the draw names no convention.
+    /// Returns the provoking vertex of each primitive, in the order of [`Draw::primitives`]; the first one if
+    /// the draw sets no convention.
     pub fn provoking_vertices(&self) -> Vec<usize> {
         let ends = self.mesh.ends(self.topology).into_iter();
         ends.map(|[first, last]| match self.provoking {

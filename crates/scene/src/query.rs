@@ -1,44 +1,45 @@
-//! Queries: what each of them encloses.
+//! Queries and what each of them encloses.
 
 use crate::query_scope::QueryScope;
 use crate::scene::Scene;
 use etalon_frame::CounterKind;
 
-/// A query: the draws that it encloses.
+/// A query, by the draws that it encloses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Query {
     /// The index of its counter.
     pub counter: usize,
-    /// The indices of the pass and the draw that it begins before.
+    /// The indices of the pass and the draw before which it begins.
     pub first: (usize, usize),
-    /// The indices of the pass and the draw that it ends after.
+    /// The indices of the pass and the draw after which it ends.
     pub last: (usize, usize),
-    /// True if it begins before the first draw's pass and ends after the last one's.
+    /// True if it begins before the first draw's pass and ends after the last draw's.
     pub over_passes: bool,
 }
 
 impl Query {
-    /// True if it begins before a draw, within the pass.
+    /// Returns true if it begins before a draw, within the pass.
     pub fn begins_at(&self, draw: (usize, usize)) -> bool {
         !self.over_passes && self.first == draw
     }
 
-    /// True if it ends after a draw, within the pass.
+    /// Returns true if it ends after a draw, within the pass.
     pub fn ends_at(&self, draw: (usize, usize)) -> bool {
         !self.over_passes && self.last == draw
     }
 
-    /// True if it begins before a pass.
+    /// Returns true if it begins before a pass.
     pub fn begins_before(&self, pass: usize) -> bool {
         self.over_passes && self.first.0 == pass
     }
 
-    /// True if it ends after a pass.
+    /// Returns true if it ends after a pass.
     pub fn ends_behind(&self, pass: usize) -> bool {
         self.over_passes && self.last.0 == pass
     }
 
-    /// True if it encloses other operations than draws: a clear, the load or store operations of a pass, or a resolve.
+    /// Returns true if it encloses other operations than draws: a clear, the load or store operations of a
+    /// pass, or a resolve.
     pub fn encloses_operations(&self, scene: &Scene) -> bool {
         let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
         let between = |before: usize| self.first.1 < before && before <= self.last.1;
@@ -46,12 +47,12 @@ impl Query {
     }
 }
 
-/// The queries of a backend that begin before a draw or pass, and those that end after it.
+/// The queries of a backend that begin before a draw or pass, and the queries that end after it.
 #[derive(Clone, Debug)]
 pub struct Enclosing<Q> {
-    /// Those that begin.
+    /// The queries that begin.
     pub begun: Vec<Q>,
-    /// Those that end, the last one to begin first.
+    /// The queries that end, in reverse order of their beginning.
     pub ended: Vec<Q>,
 }
 
@@ -65,12 +66,12 @@ impl<Q> Default for Enclosing<Q> {
 }
 
 impl<Q: Copy> Enclosing<Q> {
-    /// Returns those of all queries that begin and end at a draw, within its pass.
+    /// Returns the queries that begin and end at a draw, within its pass.
     pub fn draw(queries: &[(Query, Q)], draw: (usize, usize)) -> Self {
         Self::of(queries, |q| q.begins_at(draw), |q| q.ends_at(draw))
     }
 
-    /// Returns those of all queries that begin before a pass and end after it.
+    /// Returns the queries that begin before a pass and end after it.
     pub fn pass(queries: &[(Query, Q)], pass: usize) -> Self {
         Self::of(queries, |q| q.begins_before(pass), |q| q.ends_behind(pass))
     }
@@ -88,17 +89,18 @@ impl<Q: Copy> Enclosing<Q> {
         }
     }
 
-    /// True if no query begins or ends there.
+    /// Returns true if no query begins or ends there.
     pub fn is_empty(&self) -> bool {
         self.begun.is_empty() && self.ended.is_empty()
     }
 }
 
 impl Scene {
-    /// Returns the queries of the scene, in the order in which they begin. Counters of shader runs have none.
+    /// Returns the queries of the scene, in the order in which they begin. Counters of shader runs have no
+    /// query.
     pub fn queries(&self) -> Vec<Query> {
         let mut queries: Vec<Query> = Vec::new();
-        // Those that the next draw may go on with.
+        // Queries that the next draw can continue.
         let mut open: Vec<usize> = Vec::new();
         for (number, pass) in self.passes.iter().enumerate() {
             if self.query_scope == QueryScope::Pass {
@@ -148,7 +150,8 @@ mod tests {
     use crate::scene::Counter;
     use crate::shader::Shader;
 
-    /// A scene of passes whose draws name these counters: `a` and `b` of queries, `c` of shader runs.
+    /// Returns a scene of passes whose draws use these counters: queries `a` and `b`, and `c` for shader
+    /// runs.
     fn scene(query_scope: QueryScope, passes: &[&[&[usize]]]) -> Scene {
         let counter = |name: &str, kind| Counter {
             name: name.to_owned(),

@@ -10,10 +10,10 @@ state_enum! {
     QueryScope {
         /// One draw.
         #[default] Draw = "draw",
-        /// The draws of a pass that follow one another and name its counter, and the clears between them.
+        /// Consecutive draws of a pass that use its counter, and the clears between them.
         Pass = "pass",
-        /// The passes that follow one another and whose draws all name its counter, from their load operations to
-        /// their resolves; passes without draws between them are enclosed too.
+        /// Consecutive passes whose draws all use its counter, from their load operations to their resolves;
+        /// passes without draws in between are enclosed too.
         Frame = "frame",
     }
 }

@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The topology of vertices.
     PrimitiveTopology {
-        /// Each vertex a point of one texel.
+        /// Each vertex makes a point of one texel.
         PointList = "point-list",
-        /// Two vertices a line one texel wide.
+        /// Each two vertices make a line one texel wide.
         LineList = "line-list",
         /// A line from each vertex to the next.
         LineStrip = "line-strip",
-        /// Three vertices a triangle.
+        /// Each three vertices make a triangle.
         TriangleList = "triangle-list",
-        /// Each vertex after the second makes a triangle with the two before it.
+        /// Each vertex after the second makes a triangle with the two preceding ones.
         TriangleStrip = "triangle-strip",
-        /// Each vertex after the second makes a triangle with the first and the one before it.
+        /// Each vertex after the second makes a triangle with the first and the preceding one.
         TriangleFan = "triangle-fan",
     }
 }
@@ -27,7 +27,7 @@ state_enum! {
     ProvokingVertex {
         /// The first: Vulkan's and WebGPU's.
         First = "first",
-        /// The last: OpenGL's, unless it is told otherwise.
+        /// The last: OpenGL's default.
         Last = "last",
     }
 }
@@ -45,7 +45,7 @@ state_enum! {
 state_enum! {
     /// The faces that are culled.
     CullMode {
-        /// None.
+        /// No faces.
         None = "none",
         /// Front faces.
         Front = "front",
@@ -70,15 +70,15 @@ state_enum! {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Viewport {
-    /// Left, top, width and height in texels. With a height below 0 the picture is turned over and
-    /// the second number is its bottom (Vulkan, Controlling the Viewport).
+    /// Left, top, width and height in texels. With a negative height the picture is flipped, and the second
+    /// number is its bottom (Vulkan, Controlling the Viewport).
     pub rect: [f32; 4],
-    /// Window depths of clip depths 0 and 1; reversed when the first is larger.
+    /// Window depths of clip depths 0 and 1; reversed if the first is larger.
     pub depth: [f32; 2],
 }
 
 impl Viewport {
-    /// The viewport over all of attachments of a size, with depths 0 to 1.
+    /// Returns the viewport over whole attachments of a size, with depths 0 to 1.
     pub fn whole(size: [u32; 2]) -> Self {
         Self {
             rect: [0.0, 0.0, size[0] as f32, size[1] as f32],
@@ -86,19 +86,19 @@ impl Viewport {
         }
     }
 
-    /// Left, top, width and height of what the viewport covers, whichever way the picture stands.
+    /// Returns left, top, width and height of the viewport's area, whether the picture is flipped or not.
     pub fn area(&self) -> [f32; 4] {
         let [x, y, w, h] = self.rect;
         [x, y.min(y + h), w, h.abs()]
     }
 
-    /// True if the picture is flipped.
+    /// Returns true if the picture is flipped.
     pub fn is_mirrored(&self) -> bool {
         self.rect[3] < 0.0
     }
 }
 
-/// The samples of a fragment that are drawn.
+/// Which samples of a fragment are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Multisample {
@@ -106,11 +106,12 @@ pub struct Multisample {
     pub mask: u32,
     /// True if alpha reduces the coverage.
     pub alpha_to_coverage: bool,
-    /// True if alpha then counts as 1.
+    /// True if alpha counts as 1 after alpha to coverage.
     pub alpha_to_one: bool,
-    /// The least share of a texel's samples, 0 to 1, that have a shader run of their own; `None` is off.
+    /// The minimum share of a texel's samples, 0 to 1, that have shader runs of their own; `None` turns it
+    /// off.
     pub min_sample_shading: Option<f32>,
-    /// The share of the samples that is drawn, whatever the fragment; `None` is off.
+    /// The share of samples that is drawn, whatever the fragment covers; `None` turns it off.
     pub sample_coverage: Option<SampleCoverage>,
 }
 
@@ -118,7 +119,7 @@ pub struct Multisample {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCoverage {
-    /// The share, held to 0 and 1.
+    /// The share, clamped to 0 to 1.
     pub value: f32,
     /// True if the other samples are drawn instead.
     #[serde(default)]
@@ -126,8 +127,8 @@ pub struct SampleCoverage {
 }
 
 impl Multisample {
-    /// Returns the least number of shader runs that share a wholly covered texel of so many samples
-    /// (Vulkan, Sample Shading; OpenGL 4.6, 14.3.1.1).
+    /// Returns the least number of shader runs for a fully covered texel with this many samples (Vulkan,
+    /// Sample Shading; OpenGL 4.6, 14.3.1.1).
     pub fn least_runs(&self, samples: u32) -> u32 {
         let share = self.min_sample_shading.unwrap_or(0.0);
         ((share * samples as f32).ceil() as u32).clamp(1, samples.max(1))

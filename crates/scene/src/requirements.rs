@@ -14,14 +14,14 @@ use etalon_frame::{CounterKind, Feature, PathCommands, Requirement};
 use std::collections::BTreeSet;
 
 impl Scene {
-    /// Returns the requirements of the scene, without repetition, in ascending order.
+    /// Returns the requirements of the scene, in ascending order and without duplicates.
     pub fn requirements(&self) -> Vec<Requirement> {
         let values = self.path.values().into_iter().map(Requirement::Path);
         let all: BTreeSet<_> = values.chain(self.on_path().needed()).collect();
         all.into_iter().collect()
     }
 
-    /// The requirements of the scene by the default path.
+    /// Returns the requirements of the scene on the default path.
     fn needed(&self) -> BTreeSet<Requirement> {
         let mut needed = BTreeSet::new();
         for attachment in &self.attachments {
@@ -94,15 +94,15 @@ impl Scene {
 }
 
 impl Scene {
-    /// True if the first color attachment of a pass has an alpha channel and can be blended into.
+    /// Returns true if the first color attachment of a pass has an alpha channel and can be blended into.
     fn has_alpha(&self, pass: &Pass) -> bool {
         let first = pass.color.first();
         first.is_some_and(|index| self.attachments[*index].format.has_alpha())
     }
 }
 
-/// True if draws of a pass differ in their provoking vertex. Those that name none may have that of a
-/// pipeline that says nothing, which in Vulkan is the first.
+/// Returns true if draws of a pass differ in their provoking vertex. A draw without one can share a pipeline
+/// that does not set it, which in Vulkan means the first vertex.
 fn mixes_provoking_vertices(pass: &Pass) -> bool {
     let last = |draw: &Draw| draw.provoking == Some(ProvokingVertex::Last);
     pass.draws
@@ -110,7 +110,7 @@ fn mixes_provoking_vertices(pass: &Pass) -> bool {
         .any(|two| last(&two[0]) != last(&two[1]))
 }
 
-/// The features that a resolve of depth and stencil needs; `both` is true if the format has both.
+/// Returns the features that a resolve of depth and stencil needs; `both` is true if the format has both.
 fn resolve_features(resolve: &DepthStencilResolve, both: bool) -> Vec<Feature> {
     let mut needed = vec![Feature::DepthStencilResolve];
     needed.extend(match resolve.depth {
@@ -135,7 +135,7 @@ fn resolve_features(resolve: &DepthStencilResolve, both: bool) -> Vec<Feature> {
     needed
 }
 
-/// The features that a draw needs over attachments of a size.
+/// Returns the features that a draw needs with attachments of this size.
 fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     let mut needed = Vec::new();
     let mut need = |when: bool, feature: Feature| {

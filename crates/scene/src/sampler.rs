@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sampler {
-    /// The filter, for magnification and minification alike.
+    /// The filter, for both magnification and minification.
     pub filter: FilterMode,
-    /// Across and down.
+    /// The address modes across and down.
     pub address: [AddressMode; 2],
 }
 
@@ -29,9 +29,9 @@ state_enum! {
     AddressMode {
         /// The outermost texel.
         ClampToEdge = "clamp-to-edge",
-        /// The texture again.
+        /// The texture repeats.
         Repeat = "repeat",
-        /// The texture again, every other time mirrored.
+        /// The texture repeats, every other time mirrored.
         MirrorRepeat = "mirror-repeat",
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes.
 //!
-//! Scenes are valid by construction: whoever builds one keeps indices in range, sizes equal within a
-//! pass, and no pass reading what it draws to. Backends and the judge rely on it.
+//! Scenes are valid by construction: their builder keeps indices in range and sizes equal within a pass, and
+//! lets no pass read what it draws to. Backends and the judge rely on it.
 
 use crate::attachment::Attachment;
 use crate::draw::Draw;
@@ -13,10 +13,10 @@ use etalon_frame::{CounterKind, PathColors, PathLayers, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Everything a device needs to know of a case.
+/// Everything that a device needs to know about a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
-    /// Textures that passes draw to or read, each under a name of its own.
+    /// The textures that passes draw to or read, with distinct names.
     pub attachments: Vec<Attachment>,
     /// Passes, in order.
     pub passes: Vec<Pass>,
@@ -30,12 +30,12 @@ pub struct Scene {
     /// The pool that fragment shaders fill and read, if any does.
     #[serde(default)]
     pub pool: Option<Pool>,
-    /// The way in which the scene reaches the driver.
+    /// How the scene reaches the driver.
     #[serde(default)]
     pub path: Path,
 }
 
-/// Something that is counted over one or more draws.
+/// A count over some of the scene's draws.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counter {
     /// Name in the case file.
@@ -45,20 +45,20 @@ pub struct Counter {
 }
 
 impl Scene {
-    /// The size of a pass's attachments in texels.
+    /// Returns the size of a pass's attachments in texels.
     pub fn pass_size(&self, pass: &Pass) -> [u32; 2] {
         let first = pass.color.first().copied().or(pass.depth_stencil);
         first.map_or([1, 1], |index| self.attachments[index].size)
     }
 
-    /// The samples per texel of a pass's attachments.
+    /// Returns the samples per texel of a pass's attachments.
     pub fn pass_samples(&self, pass: &Pass) -> u32 {
         let first = pass.color.first().copied().or(pass.depth_stencil);
         first.map_or(1, |index| self.attachments[index].samples)
     }
 
-    /// The layers of passes by the path: one if draws count or store, which they would do for each layer, or if the vertex
-    /// shader is not the last stage before rasterization.
+    /// Returns the layers that the path gives to passes. There is only one if draws count or store, which
+    /// they would do once per layer, or if the vertex shader is not the last stage before rasterization.
     pub fn layers(&self) -> PathLayers {
         let mut draws = self.passes.iter().flat_map(|p| &p.draws);
         let once = draws.any(|d| d.shader.uses_storage() || d.tessellation.is_some());
@@ -69,7 +69,8 @@ impl Scene {
         }
     }
 
-    /// True if the path leaves a colour attachment out of its passes: nothing reads it, and each of them has another.
+    /// Returns true if the path leaves a colour attachment out of its passes: nothing reads it, and each of
+    /// them has another one.
     pub fn is_gap(&self, index: usize) -> bool {
         let mut passes = self.passes.iter().filter(|p| p.color.contains(&index));
         self.path.colors == PathColors::Gaps
@@ -77,7 +78,7 @@ impl Scene {
             && passes.all(|pass| pass.color.iter().any(|other| !self.is_unread(*other)))
     }
 
-    /// True if nobody reads an attachment: neither the host nor a draw nor a resolve.
+    /// Returns true if nothing reads an attachment: neither the host nor a draw nor a resolve.
     fn is_unread(&self, index: usize) -> bool {
         let read = |pass: &Pass| {
             let mut resolved = pass.color.iter().zip(&pass.resolve);
@@ -88,7 +89,7 @@ impl Scene {
         !self.read.contains(&index) && !self.passes.iter().any(read)
     }
 
-    /// The scene with something counted over all its draws, and nothing else.
+    /// Returns the scene with one counter over all its draws in place of its own counters.
     pub fn counting(&self, kind: CounterKind) -> Self {
         let mut scene = self.clone();
         scene.counters = vec![Counter {
@@ -103,7 +104,7 @@ impl Scene {
         scene
     }
 
-    /// Bytes of all attachments, by their formats' texel sizes, and of the pool.
+    /// Returns the size of all attachments in bytes, by their formats' texel sizes, plus the pool.
     pub fn bytes(&self) -> u64 {
         let bytes = |a: &Attachment| {
             let texels = u64::from(a.size[0]) * u64::from(a.size[1]) * u64::from(a.samples);
@@ -113,7 +114,7 @@ impl Scene {
         attachments + self.pool.map_or(0, Pool::bytes)
     }
 
-    /// The formats of all attachments.
+    /// Returns the formats of all attachments.
     pub fn formats(&self) -> Vec<TextureFormat> {
         let set: BTreeSet<_> = self.attachments.iter().map(|a| a.format).collect();
         set.into_iter().collect()
@@ -121,7 +122,7 @@ impl Scene {
 }
 
 impl Draw {
-    /// The index of the counter of a kind that this draw adds to.
+    /// Returns the index of a counter of this kind that the draw adds to.
     pub fn counter(&self, scene: &Scene, kind: impl Fn(CounterKind) -> bool) -> Option<usize> {
         let all = self.counters.iter().copied();
         all.filter(|i| scene.counters.get(*i).is_some_and(|c| kind(c.kind)))

@@ -1,7 +1,7 @@
-//! The suite's shaders: one row of facts each.
+//! The suite's shaders, with one row of facts each.
 //!
-//! Validation of scenes, requirements, backends and the judge all ask the same facts, so a shader is
-//! added by one row of the table at the end, one WGSL file and one twin.
+//! Validation of scenes, requirements, backends and the judge all use these facts. Adding a shader takes one
+//! row of the table at the end, one WGSL file and one Rust twin.
 
 use crate::early_tests::EarlyTests;
 use etalon_frame::state_enum;
@@ -14,27 +14,27 @@ pub const STENCIL_REFERENCE: u32 = 1;
 
 /// The facts of one shader.
 struct Facts {
-    /// The WGSL text.
+    /// The WGSL source.
     wgsl: &'static str,
-    /// False if it is a vertex shader alone.
+    /// False if there is only a vertex shader.
     fragment: bool,
     /// True if it reads the parameter block.
     params: bool,
-    /// True if nothing but a position leaves its vertex shader.
+    /// True if the vertex shader outputs only a position.
     position_only: bool,
     /// True if it reads interpolated texture coordinates as numbers.
     uv: bool,
-    /// The way in which these are interpolated.
+    /// How these are interpolated.
     interpolation: Interpolation,
-    /// The points at which they are.
+    /// The points at which these are interpolated.
     sampling: InterpolationSampling,
-    /// True if its flat colour is that of either end of a primitive.
+    /// True if its flat colour can be that of either end of a primitive.
     either: bool,
     /// The number of textures that it reads.
     textures: usize,
     /// True if it samples its texture instead of fetching single texels.
     sampler: bool,
-    /// True if it samples at coordinates that it computes, too.
+    /// True if it also samples at coordinates that it computes.
     taps: bool,
     /// The number of colour locations that it writes.
     outputs: usize,
@@ -44,21 +44,21 @@ struct Facts {
     second_source: bool,
     /// True if it writes a sample mask.
     mask: bool,
-    /// True if it reads one.
+    /// True if it reads a sample mask.
     reads_mask: bool,
     /// True if it writes the stencil reference.
     reference: bool,
     /// The depth that it writes.
     depth: Depth,
-    /// True if it may discard fragments.
+    /// True if it can discard fragments.
     discards: bool,
-    /// The number of clip distances that its vertices have.
+    /// The number of clip distances that its vertices output.
     clip_distances: u32,
-    /// The number of cull distances that its vertices have.
+    /// The number of cull distances that its vertices output.
     cull_distances: u32,
     /// True if it counts its runs in a storage buffer.
     counter: bool,
-    /// Its use of the scene's pool.
+    /// How it uses the scene's pool.
     pool: PoolUse,
     /// True if it runs once per sample.
     per_sample: bool,
@@ -79,41 +79,41 @@ pub enum Interpolation {
     Linear,
 }
 
-/// The points at which attributes are interpolated (WGSL, Interpolation).
+/// The point at which attributes are interpolated (WGSL, Interpolation).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InterpolationSampling {
-    /// The texel's centre.
+    /// The centre of the texel.
     Center,
-    /// Inside the part of the texel that the primitive covers.
+    /// A point inside the part of the texel that the primitive covers.
     Centroid,
-    /// The sample that is shaded.
+    /// The sample that is being shaded.
     Sample,
 }
 
-/// The use that a shader makes of the scene's pool.
+/// How a shader uses the scene's pool.
 #[derive(PartialEq, Eq)]
 enum PoolUse {
-    /// None.
+    /// Not at all.
     None,
-    /// Adds its fragments.
+    /// It adds its fragments.
     Adds,
-    /// Reads the list of its texel.
+    /// It reads the list of its texel.
     Reads,
 }
 
 /// The depth that a shader writes.
 #[derive(PartialEq, Eq)]
 enum Depth {
-    /// None: the fragment's own depth counts.
+    /// None: the fragment's own depth is used.
     Fixed,
-    /// The vertex colour's red.
+    /// The red of the vertex colour.
     VertexRed,
     /// Any other value.
     Computed,
 }
 
 impl Facts {
-    /// A shader that reads no more than vertex attributes and writes one colour.
+    /// A shader that reads only vertex attributes and writes one colour.
     const PLAIN: Self = Self {
         wgsl: "",
         fragment: true,
@@ -145,8 +145,8 @@ impl Facts {
     };
 }
 
-/// Declares [`Shader`] and the facts of each shader, from one table. A row leaves out the facts in which
-/// it is [`Facts::PLAIN`]; its source is `shaders/<name>.wgsl`.
+/// Declares [`Shader`] and the facts of each shader from one table. A row lists only the facts that differ
+/// from [`Facts::PLAIN`]; its source is `shaders/<name>.wgsl`.
 macro_rules! shaders {
     ($($(#[$doc:meta])* $variant:ident = $name:literal { $($fact:ident: $value:expr),* }),+ $(,)?) => {
         state_enum! {
@@ -170,14 +170,15 @@ impl Shader {
         &FACTS[self as usize]
     }
 
-    /// The WGSL text: a vertex entry point `vs` and, unless it is a vertex shader alone, a fragment entry point `fs`. Vertex inputs are
-    /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
-    /// bindings 1 and 2, the counter of runs or the pool at binding 3 and a sampler at binding 4.
+    /// Returns the WGSL source: a vertex entry point `vs` and, unless there is only a vertex shader, a
+    /// fragment entry point `fs`. Vertex inputs are location 0 position, 1 colour, 2 uv; group 0 has the
+    /// parameters at binding 0, textures at bindings 1 and 2, the counter of runs or the pool at binding 3
+    /// and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
         self.facts().wgsl
     }
 
-    /// The WGSL text with the attribute that tells when the fragment tests happen.
+    /// Returns the WGSL source with the attribute that sets when the fragment tests happen.
     pub fn wgsl_with(self, tests: EarlyTests) -> Cow<'static, str> {
         let text = self.wgsl();
         match tests.attribute() {
@@ -189,168 +190,172 @@ impl Shader {
         }
     }
 
-    /// The number of textures that the shader reads.
+    /// Returns the number of textures that the shader reads.
     pub fn textures(self) -> usize {
         self.facts().textures
     }
 
-    /// True if the shader samples its texture instead of fetching single texels.
+    /// Returns true if the shader samples its texture instead of fetching single texels.
     pub fn samples_texture(self) -> bool {
         self.facts().sampler
     }
 
-    /// True if the shader samples texture 0 at coordinates that it computes.
+    /// Returns true if the shader samples texture 0 at coordinates that it computes.
     pub fn taps_texture(self) -> bool {
         self.facts().taps
     }
 
-    /// True if the fragment shader replaces the fragment's depth.
+    /// Returns true if the fragment shader replaces the fragment's depth.
     pub fn writes_depth(self) -> bool {
         self.facts().depth != Depth::Fixed
     }
 
-    /// True if the depth that the shader writes is the vertex colour's red.
+    /// Returns true if the depth that the shader writes is the vertex colour's red.
     pub fn depth_from_vertex_color(self) -> bool {
         self.facts().depth == Depth::VertexRed
     }
 
-    /// True if the shader writes a sample mask: the red of texture 0.
+    /// Returns true if the shader writes a sample mask: the red of texture 0.
     pub fn writes_mask(self) -> bool {
         self.facts().mask
     }
 
-    /// True if the shader reads the sample mask of its fragment.
+    /// Returns true if the shader reads the sample mask of its fragment.
     pub fn reads_mask(self) -> bool {
         self.facts().reads_mask
     }
 
-    /// True if the shader writes the stencil reference of its fragments. WGSL has no built-in for it: the
-    /// shader writes it as an integer to [`STENCIL_REFERENCE`], and backends replace that location.
+    /// Returns true if the shader writes the stencil reference of its fragments. WGSL has no built-in for it:
+    /// the shader writes it as an integer to [`STENCIL_REFERENCE`], and backends replace that location.
     pub fn writes_reference(self) -> bool {
         self.facts().reference
     }
 
-    /// True if there is a fragment shader; otherwise a vertex shader alone.
+    /// Returns true if there is a fragment shader, false if only a vertex shader.
     pub fn has_fragment(self) -> bool {
         self.facts().fragment
     }
 
-    /// True if the shader may discard fragments.
+    /// Returns true if the shader can discard fragments.
     pub fn discards(self) -> bool {
         self.facts().discards
     }
 
-    /// The number of clip distances that the shader's vertices have.
+    /// Returns the number of clip distances that the shader's vertices output.
     pub fn clip_distances(self) -> u32 {
         self.facts().clip_distances
     }
 
-    /// The number of cull distances that the shader's vertices have. Its WGSL calls them clip distances.
+    /// Returns the number of cull distances that the shader's vertices output. Its WGSL calls them clip
+    /// distances.
     pub fn cull_distances(self) -> u32 {
         self.facts().cull_distances
     }
 
-    /// True if the shader counts its runs in a storage buffer.
+    /// Returns true if the shader counts its runs in a storage buffer.
     pub fn counts_runs(self) -> bool {
         self.facts().counter
     }
 
-    /// True if the shader adds its fragments to the scene's pool.
+    /// Returns true if the shader adds its fragments to the scene's pool.
     pub fn adds_to_pool(self) -> bool {
         self.facts().pool == PoolUse::Adds
     }
 
-    /// True if the shader reads lists from the scene's pool.
+    /// Returns true if the shader reads lists from the scene's pool.
     pub fn reads_pool(self) -> bool {
         self.facts().pool == PoolUse::Reads
     }
 
-    /// True if the shader uses the scene's pool, whose size `params.color`'s red and green hold.
+    /// Returns true if the shader uses the scene's pool. The red and green of `params.color` are then the
+    /// pool's size.
     pub fn uses_pool(self) -> bool {
         self.facts().pool != PoolUse::None
     }
 
-    /// True if the shader uses a storage buffer: a counter, or the scene's pool.
+    /// Returns true if the shader uses a storage buffer: a counter, or the scene's pool.
     pub fn uses_storage(self) -> bool {
         self.counts_runs() || self.uses_pool()
     }
 
-    /// True if the shader writes integers.
+    /// Returns true if the shader writes integers.
     pub fn writes_integers(self) -> bool {
         self.facts().integers
     }
 
-    /// The number of colour locations that the shader writes.
+    /// Returns the number of colour locations that the shader writes.
     pub fn outputs(self) -> usize {
         self.facts().outputs
     }
 
-    /// True if nothing but a position leaves the vertex shader: no attribute reaches the fragments.
+    /// Returns true if the vertex shader outputs only a position, so that no attribute reaches the fragments.
     pub fn passes_position_alone(self) -> bool {
         self.facts().position_only
     }
 
-    /// True if the shader reads the interpolated texture coordinates, to sample a texture or as
+    /// Returns true if the shader reads the interpolated texture coordinates, to sample a texture or as
     /// numbers.
     pub fn uses_uv(self) -> bool {
         self.facts().uv || self.facts().sampler
     }
 
-    /// The interpolation of the texture coordinates.
+    /// Returns the interpolation of the texture coordinates.
     pub fn interpolation(self) -> Interpolation {
         self.facts().interpolation
     }
 
-    /// The points at which the texture coordinates are interpolated.
+    /// Returns the points at which the texture coordinates are interpolated.
     pub fn interpolation_sampling(self) -> InterpolationSampling {
         self.facts().sampling
     }
 
-    /// True if the flat vertex colour is that of either end of a primitive, whichever vertex provokes.
+    /// Returns true if the flat vertex colour can be that of either end of a primitive, whichever vertex
+    /// provokes.
     pub fn flat_from_either(self) -> bool {
         self.facts().either
     }
 
-    /// True if the shader writes a second source for blending.
+    /// Returns true if the shader writes a second source for blending.
     pub fn has_second_source(self) -> bool {
         self.facts().second_source
     }
 
-    /// True if the shader runs once per sample.
+    /// Returns true if the shader runs once per sample.
     pub fn runs_per_sample(self) -> bool {
         self.facts().per_sample
     }
 
-    /// True if the shader computes with the fragment's coordinates in the picture. Those by which it
-    /// fetches a texel do not count.
+    /// Returns true if the shader computes with the fragment's coordinates in the picture. Coordinates that
+    /// only fetch a texel do not count.
     pub fn reads_coordinates(self) -> bool {
         self.facts().coordinates
     }
 
-    /// True if the shader reads the fragment's own depth.
+    /// Returns true if the shader reads the fragment's own depth.
     pub fn reads_depth(self) -> bool {
         self.facts().reads_depth
     }
 
-    /// True if the shader reads 1 over the clip-space w, the fragment coordinate's last part.
+    /// Returns true if the shader reads 1 over the clip-space w, the last component of the fragment
+    /// coordinate.
     pub fn reads_w(self) -> bool {
         self.facts().reads_w
     }
 
-    /// True if the shader reads the parameter block.
+    /// Returns true if the shader reads the parameter block.
     pub fn uses_params(self) -> bool {
         self.facts().params
     }
 }
 
 shaders! {
-    /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
-    /// not negative; `params.back_color` where it is.
+    /// `params.color` if the first texture coordinate, interpolated inside the primitive, is not negative;
+    /// otherwise `params.back_color`.
     Centroid = "centroid" { params: true, uv: true, sampling: InterpolationSampling::Centroid },
     /// The vertex colour, flat; clipped by both texture coordinates.
     ClipFlat = "clip_flat" { clip_distances: 2 },
-    /// `params.color`; clipped by the vertex colour, the texture coordinates, alpha less the first and
-    /// blue less the second.
+    /// `params.color`, clipped by eight distances: the vertex colour, the texture coordinates, alpha minus
+    /// the first and blue minus the second.
     ClipUniform = "clip_uniform" { params: true, clip_distances: 8 },
     /// `params.color`; counts its runs.
     CountedColor = "counted_color" { params: true, counter: true, position_only: true },
@@ -362,27 +367,27 @@ shaders! {
     CullFlat = "cull_flat" { cull_distances: 2 },
     /// The fragment's own window depth as grey.
     DepthGrey = "depth_grey" { reads_depth: true, position_only: true },
-    /// The distance behind the window depth of a perspective projection as grey, between the near
+    /// The distance that belongs to the window depth of a perspective projection, as grey, between the near
     /// and far planes in `params.color`'s red and green.
     DepthLinearized = "depth_linearized" { params: true, reads_depth: true, position_only: true },
     /// Minus the fragment's depth, its depth, 0 and 1.
     DepthRange = "depth_range" { reads_depth: true, position_only: true },
-    /// One step of dual depth peeling: depths, front and back to locations 0 to 2.
+    /// One step of dual depth peeling: depths, front and back colours to locations 0 to 2.
     DualPeel = "dual_peel" { textures: 2, outputs: 3, reads_depth: true },
-    /// The vertex colour with its alpha weighted by the first texture coordinate, the distance from
-    /// an edge in texels, plus a half, held to 0 and 1.
+    /// The vertex colour with its alpha weighted by the first texture coordinate (the distance from an edge
+    /// in texels) plus a half, clamped to 0 to 1.
     EdgeAlpha = "edge_alpha" { uv: true },
-    /// The vertex colour, after `params.back_color`'s red steps of work.
+    /// The vertex colour; first does as many steps of work as `params.back_color`'s red says.
     ExpensiveColor = "expensive_color" { params: true },
     /// As `expensive_color`; writes the fragment's own window depth as depth.
     ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },
-    /// As `expensive_color`; discards where the vertex colour's alpha is below `params.color`'s.
+    /// As `expensive_color`; discards if the vertex colour's alpha is below `params.color`'s.
     ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
     /// `params.color`; writes the red of the texel of texture 0 under the fragment as stencil reference.
     ExportedColor = "exported_color" { params: true, textures: 1, reference: true, position_only: true },
     /// As `exported_color`; writes the texel's green as depth.
     ExportedDepth = "exported_depth" { params: true, textures: 1, reference: true, depth: Depth::Computed, position_only: true },
-    /// As `exported_color`; discards where the texel's blue is below `params.color`'s.
+    /// As `exported_color`; discards if the texel's blue is below `params.color`'s.
     ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
     /// As `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
     ExportedFacing = "exported_facing" { params: true, textures: 1, reference: true, position_only: true },
@@ -405,12 +410,12 @@ shaders! {
     /// `params.color` on front faces, `params.back_color` on back faces.
     FrontFacing = "front_facing" { params: true, position_only: true },
     /// Texture 0, blended along edges of luma. `params.color`: width and height of a texel in texture
-    /// coordinates, contrast relative to the brightest neighbour and least contrast of an edge;
-    /// `params.back_color`'s red: the weight of single texels.
+    /// coordinates, minimum contrast of an edge relative to the brightest neighbour, and absolute minimum
+    /// contrast; `params.back_color`'s red: the weight of single texels.
     Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
-    /// Four bits of the sample mask that it is given, from the one whose number is `params.color`'s red.
+    /// Four bits of its input sample mask, starting from the bit number in `params.color`'s red.
     InputMask = "input_mask" { params: true, reads_mask: true, position_only: true },
-    /// As `input_mask`, with the sample's own bit turned. Runs once per sample.
+    /// As `input_mask`, with the sample's own bit inverted. Runs once per sample.
     InputMaskSample = "input_mask_sample" { params: true, reads_mask: true, per_sample: true, position_only: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
     /// between the planes in `params.color`'s red and green.
@@ -418,32 +423,32 @@ shaders! {
     /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and height
     /// of the picture.
     ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
-    /// The list of the texel, nearest first, premultiplied, and as alpha what it lets through. `params.color`: width
-    /// and height of the picture.
+    /// The list of the texel, composed nearest first, premultiplied, with the transmittance as alpha.
+    /// `params.color`: width and height of the picture.
     ListCompose = "list_compose" { params: true, pool: PoolUse::Reads, position_only: true },
-    /// The vertex colour; writes as depth the binary logarithm of the distance, the clip-space w,
-    /// over `params.color`'s red, times its blue.
+    /// The vertex colour; writes as depth the binary logarithm of the distance (the clip-space w) over
+    /// `params.color`'s red, times its blue.
     LogarithmicDepth = "logarithmic_depth" { params: true, reads_w: true, depth: Depth::Computed },
     /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
     /// sample mask.
     MaskedColor = "masked_color" { params: true, textures: 1, mask: true, position_only: true },
     /// As `masked_color`; writes the texel's green as depth.
     MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed, position_only: true },
-    /// As `masked_color`; discards where the texel's blue is below `params.color`'s.
+    /// As `masked_color`; discards if the texel's blue is below `params.color`'s.
     MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true, position_only: true },
     /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
-    /// all bits but the sample's own turned. Runs once per sample.
+    /// all bits except the sample's own inverted. Runs once per sample.
     MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true, position_only: true },
     /// Moment-based transparency: absorbance to location 0, its moments along depth to location 1.
     MomentAbsorbance = "moment_absorbance" { outputs: 2, reads_depth: true },
-    /// Moment-based transparency: the mean of texture 0's sums, and as alpha what the absorbance in texture 1's
-    /// red lets through.
+    /// Moment-based transparency: the mean of texture 0's sums, with the transmittance of the absorbance in
+    /// texture 1's red as alpha.
     MomentResolve = "moment_resolve" { textures: 2, position_only: true },
     /// Moment-based transparency: the vertex colour, premultiplied, times the transmittance in front of the
     /// fragment, from the absorbance in texture 0 and its moments in texture 1.
     MomentTransmittance = "moment_transmittance" { textures: 2, reads_depth: true },
-    /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
-    /// the depth in texture 0; discards all others.
+    /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind the
+    /// depth in texture 0; discards all others.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
     /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
     /// once per sample.
@@ -453,7 +458,7 @@ shaders! {
     SampleIndex = "sample_index" { per_sample: true, position_only: true },
     /// Texture 0 sampled at the interpolated texture coordinates.
     SampledColor = "sampled_color" { textures: 1, sampler: true },
-    /// As `sampled_color`; discards where the alpha is below `params.color`'s.
+    /// As `sampled_color`; discards if the alpha is below `params.color`'s.
     SampledDiscard = "sampled_discard" { params: true, textures: 1, sampler: true, discards: true },
     /// The whole steps of the fragment coordinate's w and depth, times `params.color`'s red and green, as
     /// colours: see `stepped_perspective`.
@@ -464,34 +469,34 @@ shaders! {
     SteppedLinearCentroid = "stepped_linear_centroid" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Centroid },
     /// As `stepped_linear`, at each sample. Runs once per sample.
     SteppedLinearSample = "stepped_linear_sample" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Sample, per_sample: true },
-    /// The whole steps of the texture coordinates, 0 to 7: of the first as red, green and blue, of which neighbouring
-    /// steps differ in one, of the second as alpha, which is 1 where it is odd.
+    /// The whole steps of the texture coordinates, 0 to 7, as colours. The first coordinate gives red, green
+    /// and blue such that neighbouring steps differ in one channel; the second gives alpha, which is 1 for
+    /// odd steps.
     SteppedPerspective = "stepped_perspective" { uv: true },
     /// As `stepped_perspective`, interpolated inside the part of the texel that the primitive covers.
     SteppedPerspectiveCentroid = "stepped_perspective_centroid" { uv: true, sampling: InterpolationSampling::Centroid },
     /// As `stepped_perspective`, interpolated at each sample. Runs once per sample.
     SteppedPerspectiveSample = "stepped_perspective_sample" { uv: true, sampling: InterpolationSampling::Sample, per_sample: true },
-    /// The vertex colour, opaque; discards where its alpha is below the channel of texture 0 that
-    /// belongs to the sample. Runs once per sample.
+    /// The vertex colour, opaque; discards if its alpha is below the sample's channel of texture 0. Runs once
+    /// per sample.
     Stochastic = "stochastic" { textures: 1, discards: true, per_sample: true },
     /// The texel of texture 0 under the fragment.
     TexelColor = "texel_color" { textures: 1, position_only: true },
-    /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
+    /// The texel of texture 0 under the fragment, written to all colour locations 0 to 3.
     TexelColorAll = "texel_color_all" { textures: 1, outputs: 4, position_only: true },
-    /// The texel of texture 0 under the fragment; discards where its alpha is below
-    /// `params.color`'s.
+    /// The texel of texture 0 under the fragment; discards if its alpha is below `params.color`'s.
     TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true, position_only: true },
-    /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
+    /// The texel of texture 0 under the fragment as source, the texel of texture 1 as second source.
     TexelDualSource = "texel_dual_source" { textures: 2, second_source: true, position_only: true },
     /// `params.color` as integers.
     UintColor = "uint_color" { params: true, integers: true, position_only: true },
     /// `params.color`.
     UniformColor = "uniform_color" { params: true, position_only: true },
-    /// No fragment shader, and so no colour.
+    /// No fragment shader, and therefore no colour.
     VertexOnly = "vertex_only" { fragment: false, outputs: 0, position_only: true },
     /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
     WeightedAccumulate = "weighted_accumulate" { outputs: 2, reads_depth: true },
-    /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
+    /// Weighted blended transparency: the mean of texture 0's sums, with texture 1's red as alpha.
     WeightedResolve = "weighted_resolve" { textures: 2, position_only: true },
 }
 

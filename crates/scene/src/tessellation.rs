@@ -1,8 +1,8 @@
-//! Tessellated triangles: patches that the tessellator leaves as they are.
+//! Tessellated triangles: patches that the tessellator leaves unchanged.
 //!
-//! All levels are 1, so a patch of three vertices becomes one triangle, and the evaluation shader hands
-//! on the patch's own positions. Nothing is left to a driver but the order of its vertices, and with it
-//! the side that it shows: the one thing that these draws are for.
+//! All levels are 1, so a patch of three vertices becomes one triangle, and the evaluation shader passes on
+//! the patch's own positions. The driver can only choose the order of the vertices, and with it the facing:
+//! that is what these draws test.
 
 use crate::rasterization::FrontFace;
 use etalon_frame::state_enum;
@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 /// The control shader in GLSL 4.50: all levels are 1.
 pub const CONTROL_GLSL: &str = include_str!("../../../shaders/tessellation/control.tesc");
-/// The evaluation shader in GLSL 4.50: each corner of the domain has the position of its vertex. `ORDER`
-/// stands for the order of the vertices.
+/// The evaluation shader in GLSL 4.50: each corner of the domain has the position of its vertex. `ORDER` is a
+/// placeholder for the order of the vertices.
 pub const EVALUATION_GLSL: &str = include_str!("../../../shaders/tessellation/evaluation.tese");
 /// The control shader in SPIR-V, made by `shaders/tessellation/compile`.
 pub const CONTROL_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/control.spv");
@@ -20,7 +20,7 @@ const CCW_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/evaluatio
 const CW_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/evaluation-cw.spv");
 
 state_enum! {
-    /// The corner in which the domain's coordinates begin: it says which order is clockwise there.
+    /// The corner in which the domain's coordinates begin, which determines which order is clockwise.
     DomainOrigin {
         /// v grows upwards (OpenGL 4.6, figure 11.1; Vulkan, Tessellator).
         LowerLeft = "lower-left",
@@ -40,18 +40,17 @@ pub struct Tessellation {
 }
 
 impl Tessellation {
-    /// True if a triangle has its vertices in the order of its patch.
+    /// Returns true if a triangle has its vertices in the order of its patch.
     ///
-    /// The corners of the patch's first, second and third vertex are u, v and w = 1. From the first to the
-    /// second to the third the sum of Vulkan's Tessellator Vertex Winding Order is 1: counter-clockwise
-    /// with the origin in the lower left, clockwise with the upper left. OpenGL 4.6, 11.2.2.1, has the
-    /// lower left alone.
+    /// The corners of the patch's first, second and third vertex are u, v and w = 1. In the order first,
+    /// second, third, the sum of Vulkan's Tessellator Vertex Winding Order is 1: counter-clockwise with the
+    /// origin in the lower left, clockwise in the upper left. OpenGL 4.6, 11.2.2.1, has only the lower left.
     pub fn keeps_order(self) -> bool {
         (self.order == FrontFace::Ccw) == (self.origin == DomainOrigin::LowerLeft)
     }
 }
 
-/// Returns the evaluation shader with an order in SPIR-V, made by `shaders/tessellation/compile`.
+/// Returns the evaluation shader for an order in SPIR-V, made by `shaders/tessellation/compile`.
 pub fn evaluation_spirv(order: FrontFace) -> &'static [u8] {
     match order {
         FrontFace::Ccw => CCW_SPIRV,
@@ -63,7 +62,7 @@ pub fn evaluation_spirv(order: FrontFace) -> &'static [u8] {
 mod tests {
     use super::*;
 
-    /// Vulkan, Tessellator Vertex Winding Order: twice the signed area in (u, v).
+    /// Returns the sum of Vulkan, Tessellator Vertex Winding Order: twice the signed area in (u, v).
     fn area(corners: [[i32; 2]; 3]) -> i32 {
         let [[u0, v0], [u1, v1], [u2, v2]] = corners;
         u0 * v1 - u1 * v0 + u1 * v2 - u2 * v1 + u2 * v0 - u0 * v2

@@ -1,7 +1,7 @@
 //! The work of a scene, counted without drawing it.
 //!
-//! Rates need the amount of work that a time was taken for. It follows from meshes, viewports and lists of
-//! passes, so no name of a case has to say it.
+//! Rates need the amount of work that was timed. It follows from meshes, viewports and passes, so it need not
+//! be derived from case names.
 
 use crate::draw::Draw;
 use crate::mesh::PrimitiveVertices;
@@ -11,8 +11,8 @@ use crate::scene::Scene;
 use etalon_frame::Work;
 
 impl Scene {
-    /// Counts the work of one submission and of reading its frame back. Points, lines and outlines count as
-    /// no triangles.
+    /// Counts the work of one submission and of reading its frame back. Points, lines and outlines do not
+    /// count as triangles.
     pub fn work(&self) -> Work {
         let mut work = Work::default();
         for pass in &self.passes {
@@ -35,7 +35,7 @@ fn area(size: [u32; 2]) -> u64 {
     u64::from(size[0]) * u64::from(size[1])
 }
 
-/// The texels that a pass clears: depth and stencil of one attachment are cleared together.
+/// Returns the number of texels that a pass clears; depth and stencil of one attachment are cleared together.
 fn cleared(pass: &Pass, size: [u32; 2]) -> u64 {
     let mut loaded: Vec<usize> = pass.cleared().into_iter().map(|(index, _)| index).collect();
     loaded.dedup();
@@ -44,7 +44,7 @@ fn cleared(pass: &Pass, size: [u32; 2]) -> u64 {
     loaded.len() as u64 * area(size) + commands.map(rect).sum::<u64>()
 }
 
-/// The triangles of a draw, and the texels that they cover.
+/// Returns the number of triangles of a draw, and the number of texels that they cover.
 fn drawn(draw: &Draw, size: [u32; 2]) -> (u64, u64) {
     let filled = [
         PrimitiveTopology::TriangleList,
@@ -69,7 +69,7 @@ fn drawn(draw: &Draw, size: [u32; 2]) -> (u64, u64) {
     (triangles, texels)
 }
 
-/// True if a triangle is neither culled nor outside the depths that are seen.
+/// Returns true if a triangle is neither culled nor outside the visible depths.
 fn is_seen(draw: &Draw, corners: [[f64; 4]; 3]) -> bool {
     if corners.iter().any(|c| c[3] <= 0.0) {
         return false;
@@ -91,11 +91,11 @@ fn is_seen(draw: &Draw, corners: [[f64; 4]; 3]) -> bool {
     }
 }
 
-/// The part of the attachments that a draw may reach.
+/// The part of the attachments that a draw can reach.
 struct Window {
-    /// Left, top, width and height of the viewport; the height may be below 0.
+    /// Left, top, width and height of the viewport; the height can be negative.
     rect: [f64; 4],
-    /// Left, top, right and bottom of viewport, scissor rectangle and attachments together.
+    /// Left, top, right and bottom of the intersection of viewport, scissor rectangle and attachments.
     bounds: [f64; 4],
 }
 
@@ -122,8 +122,8 @@ impl Window {
         }
     }
 
-    /// The number of texels whose centres lie inside a triangle. Its left and upper edges belong to it, so
-    /// that triangles which share an edge count what is on it once.
+    /// Returns the number of texels whose centres are inside a triangle. Its left and upper edges are inside,
+    /// so that triangles that share an edge count its centres once.
     fn covered(&self, corners: [[f64; 4]; 3]) -> u64 {
         let [left, top, width, height] = self.rect;
         let points = corners.map(|c| {
@@ -154,7 +154,7 @@ impl Window {
     }
 }
 
-/// The index of the first texel whose centre is not before a coordinate.
+/// Returns the index of the first texel whose centre is not before a coordinate.
 fn centre(at: f64) -> i64 {
     (at - 0.5).ceil() as i64
 }

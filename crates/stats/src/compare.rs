@@ -3,21 +3,20 @@
 use crate::rank::{MIN_ROUNDS, Shift, shift};
 use crate::samples::Samples;
 
-/// The largest probability with which two benches of the same thing are called different: the level
-/// of the two-sided test behind [`compare`], for one comparison.
+/// The maximum probability that two benches of the same thing are called different: the level of the
+/// two-sided test behind [`compare`], for one comparison.
 pub const LEVEL: f64 = 0.001;
 
-/// The least change, as a ratio, that is worth a word. Less than this comes from where a program's
-/// code and data happen to lie, and tells nothing about a driver. It is part of the hypothesis: a
-/// change is reported when one of up to this size is rejected at [`LEVEL`], not when the estimate
-/// exceeds it.
+/// The least change, as a ratio, that is worth reporting. Smaller changes come from where a program's code
+/// and data happen to be in memory, and say nothing about a driver. It is part of the hypothesis: a change is
+/// reported if a change of up to this size is rejected at [`LEVEL`], not if the estimate exceeds it.
 pub const MINIMUM: f64 = 1.01;
 
-/// The factor by which times must have moved farther than the ruler, in logarithms, to count as changed.
+/// How many times farther than the ruler times must have moved, in logarithms, to count as changed.
 pub const BEYOND_RULER: f64 = 2.0;
 
-/// A ratio of times, after over before, with the interval that holds it with a confidence of
-/// 1 - [`LEVEL`]; from 0 to infinity where there are too few rounds.
+/// A ratio of times, after over before, with its interval of confidence 1 - [`LEVEL`]; from 0 to infinity if
+/// there are too few rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ratio {
     /// The estimate: the median over all pairs of rounds.
@@ -43,7 +42,7 @@ impl From<Shift> for Ratio {
 pub struct Comparison {
     /// The ratio of the times as measured.
     pub ratio: Ratio,
-    /// The ratio of the times in units of the ruler, where both benches have one.
+    /// The ratio of the times in units of the ruler, if both benches have one.
     pub ruled: Option<Ratio>,
     /// The conclusion.
     pub outcome: Conclusion,
@@ -52,16 +51,16 @@ pub struct Comparison {
 /// The conclusion that two benches allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conclusion {
-    /// The second one takes less time.
+    /// The second bench takes less time.
     Faster,
-    /// The second one takes more time.
+    /// The second bench takes more time.
     Slower,
-    /// Neither is shown.
+    /// Neither faster nor slower is shown.
     CannotTell(Why),
 }
 
 impl Conclusion {
-    /// The words in reports.
+    /// Returns the word for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Faster => "faster",
@@ -76,19 +75,19 @@ impl Conclusion {
 pub enum Why {
     /// One bench has fewer than [`MIN_ROUNDS`] rounds.
     TooFewRounds,
-    /// If there is a change, it is smaller than [`MINIMUM`]: as close to "the same" as it gets.
+    /// If there is a change, it is smaller than [`MINIMUM`]: as close to "the same" as a comparison gets.
     Small,
     /// The times differ, but not in units of the ruler, which has moved as well: the machine itself has
-    /// changed its pace.
+    /// changed its speed.
     Drift,
-    /// The times differ, but the ruler is so unsteady that the machine may have changed its pace.
+    /// The times differ, but the ruler is so unsteady that the machine may have changed its speed.
     Ruler,
-    /// A change of zero and one above [`MINIMUM`] are both possible.
+    /// Both no change and a change above [`MINIMUM`] are possible.
     Noise,
 }
 
 impl Why {
-    /// The reason in words.
+    /// Returns the reason in words.
     pub fn text(self) -> &'static str {
         match self {
             Self::TooFewRounds => "too few rounds: each bench needs at least 7",
@@ -100,16 +99,16 @@ impl Why {
     }
 }
 
-/// Holds two benches of the same case and adapter against each other.
+/// Compares two benches of the same case and adapter.
 ///
-/// A change counts when the whole interval lies beyond [`MINIMUM`], for the times as measured *and*
-/// for the times in units of the ruler. Each alone has the level [`LEVEL`] for two benches whose
-/// rounds may be exchanged; both together can only have a smaller one. A machine that slows down
-/// moves the first and not the second; a disturbed ruler moves the second and not the first.
+/// A change counts if the whole interval is beyond [`MINIMUM`], for the times as measured *and* for the times
+/// in units of the ruler. Each test alone has the level [`LEVEL`] for two benches whose rounds are
+/// exchangeable; both together can only have a smaller one. A machine that slows down moves the first and not
+/// the second; a disturbed ruler moves the second and not the first.
 ///
-/// No ruler feels a machine's pace exactly as the drawing does: how much a neighbour on the same core
-/// takes depends on the work. So a change must also be [`BEYOND_RULER`] times as large, in logarithms, as
-/// what the ruler has moved by itself.
+/// No ruler feels a machine's speed exactly as drawing does: how much a neighbour on the same core takes away
+/// depends on the work. A change must therefore also be [`BEYOND_RULER`] times as large, in logarithms, as
+/// the ruler's own movement.
 pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     let raw = shift(before.logs(), after.logs(), LEVEL);
     let ruled = before.ruled().zip(after.ruled());
@@ -121,7 +120,7 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
         s if s.low >= -least && s.high <= least => Side::Small,
         _ => Side::Open,
     };
-    // Without a ruler nothing guards the times as measured.
+    // Without a ruler, nothing confirms the times as measured.
     let guard = ruled.map_or(side(raw), side);
     let drifted = drift(before, after).is_some_and(|s| raw.estimate.abs() < BEYOND_RULER * s.abs());
     let outcome = match (side(raw), guard) {
@@ -144,13 +143,13 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     }
 }
 
-/// By how much the ruler has moved, as a logarithm, where both benches have one.
+/// Returns how much the ruler has moved, as a logarithm, if both benches have one.
 fn drift(before: &Samples, after: &Samples) -> Option<f64> {
     before.ruled().zip(after.ruled())?;
     Some(shift(&before.rulers(), &after.rulers(), LEVEL).estimate)
 }
 
-/// The reason why times that differ do not in units of the ruler.
+/// Returns the reason why times that differ do not differ in units of the ruler.
 fn moved(before: &Samples, after: &Samples) -> Why {
     let (before, after) = (before.rulers(), after.rulers());
     match shift(&before, &after, LEVEL) {
@@ -159,7 +158,7 @@ fn moved(before: &Samples, after: &Samples) -> Why {
     }
 }
 
-/// The position of an interval.
+/// The position of an interval relative to [`MINIMUM`].
 enum Side {
     Slower,
     Faster,

@@ -1,18 +1,18 @@
 //! Statistics of frame times: medians with intervals, and comparisons of two benches.
 //!
-//! Frames that follow each other are no independent samples: they share the state of the machine, the
-//! addresses that the process got, the clock that the processor chose. So the **round**, one fresh
-//! preparation with a few frames, is the unit of everything here, and its median stands for it. More
-//! frames make a round's median steadier; only more rounds tell more about the next bench.
+//! Consecutive frames are not independent samples: they share the state of the machine, the addresses that
+//! the process got, and the clock that the processor chose. The unit of everything here is therefore the
+//! **round**, one fresh preparation with a few frames, represented by its median. More frames make a round's
+//! median steadier; only more rounds say more about the next bench.
 //!
-//! [`summarize`] describes one bench. [`compare()`] holds two against each other, with the interval
-//! of the Wilcoxon–Mann–Whitney test turned around (Hodges and Lehmann 1963): it assumes nothing of
-//! the shape of the noise, its level is exact for any number of rounds, and single disturbed rounds
-//! hardly move it. [`smallest_visible`] tells which change that comparison would find. [`Slope`] is the rate of
-//! work of which two amounts were timed.
+//! [`summarize`] describes one bench. [`compare()`] compares two, with the interval that inverts the
+//! Wilcoxon–Mann–Whitney test (Hodges and Lehmann 1963): it assumes nothing about the shape of the noise, its
+//! level is exact for any number of rounds, and single disturbed rounds hardly move it. [`smallest_visible`]
+//! returns the change that this comparison would find. [`Slope`] is the rate of work, from the times of two
+//! amounts of it.
 //!
-//! Over many benches, [`change_points`] tells when the times of a case changed, and [`happenings`] when
-//! its verdict did.
+//! Over many benches, [`change_points`] finds when the times of a case changed, and [`happenings`] when its
+//! verdict did.
 
 #![cfg_attr(
     test,

@@ -1,22 +1,22 @@
 //! The shift between two sets of values, by ranks.
 //!
-//! The Wilcoxon–Mann–Whitney statistic U counts the pairs in which the second set's value is the
-//! smaller one. Where both sets come from one distribution, every order of all values is equally
-//! likely, whatever that distribution is, and so the distribution of U is known exactly. Turned
-//! around, the shifts that the test would not reject lie between two of the ordered differences of
-//! pairs (Hodges and Lehmann 1963; Hollander and Wolfe, Nonparametric Statistical Methods, 4.3).
+//! The Wilcoxon–Mann–Whitney statistic U counts the pairs in which the second set's value is the smaller one.
+//! If both sets come from one distribution, every order of all values is equally likely, whatever that
+//! distribution is, so the distribution of U is known exactly. By inversion, the shifts that the test would
+//! not reject are between two of the ordered differences of pairs (Hodges and Lehmann 1963; Hollander and
+//! Wolfe, Nonparametric Statistical Methods, 4.3).
 
-/// The fewest rounds on each side that can say anything at [`crate::LEVEL`]: with 6 on each side even
+/// The minimum number of rounds on each side for a conclusion at [`crate::LEVEL`]: with 6 on each side, even
 /// the most extreme of the 924 orders has a probability above half the level.
 pub const MIN_ROUNDS: usize = 7;
 
-/// The largest number of values for which orders are counted; C(120, 60) and every intermediate
-/// count fit 128 bits. Beyond it the normal approximation serves: U has lighter tails than the
-/// normal distribution, so that errs on the side of the wider interval.
+/// The largest number of values for which orders are counted; C(120, 60) and every intermediate count fit
+/// into 128 bits. Beyond it, the normal approximation is used: U has lighter tails than the normal
+/// distribution, so the approximation can only make the interval wider.
 const COUNTED: usize = 120;
 
-/// The number of ordered differences of pairs outside the interval of a level at each end, plus
-/// one: the largest k with P(U < k) <= level / 2. 0 where no interval has that level.
+/// Returns the number of ordered differences of pairs outside the interval of a level at each end, plus one:
+/// the largest k with P(U < k) <= level / 2. Returns 0 if no interval has that level.
 pub(crate) fn rank_of_bound(m: usize, n: usize, level: f64) -> usize {
     if m == 0 || n == 0 {
         return 0;
@@ -51,7 +51,7 @@ pub(crate) fn rank_of_bound(m: usize, n: usize, level: f64) -> usize {
     most
 }
 
-/// The rank of the bound by the normal distribution of the same mean and variance, with continuity
+/// Returns the rank of the bound by the normal distribution of the same mean and variance, with continuity
 /// correction.
 fn normal_rank(m: usize, n: usize, level: f64) -> usize {
     let (m, n) = (m as f64, n as f64);
@@ -60,8 +60,8 @@ fn normal_rank(m: usize, n: usize, level: f64) -> usize {
     rank.floor().max(0.0) as usize
 }
 
-/// The value above which a standard normal variable lies with a small probability: Abramowitz and
-/// Stegun 26.2.23, error below 4.5e-4, for probabilities up to a half.
+/// Returns the value that a standard normal variable exceeds with a small probability: Abramowitz and Stegun
+/// 26.2.23, error below 4.5e-4, for probabilities up to a half.
 pub(crate) fn upper_normal(probability: f64) -> f64 {
     let t = (-2.0 * probability.ln()).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
@@ -70,7 +70,7 @@ pub(crate) fn upper_normal(probability: f64) -> f64 {
     t - above / below + 4.5e-4
 }
 
-/// A shift with its interval: infinite where there are too few values for the level.
+/// A shift with its interval, which is infinite if there are too few values for the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shift {
     pub(crate) estimate: f64,
@@ -78,8 +78,8 @@ pub(crate) struct Shift {
     pub(crate) high: f64,
 }
 
-/// By how much `after` lies above `before`: the median of all differences of pairs, and the interval
-/// in which the shift lies with a confidence of at least 1 - `level`.
+/// Returns how far `after` is above `before`: the median of all differences of pairs, and the interval of the
+/// shift with a confidence of at least 1 - `level`.
 pub(crate) fn shift(before: &[f64], after: &[f64], level: f64) -> Shift {
     let mut pairs = Vec::new();
     differences(before, after, &mut pairs);
@@ -100,7 +100,7 @@ pub(crate) fn shift(before: &[f64], after: &[f64], level: f64) -> Shift {
     }
 }
 
-/// The lower bound of [`shift`]'s interval alone, of the bound's rank; `room` is overwritten.
+/// Returns only the lower bound of [`shift`]'s interval, given the bound's rank; `room` is overwritten.
 pub(crate) fn lower_bound(before: &[f64], after: &[f64], rank: usize, room: &mut Vec<f64>) -> f64 {
     differences(before, after, room);
     match rank.checked_sub(1).filter(|index| *index < room.len()) {
@@ -109,7 +109,7 @@ pub(crate) fn lower_bound(before: &[f64], after: &[f64], rank: usize, room: &mut
     }
 }
 
-/// The differences of all pairs.
+/// Writes the differences of all pairs.
 fn differences(before: &[f64], after: &[f64], into: &mut Vec<f64>) {
     into.clear();
     for b in before {
@@ -117,7 +117,7 @@ fn differences(before: &[f64], after: &[f64], into: &mut Vec<f64>) {
     }
 }
 
-/// The `rank`th smallest and largest, counted from 1.
+/// Returns the `rank`th smallest and the `rank`th largest value, counted from 1.
 fn bounds(values: &mut [f64], rank: usize) -> (f64, f64) {
     let Some(index) = rank.checked_sub(1).filter(|at| *at < values.len()) else {
         return (f64::NEG_INFINITY, f64::INFINITY);
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use crate::LEVEL;
 
-    /// The distribution of U, by walking through every order.
+    /// Returns the distribution of U by enumerating every order.
     fn counted(m: usize, n: usize) -> Vec<f64> {
         let mut orders = vec![0.0; m * n + 1];
         for set in 0_u32..1 << (m + n) {
@@ -183,8 +183,8 @@ mod tests {
 
     #[test]
     fn published_critical_values_hold() {
-        // Two-sided tables of the largest U that is significant: Mann and Whitney's test at 0.05 and
-        // 0.01 for 10 and 10 (23 and 16), for 20 and 20 (127 and 105).
+        // Two-sided tables of the largest significant U: Mann and Whitney's test at 0.05 and 0.01 for 10 and
+        // 10 (23 and 16), for 20 and 20 (127 and 105).
         for (n, level, critical) in [
             (10, 0.05, 23),
             (10, 0.01, 16),
@@ -212,7 +212,7 @@ mod tests {
                 "{n}: {counted} {normal}"
             );
         }
-        // And it grows on: no step back where it takes over.
+        // And it increases throughout, including where the approximation takes over.
         let ranks: Vec<usize> = (55..66).map(|n| rank_of_bound(n, n, LEVEL)).collect();
         assert!(ranks.is_sorted(), "{ranks:?}");
     }

@@ -1,13 +1,13 @@
-//! Rates of work from the times of two amounts of it.
+//! Rates of work, from the times of two amounts of it.
 //!
-//! The time of a frame holds what it costs to begin and end it. Two amounts of the same work share that cost,
-//! so the difference of their times is that of the work between them: the slope. Each round gives one slope,
-//! and their median stands for the rate, with an interval of order statistics, which assumes nothing of the
-//! shape of the noise (David and Nagaraja, Order Statistics, 7.1).
+//! The time of a frame includes the cost of beginning and ending it. Two amounts of the same work share that
+//! cost, so the difference of their times is the time of the work between them: the slope. Each round gives
+//! one slope, and the median of the slopes gives the rate, with an interval of order statistics, which
+//! assumes nothing about the shape of the noise (David and Nagaraja, Order Statistics, 7.1).
 
 use crate::samples::quantile;
 
-/// The least confidence of [`Slope::interval`] and [`median_interval`].
+/// The minimum confidence of [`Slope::interval`] and [`median_interval`].
 pub const RATE_CONFIDENCE: f64 = 0.95;
 
 /// The times of two amounts of work in one round, in seconds.
@@ -19,22 +19,22 @@ pub struct Pair<'a> {
     pub more: &'a [f64],
 }
 
-/// The time that one unit of work takes, and its inverse.
+/// The time of one unit of work, and its inverse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slope {
-    /// The seconds that each round gives for one unit, in their order. Noise may make them 0 or less.
+    /// The seconds for one unit in each round, in order. Noise can make them 0 or negative.
     pub rounds: Vec<f64>,
     /// Their median.
     pub median: f64,
-    /// The interval in which the median of all rounds lies with [`RATE_CONFIDENCE`]; `None` of fewer than 6
-    /// rounds, whose whole range is not that sure.
+    /// The interval of the median over all possible rounds, with confidence [`RATE_CONFIDENCE`]; `None` with
+    /// fewer than 6 rounds, whose whole range is not that certain.
     pub interval: Option<[f64; 2]>,
-    /// True if the work between the two amounts takes less time than single times scatter, or may take none.
+    /// True if the work between the two amounts takes less time than single times scatter, or possibly none.
     pub below_resolution: bool,
 }
 
 impl Slope {
-    /// Computes the slope over rounds; `None` without a round, of an empty one, and of no work.
+    /// Computes the slope over rounds; `None` if there is no round, an empty round, or no work.
     pub fn new(rounds: &[Pair<'_>], work: u64) -> Option<Self> {
         if work == 0 {
             return None;
@@ -60,18 +60,18 @@ impl Slope {
         })
     }
 
-    /// Units of work per second; `None` below the resolution.
+    /// Returns the units of work per second; `None` below the resolution.
     pub fn rate(&self) -> Option<f64> {
         (!self.below_resolution).then(|| 1.0 / self.median)
     }
 
-    /// The interval of [`Slope::rate`].
+    /// Returns the interval of [`Slope::rate`].
     pub fn rate_interval(&self) -> Option<[f64; 2]> {
         let [low, high] = self.interval.filter(|_| !self.below_resolution)?;
         Some([1.0 / high, 1.0 / low])
     }
 
-    /// True if the interval of the rate lies within a share of it.
+    /// Returns true if the interval of the rate is within a share of it.
     pub fn is_within(&self, share: f64) -> bool {
         match (self.rate(), self.rate_interval()) {
             (Some(rate), Some(interval)) => is_within(rate, interval, share),
@@ -80,18 +80,18 @@ impl Slope {
     }
 }
 
-/// True if an interval lies within a share of its middle.
+/// Returns true if an interval is within a share of its middle.
 pub fn is_within(middle: f64, interval: [f64; 2], share: f64) -> bool {
     interval
         .into_iter()
         .all(|end| (end / middle - 1.0).abs() <= share)
 }
 
-/// The interval between two of ascending values that holds the median of what they were drawn from with
-/// [`RATE_CONFIDENCE`] at least; `None` of fewer than 6.
+/// Returns the interval between two of some ascending values that contains the median of their distribution
+/// with a confidence of at least [`RATE_CONFIDENCE`]; `None` with fewer than 6 values.
 pub fn median_interval(sorted: &[f64]) -> Option<[f64; 2]> {
     let n = sorted.len();
-    // The number of values below the median is binomial. The largest number of values that may be left out at
+    // The number of values below the median is binomial. The largest number of values that can be left out at
     // each end is the largest k with P(X < k) <= (1 - confidence) / 2.
     let tail = (1.0 - RATE_CONFIDENCE) / 2.0;
     let mut logarithm = -(n as f64) * std::f64::consts::LN_2;
@@ -125,7 +125,7 @@ mod tests {
     use super::*;
     use oorandom::Rand64;
 
-    /// The slope over rounds whose frames take a fixed time, a time per unit and noise of a size.
+    /// Returns the slope over rounds whose frames take a fixed time, a time per unit, and noise of this size.
     fn planted(seed: u128, rounds: usize, unit: f64, noise: f64) -> Slope {
         let mut random = Rand64::new(seed);
         let mut frames = |work: f64| -> Vec<f64> {
@@ -170,15 +170,15 @@ mod tests {
             assert_eq!((none.rate(), none.rate_interval()), (None, None));
             assert!(!none.is_within(1.0));
         }
-        // Above zero in every round, and yet less than frames scatter.
+        // Above zero in every round, but smaller than the scatter of frames.
         let little = planted(1, 40, 2e-13, 1e-5);
         assert!(little.median > 0.0 && little.below_resolution);
     }
 
     #[test]
     fn intervals_of_medians_are_those_of_tables() {
-        // Ranks of the ends at 95 % for so many values (Conover, Practical Nonparametric Statistics, table A3
-        // turned around): 6 to 8 give the first and the last, 9 to 11 the second, 12 to 14 the third.
+        // Ranks of the ends at 95 % for these numbers of values (Conover, Practical Nonparametric Statistics,
+        // table A3 inverted): 6 to 8 give the first and the last, 9 to 11 the second, 12 to 14 the third.
         for (n, rank) in [
             (6, 1),
             (8, 1),

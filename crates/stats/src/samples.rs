@@ -1,19 +1,19 @@
-//! Frame times by rounds.
+//! Frame times, by rounds.
 
 use thiserror::Error;
 
-/// Frame times of one case on one adapter, round by round, and the ruler's time around each round
-/// where there is one: fixed work whose time tells how fast the machine itself was.
+/// Frame times of one case on one adapter, round by round, and the ruler's time around each round if there is
+/// one. The ruler is fixed work whose time shows how fast the machine was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
     rounds: Vec<Vec<f64>>,
     /// Logarithm of each round's median.
     logs: Vec<f64>,
-    /// The same less the logarithm of the ruler's time.
+    /// The same minus the logarithm of the ruler's time.
     ruled: Option<Vec<f64>>,
 }
 
-/// The reasons why times are no samples.
+/// The reason why times are not valid samples.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SampleError {
     /// There is no round.
@@ -23,14 +23,14 @@ pub enum SampleError {
     #[error("round {0} has no sample")]
     Empty(usize),
     /// A time is not above zero.
-    #[error("round {round} holds a time of {time} s")]
+    #[error("round {round} has a time of {time} s")]
     Time {
         /// The round, from 0.
         round: usize,
         /// The time.
         time: f64,
     },
-    /// There are not as many ruler times as rounds.
+    /// The number of ruler times differs from the number of rounds.
     #[error("{rulers} ruler times for {rounds} rounds")]
     Rulers {
         /// Ruler times.
@@ -41,7 +41,7 @@ pub enum SampleError {
 }
 
 impl Samples {
-    /// Samples of the given rounds, in seconds or any other unit.
+    /// Returns samples of the given rounds, in seconds or any other unit.
     ///
     /// # Errors
     /// If there is no round, a round is empty, or a time is not finite and above zero.
@@ -66,10 +66,10 @@ impl Samples {
         })
     }
 
-    /// The same samples with the ruler's time of each round.
+    /// Returns the same samples with the ruler's time of each round.
     ///
     /// # Errors
-    /// If there is not one for each round, or one is not finite and above zero.
+    /// If the number of times differs from the number of rounds, or a time is not finite and above zero.
     pub fn with_ruler(mut self, rulers: &[f64]) -> Result<Self, SampleError> {
         if rulers.len() != self.rounds.len() {
             return Err(SampleError::Rulers {
@@ -90,30 +90,30 @@ impl Samples {
         self.rounds.len()
     }
 
-    /// The median of each round.
+    /// Returns the median of each round.
     pub fn medians(&self) -> Vec<f64> {
         self.logs.iter().map(|t| t.exp()).collect()
     }
 
-    /// All times, ascending.
+    /// Returns all times, ascending.
     pub(crate) fn sorted(&self) -> Vec<f64> {
         let mut samples: Vec<f64> = self.rounds.iter().flatten().copied().collect();
         samples.sort_unstable_by(f64::total_cmp);
         samples
     }
 
-    /// Logarithms of the rounds' medians.
+    /// Returns the logarithms of the rounds' medians.
     pub(crate) fn logs(&self) -> &[f64] {
         &self.logs
     }
 
-    /// Logarithms of the ruler's times; empty without one.
+    /// Returns the logarithms of the ruler's times; empty without a ruler.
     pub(crate) fn rulers(&self) -> Vec<f64> {
         let ruled = self.ruled.iter().flatten();
         self.logs.iter().zip(ruled).map(|(t, r)| t - r).collect()
     }
 
-    /// Logarithms of the rounds' medians in units of the ruler.
+    /// Returns the logarithms of the rounds' medians in units of the ruler.
     pub(crate) fn ruled(&self) -> Option<&[f64]> {
         self.ruled.as_deref()
     }
@@ -129,8 +129,8 @@ fn check(round: usize, times: &[f64]) -> Result<(), SampleError> {
     }
 }
 
-/// The quantile `q`, 0 to 1, of ascending values, interpolated between the two nearest (the seventh
-/// definition of Hyndman and Fan 1996); `None` of nothing.
+/// Returns the quantile `q`, 0 to 1, of ascending values, interpolated between the two nearest (the seventh
+/// definition of Hyndman and Fan 1996); `None` if there are no values.
 pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = q.clamp(0.0, 1.0) * last as f64;

@@ -1,6 +1,6 @@
 //! Student's distribution: Abramowitz and Stegun, 26.5 and 26.7.
 
-/// The probability with which a variable of Student's distribution lies farther from 0 than `t`.
+/// Returns the probability that a variable of Student's distribution is farther from 0 than `t`.
 pub(crate) fn two_sided(t: f64, freedom: f64) -> f64 {
     if t.is_infinite() {
         return 0.0;
@@ -9,12 +9,12 @@ pub(crate) fn two_sided(t: f64, freedom: f64) -> f64 {
     incomplete_beta(freedom / (freedom + square), freedom / 2.0, 0.5).clamp(0.0, 1.0)
 }
 
-/// The value that a variable of Student's distribution exceeds in size with a probability.
+/// Returns the magnitude that a variable of Student's distribution exceeds with this probability.
 pub(crate) fn quantile(probability: f64, freedom: f64) -> f64 {
     least(|t| two_sided(t, freedom) <= probability)
 }
 
-/// The least value above 0 from which on a condition holds, to one part in 2^50.
+/// Returns the least value above 0 from which on a condition is true, to one part in 2^50.
 pub(crate) fn least(holds: impl Fn(f64) -> bool) -> f64 {
     let mut high = 1.0;
     while !holds(high) && high < 1e12 {
@@ -32,13 +32,13 @@ pub(crate) fn least(holds: impl Fn(f64) -> bool) -> f64 {
     high
 }
 
-/// The regularized incomplete beta function.
+/// Returns the regularized incomplete beta function.
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
     }
     let front = a * x.ln() + b * (1.0 - x).ln() + ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b);
-    // The fraction converges fast on this side of the mean only.
+    // The fraction converges fast only on this side of the mean.
     if x < (a + 1.0) / (a + b + 2.0) {
         front.exp() * beta_fraction(x, a, b) / a
     } else {
@@ -46,7 +46,7 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     }
 }
 
-/// The continued fraction 26.5.8, from the front (Lentz 1976).
+/// Returns the continued fraction 26.5.8, evaluated from the front (Lentz 1976).
 fn beta_fraction(x: f64, a: f64, b: f64) -> f64 {
     let guarded = |v: f64| if v.abs() < 1e-300 { 1e-300 } else { v };
     let mut c = 1.0;
@@ -70,8 +70,8 @@ fn beta_fraction(x: f64, a: f64, b: f64) -> f64 {
     fraction
 }
 
-/// The logarithm of the gamma function above 0: Stirling's series (6.1.41), shifted to where five
-/// terms suffice.
+/// Returns the logarithm of the gamma function above 0: Stirling's series (6.1.41), shifted until five terms
+/// suffice.
 fn ln_gamma(x: f64) -> f64 {
     let mut x = x;
     let mut product = 1.0;

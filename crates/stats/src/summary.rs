@@ -9,21 +9,21 @@ use oorandom::Rand64;
 pub const CONFIDENCE: f64 = 0.99;
 
 const RESAMPLES: usize = 2000;
-/// Any number: the same samples give the same interval.
+/// An arbitrary constant, so that the same samples always give the same interval.
 const SEED: u128 = 0x6574_616c_6f6e;
 
 /// The summary of one bench of a case on an adapter. Times are in the unit of the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// Rounds.
+    /// The number of rounds.
     pub rounds: usize,
-    /// Samples in all rounds.
+    /// The number of samples in all rounds.
     pub samples: usize,
-    /// The median of the rounds' medians, which a comparison goes by.
+    /// The median of the rounds' medians, which comparisons use.
     pub median: f64,
-    /// Its bootstrap interval with a confidence of [`CONFIDENCE`]: rounds are drawn with replacement,
-    /// the percentiles of their medians taken. `None` below [`MIN_ROUNDS`], where not even the whole
-    /// range of the rounds has that confidence.
+    /// Its bootstrap interval with a confidence of [`CONFIDENCE`]: rounds are drawn with replacement, and the
+    /// percentiles of their medians are taken. `None` below [`MIN_ROUNDS`], where not even the whole range of
+    /// the rounds has that confidence.
     pub interval: Option<[f64; 2]>,
     /// The median of all samples.
     pub p50: f64,
@@ -31,8 +31,8 @@ pub struct Summary {
     pub p95: f64,
     /// The smallest sample.
     pub min: f64,
-    /// The smallest change, as a ratio above 1, that a comparison with another bench like this one
-    /// would find; see [`smallest_visible`].
+    /// The smallest change, as a ratio above 1, that a comparison with another bench like this one would
+    /// find; see [`smallest_visible`].
     pub visible: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ pub fn summarize(samples: &Samples) -> Summary {
     let sorted = samples.sorted();
     let mut medians = samples.medians();
     medians.sort_unstable_by(f64::total_cmp);
-    // Samples hold at least one round of at least one time.
+    // Samples have at least one round with at least one time.
     let quantile_of = |values: &[f64], q: f64| quantile(values, q).unwrap_or(f64::NAN);
     Summary {
         rounds: samples.rounds(),

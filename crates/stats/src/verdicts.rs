@@ -1,4 +1,4 @@
-//! Verdicts over runs: what broke, what was fixed, and scores that a growing suite does not move.
+//! Verdicts over runs: what broke, what was fixed, and scores that do not move when the suite grows.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,27 +11,27 @@ pub enum Class {
     Bad,
     /// One run gave different verdicts.
     Flaky,
-    /// The run has no verdict of the case.
+    /// The run has no verdict for the case.
     Missing,
 }
 
 /// An event of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Event {
-    /// Bad, and was good or flaky.
+    /// The case is bad, and was good or flaky.
     Broken,
-    /// Good, and was bad or flaky.
+    /// The case is good, and was bad or flaky.
     Fixed,
-    /// Flaky, or good and bad in turn, and was neither.
+    /// The case is flaky, or alternates between good and bad, and did not before.
     Flaky,
-    /// There, and was not in the runs before.
+    /// The case is present, and was not in the previous runs.
     Appeared,
-    /// Not there, and was in the run before.
+    /// The case is absent, and was in the previous run.
     Gone,
 }
 
 impl Event {
-    /// The words in reports, before the run.
+    /// Returns the words for reports, which precede the run.
     pub fn name(self) -> &'static str {
         match self {
             Self::Broken => "broken at",
@@ -43,30 +43,30 @@ impl Event {
     }
 }
 
-/// An event, the run that shows it, and the run before that one: what happened lies between the two.
+/// An event, the run that shows it, and the previous run: the cause came between the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Happening<K> {
     /// The event.
     pub event: Event,
-    /// The last run before.
+    /// The last run without it.
     pub after: K,
     /// The first run that shows it.
     pub at: K,
 }
 
-/// Changes from good to bad and back, no more than [`NEAR`] runs apart, that make a case flaky.
+/// The number of changes between good and bad, at most [`NEAR`] runs apart, that make a case flaky.
 const TURNS: usize = 4;
-/// Runs between such changes.
+/// The maximum number of runs between such changes.
 const NEAR: usize = 3;
 
 /// Returns what happened to a case over runs, oldest first.
 ///
-/// The first run is where a history begins and tells of no event. A run that did not select the case, or did not
-/// end, is to be left out; `Missing` says that a run of the whole suite has no verdict of it. What
-/// a case was before it was gone still counts when it appears again.
+/// The first run is the beginning of a history and gives no event. A run that did not select the case, or did
+/// not end, must be left out; `Missing` says that a run of the whole suite has no verdict for it. When a case
+/// appears again, its class from before it was gone still counts.
 ///
-/// A case that is good and bad in turn four times, with at most three runs between, is flaky for that
-/// time, though each run alone was sure of its verdict.
+/// A case that alternates four times between good and bad, with at most three runs in between, is flaky for
+/// that time, although each run had a definite verdict.
 pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
     let classes = with_turns(runs);
     let mut found = Vec::new();
@@ -101,7 +101,7 @@ pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
     found
 }
 
-/// The classes, with `Flaky` in place of stretches that are good and bad in turn.
+/// Returns the classes, with `Flaky` in place of stretches that alternate between good and bad.
 fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
     let mut classes: Vec<Class> = runs.iter().map(|(_, class)| *class).collect();
     let sure: Vec<usize> = (0..classes.len())
@@ -114,7 +114,7 @@ fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
         .collect();
     for group in turns.chunk_by(|a, b| b - a <= NEAR) {
         if let ([first, .., last], true) = (group, group.len() >= TURNS) {
-            // The last turn begins what the case is afterwards.
+            // The last change begins the following state.
             for class in classes[*first..*last]
                 .iter_mut()
                 .filter(|c| **c != Class::Missing)
@@ -126,7 +126,7 @@ fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
     classes
 }
 
-/// The number of good cases of a set.
+/// The number of good cases in a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Score {
     /// Good cases.
@@ -145,7 +145,7 @@ impl Score {
         score
     }
 
-    /// Returns the share of good cases, 0 to 1; `None` of no case.
+    /// Returns the share of good cases, 0 to 1; `None` if there are no cases.
     pub fn share(self) -> Option<f64> {
         (self.of > 0).then(|| self.good as f64 / self.of as f64)
     }
@@ -154,13 +154,13 @@ impl Score {
 /// The score of one run of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scores {
-    /// Over the cases that all runs have: a change is one of the driver's.
+    /// Over the cases that all runs have: only the driver can change it.
     pub common: Score,
-    /// Over all cases of the run: cases that appeared or went move it, too.
+    /// Over all cases of the run: cases that appear or disappear change it too.
     pub own: Score,
 }
 
-/// Returns the scores of runs, over what they have in common and over what each has.
+/// Returns the scores of runs, over the cases that they share and over the cases of each.
 pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Class>]) -> Vec<Scores> {
     let there = |run: &BTreeMap<K, Class>| -> BTreeSet<K> {
         let cases = run.iter().filter(|(_, class)| **class != Class::Missing);
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
     use Event::{Appeared, Broken, Fixed, Flaky, Gone};
 
-    /// Events of a history in letters: good, bad, flaky, missing.
+    /// Returns the events of a history written in letters: good, bad, flaky, missing.
     fn told(text: &str) -> Vec<(Event, usize)> {
         let class = |letter| match letter {
             'g' => Class::Good,
@@ -236,7 +236,7 @@ mod tests {
                 (Fixed, 6)
             ]
         );
-        // Three turns, or turns far apart, are a fix and what broke it.
+        // Three changes, or changes far apart, are separate breaks and fixes.
         assert_eq!(told("gbgb"), [(Broken, 1), (Fixed, 2), (Broken, 3)]);
         assert_eq!(told("gbbbbggggbbbbgggg").len(), 4);
     }

@@ -11,14 +11,14 @@ pub const POWER: f64 = 0.9;
 const RESAMPLES: usize = 400;
 const SEED: u128 = 0x0076_6973_6962_6c65;
 
-/// The smallest change, as a ratio above 1, that [`crate::compare()`] would find with probability
-/// [`POWER`] between two benches as noisy as these and of as many rounds. `None` where no change
-/// could be found: with too few rounds.
+/// Returns the smallest change, as a ratio above 1, that [`crate::compare()`] would find with probability
+/// [`POWER`] between two benches with the noise and the number of rounds of these. Returns `None` if there
+/// are too few rounds to find any change.
 ///
-/// The rounds of each bench, less their own median, are drawn with replacement; a planted change
-/// moves the interval as a whole, so each drawing tells how large a change would have had to be, and
-/// the answer is the quantile [`POWER`] of these. Drawing from a few rounds understates how far rounds
-/// spread, so residuals are stretched; see `stretch`.
+/// The rounds of each bench, minus their own median, are drawn with replacement. A planted change moves the
+/// interval as a whole, so each drawing shows how large a change would have had to be, and the result is the
+/// quantile [`POWER`] of these sizes. Drawing from a few rounds understates their spread, so residuals are
+/// stretched; see `stretch`.
 pub fn smallest_visible(before: &Samples, after: &Samples) -> Option<f64> {
     let rank = rank_of_bound(before.rounds(), after.rounds(), LEVEL);
     if rank == 0 {
@@ -43,13 +43,13 @@ pub fn smallest_visible(before: &Samples, after: &Samples) -> Option<f64> {
     quantile(&needed, POWER).map(f64::exp)
 }
 
-/// Rounds less their median, in logarithms; as measured and in units of the ruler.
+/// Rounds minus their median, in logarithms: as measured and in units of the ruler.
 struct Residuals {
     raw: Vec<f64>,
     ruled: Vec<f64>,
 }
 
-/// Residuals that were drawn; a round's two stay together.
+/// Drawn residuals; the two of a round stay together.
 #[derive(Default)]
 struct Drawn {
     raw: Vec<f64>,
@@ -83,9 +83,9 @@ fn residuals(logs: &[f64]) -> Vec<f64> {
     logs.iter().map(|v| (v - middle) * stretch).collect()
 }
 
-/// The stretch of residuals of a few rounds: the deviation of values drawn with replacement is
-/// smaller by sqrt((n - 1) / n) than that of the rounds they come from, and the rounds' own is known
-/// only to about one part in sqrt(2 (n - 1)), of which this takes one on the safe side.
+/// Returns the factor by which residuals of a few rounds are stretched. The deviation of values drawn with
+/// replacement is smaller by sqrt((n - 1) / n) than that of their rounds, and the rounds' own deviation is
+/// known only to about one part in sqrt(2 (n - 1)); the factor adds that much to be safe.
 fn stretch(rounds: usize) -> f64 {
     let n = rounds.max(2) as f64;
     (n / (n - 1.0)).sqrt() * (1.0 + 1.0 / (2.0 * (n - 1.0)).sqrt())

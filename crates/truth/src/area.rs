@@ -1,8 +1,8 @@
 //! The integral of the picture over a cell.
 //!
-//! The cell is cut along the edges of the surfaces, along the lines where two of them pass through
-//! each other, and where a paint changes its formula, until one formula holds in every piece. Flat
-//! and linear colours are integrated in closed form, others by quadrature that is exact for them.
+//! The cell is cut along the edges of the surfaces, along the lines where two of them pass through each
+//! other, and where a paint changes its formula, until a single formula applies in every piece. Flat and
+//! linear colours are integrated in closed form, others by quadrature that is exact for them.
 
 use super::cell::{Cell, Cut, Point, SLACK};
 use super::order::{self, Members, Relation};
@@ -10,19 +10,20 @@ use super::quadrature;
 use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
-/// The most pieces of a texel before it is halved.
+/// The maximum number of pieces of a texel before it is halved.
 const PIECES: usize = 4096;
 
-/// The deepest recursion of cuts before a texel is halved: a bound on the stack.
+/// The maximum recursion depth of cuts before a texel is halved, which bounds the stack.
 const DEPTH: usize = 200;
 
-/// The most halvings of a texel: to 16 by 16 parts.
+/// The maximum number of halvings of a texel: to 16 by 16 parts.
 const HALVINGS: u32 = 8;
 
-/// The most textured surfaces over each other that are integrated exactly.
+/// The maximum number of stacked textured surfaces that are integrated exactly.
 const EXACT_TEXTURES: usize = 6;
 
-/// Points along a side if there are more, and those of the rule that the result is compared with.
+/// The numbers of points along a side for more textured surfaces: of the rule that is used, and of the
+/// coarser rule that the error is estimated with.
 const DENSE: [usize; 2] = [6, 4];
 
 /// An integral over a part of the picture.
@@ -43,20 +44,20 @@ impl Integral {
     }
 }
 
-/// The surfaces that may be visible in a part of the picture, over the background.
+/// The surfaces that can be visible in a part of the picture, over the background.
 pub(super) struct Layers<'a> {
     pub(super) surfaces: &'a [PreparedSurface<'a>],
     pub(super) background: [f64; 3],
-    /// Those that may be visible there, nearer ones first as far as that is known.
+    /// The surfaces that can be visible there, approximately nearest first.
     pub(super) touching: &'a [usize],
 }
 
 impl Layers<'_> {
     /// Returns the integral of the picture over a cell.
     ///
-    /// A cell with too many pieces is halved. A 256th of a texel that still has too many counts with the
-    /// colour at its middle; the error is its area times the widest spread of colours, since `over`
-    /// returns a colour between its inputs.
+    /// A cell with too many pieces is halved. A 256th of a texel that still has too many is given the colour
+    /// at its middle; the error is its area times the widest spread of colours, since `over` returns a colour
+    /// between its inputs.
     pub(super) fn integral(&self, low: Point, high: Point) -> Integral {
         self.halved(low, high, 0)
     }
@@ -105,8 +106,8 @@ impl Layers<'_> {
         }
     }
 
-    /// Returns the visible ones of the surfaces that cover all of a cell, front to back; or two that cross
-    /// in it.
+    /// Returns the visible ones among surfaces that cover a whole cell, front to back; or two that cross in
+    /// it.
     pub(super) fn visible(&self, cell: &Cell, members: &[usize]) -> Result<Members, [usize; 2]> {
         let mut sorted = Members::from_slice(members);
         order::sort(self.surfaces, &mut sorted, cell.corners());
@@ -115,7 +116,7 @@ impl Layers<'_> {
         };
         for (i, &member) in sorted.iter().enumerate() {
             if self.surfaces[member].opaque {
-                // Surfaces behind an opaque one may be in any order.
+                // Surfaces behind an opaque one can be in any order.
                 let behind = sorted[i + 1..].iter().find(|&&b| crossing(member, b));
                 if let Some(&behind) = behind {
                     return Err([member, behind]);
@@ -132,7 +133,7 @@ impl Layers<'_> {
     }
 }
 
-/// The pieces of a cell; every function returns `None` once there are too many.
+/// The pieces of a cell; every function returns `None` if there are too many.
 struct Pieces<'a> {
     layers: &'a Layers<'a>,
     left: usize,
@@ -141,7 +142,7 @@ struct Pieces<'a> {
 }
 
 impl Pieces<'_> {
-    /// Recurses by one cut.
+    /// Recurses one cut deeper.
     fn deeper(&mut self, what: impl FnOnce(&mut Self) -> Option<()>) -> Option<()> {
         self.left = self.left.checked_sub(1)?;
         self.depth = (self.depth < DEPTH).then_some(self.depth + 1)?;
@@ -150,7 +151,7 @@ impl Pieces<'_> {
         Some(())
     }
 
-    /// Adds a cell that `members` cover, and of which the surfaces from `next` on may cover a part.
+    /// Adds a cell that `members` cover, and that the surfaces from `next` on can partly cover.
     fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
         let (known, layers) = (members.len(), self.layers);
         let mut rest = cell;
@@ -182,7 +183,7 @@ impl Pieces<'_> {
         Some(())
     }
 
-    /// True if a surface lies behind an opaque one in all of a cell.
+    /// Returns true if a surface is behind an opaque one in all of a cell.
     fn hidden(&self, candidate: usize, members: &[usize], cell: &Cell) -> bool {
         let surfaces = self.layers.surfaces;
         members.iter().any(|&member| {
@@ -191,7 +192,7 @@ impl Pieces<'_> {
         })
     }
 
-    /// Adds a cell that all of `members` and no other surface covers.
+    /// Adds a cell that all of `members` and no other surface cover.
     fn arrange(&mut self, cell: &Cell, members: &[usize]) -> Option<()> {
         let surfaces = self.layers.surfaces;
         match self.layers.visible(cell, members) {
@@ -223,7 +224,7 @@ impl Pieces<'_> {
             });
         }
         if textures == 0 && !fades {
-            // Linear at most: the mean is the colour at the centroid.
+            // At most linear: the mean is the colour at the centroid.
             let (area, centroid) = cell.area_and_centroid();
             self.integral.add(Integral {
                 sum: seen(centroid).map(|v| v * area),
@@ -262,7 +263,7 @@ impl Pieces<'_> {
     }
 }
 
-/// Returns the surfaces by their depth at a point, the nearest first.
+/// Returns the surfaces sorted by their depth at a point, nearest first.
 pub(super) fn nearest_first(
     surfaces: &[PreparedSurface<'_>],
     touching: &[usize],

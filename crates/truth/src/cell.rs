@@ -5,10 +5,10 @@ use smallvec::SmallVec;
 /// A point of the picture, in texels from the top left corner.
 pub(super) type Point = [f64; 2];
 
-/// Distances in texels below this are rounding, not geometry.
+/// Distances in texels below this are due to rounding, not to geometry.
 pub(super) const SLACK: f64 = 1e-11;
 
-/// A convex polygon: its corners in order around it.
+/// A convex polygon, as its corners in order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cell {
     corners: SmallVec<[Point; 8]>,
@@ -21,9 +21,9 @@ pub(super) struct Cell {
     reason = "cuts are taken apart at once and never stored: a box would cost more than the space"
 )]
 pub(super) enum Cut {
-    /// No corner lies on the negative side.
+    /// No corner is on the negative side.
     Positive,
-    /// No corner lies on the positive side, and not all on the line.
+    /// No corner is on the positive side, and not all are on the line.
     Negative,
     /// The positive and the negative part.
     Both(Cell, Cell),
@@ -81,7 +81,7 @@ impl Cell {
         Cut::Both(Self { corners: positive }, Self { corners: negative })
     }
 
-    /// Returns the triangles between the first corner and each side that does not meet it.
+    /// Returns the triangles between the first corner and each side that does not include it.
     pub(super) fn triangles(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         let sides = self.corners.windows(2).skip(1);
         sides.map(|side| [self.corners[0], side[0], side[1]])

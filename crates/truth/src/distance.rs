@@ -5,17 +5,17 @@ use super::rgb8::{decode, quantized};
 use etalon_frame::{Aspect, ChannelEncoding, Distance, Image};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, flip};
 
-/// The difference of a channel above which a texel counts as wrong: two codes of 255, and room for
+/// The difference of a channel above which a texel counts as wrong: two codes of 255, plus a margin for
 /// rounding.
 const WRONG: f64 = 2.0 / 255.0 + 1e-9;
 
-/// Returns the distance of a picture from the truth, over the linear values of red, green and blue. A
-/// missing channel counts as 0; alpha is ignored.
+/// Returns the distance of a picture from the truth, over the linear values of red, green and blue. A missing
+/// channel counts as 0; alpha is ignored.
 ///
-/// A value that is not finite differs by 1. In FLIP, infinities are clamped to 0..1, and a NaN is the
-/// end that is farther from the truth.
+/// A value that is not finite differs by 1. For FLIP, infinities are clamped to 0 to 1, and a NaN becomes
+/// whichever of 0 and 1 is farther from the truth.
 ///
-/// `None` if there is nothing to measure: the image is not colour, has several samples or integer
+/// Returns `None` if the picture cannot be measured: the image is not colour, has several samples or integer
 /// channels, differs from the truth in size, or is empty.
 pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
     let [width, height] = picture.size;
@@ -28,7 +28,7 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
         && !picture.channels.is_empty()
         && !picture.channels.iter().any(|c| matches!(c, ChannelEncoding::Uint(_)))
         && picture.codes.len() == picture.expected_len()
-        // Sizes go to FLIP as signed 32-bit integers.
+        // FLIP takes sizes as signed 32-bit integers.
         && texels < i32::MAX as usize / 3;
     if !comparable {
         return None;

@@ -1,8 +1,8 @@
-//! Exact pictures, from geometry alone.
+//! Exact pictures, computed from geometry alone.
 //!
-//! All surfaces that cover a point are sorted by their depth there and composed over the background in
-//! 64-bit floats. Nothing is rasterized, stored or rounded to a format, so that the distance of a
-//! driver's picture from the truth is the error of the method that drew it.
+//! All surfaces that cover a point are sorted by their depth there and composed over the background in 64-bit
+//! floats. Nothing is rasterized, stored or rounded to a format, so the distance of a driver's picture from
+//! the truth is the error of the rendering method.
 
 mod area;
 mod cell;

@@ -4,17 +4,17 @@ use super::cell::Point;
 use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
-/// Surfaces by their position in the scene.
+/// Surfaces, by their index in the scene.
 pub(super) type Members = SmallVec<[usize; 16]>;
 
-/// The order of two surfaces at all of some points.
+/// The order of two surfaces over all of some points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Relation {
     /// The first one is in front.
     Front,
     /// The second one is in front.
     Behind,
-    /// The first one at some points, the second one at others.
+    /// The first one is in front at some points, the second one at others.
     Crossing,
 }
 
@@ -23,12 +23,12 @@ pub(super) fn gap(surfaces: &[PreparedSurface<'_>], a: usize, b: usize, p: Point
     surfaces[a].depth.at(p) - surfaces[b].depth.at(p)
 }
 
-/// Returns the largest gap that is rounding.
+/// Returns the largest gap that can be due to rounding.
 pub(super) fn slack(surfaces: &[PreparedSurface<'_>], a: usize, b: usize) -> f64 {
     surfaces[a].slack + surfaces[b].slack
 }
 
-/// Returns the order of surfaces `a` and `b` at points; of two at equal depth, the later is in front.
+/// Returns the order of surfaces `a` and `b` at points; at equal depth, the later surface is in front.
 pub(super) fn relation(
     surfaces: &[PreparedSurface<'_>],
     a: usize,
@@ -51,15 +51,15 @@ pub(super) fn relation(
     }
 }
 
-/// Sorts surfaces front to back at points. Of two that cross, the nearer in the mean comes first.
+/// Sorts surfaces front to back at points. If two cross, the nearer one on average comes first.
 pub(super) fn sort(surfaces: &[PreparedSurface<'_>], members: &mut [usize], points: &[Point]) {
     let before = |a: usize, b: usize| match relation(surfaces, a, b, points) {
         Relation::Front => true,
         Relation::Behind => false,
         Relation::Crossing => points.iter().map(|&p| gap(surfaces, a, b, p)).sum::<f64>() < 0.0,
     };
-    // By insertion: the input is mostly sorted, and the standard sort may panic if rounding makes
-    // equality of depths intransitive.
+    // Insertion sort: the input is mostly sorted, and the standard sort can panic if rounding makes equality
+    // of depths intransitive.
     for i in 1..members.len() {
         let mut j = i;
         while j > 0 && before(members[j], members[j - 1]) {

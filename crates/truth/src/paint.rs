@@ -32,25 +32,27 @@ impl PreparedSurface<'_> {
         }
     }
 
-    /// True if the colour is constant.
+    /// Returns true if the colour is constant.
     pub(super) fn is_flat(&self) -> bool {
         matches!(self.paint, Paint::Flat(_))
     }
 
-    /// True if it is textured.
+    /// Returns true if the surface is textured.
     pub(super) fn is_textured(&self) -> bool {
         matches!(self.paint, Paint::Texture { .. })
     }
 
-    /// True if its colour depends on the distance.
+    /// Returns true if the colour depends on the distance.
     pub(super) fn fades(&self) -> bool {
         matches!(self.paint, Paint::Distance { .. } | Paint::Fog { .. })
     }
 
-    /// Returns the parts of a cell if no single smooth formula describes the colour in all of it.
+    /// Cuts a cell in two if no single smooth formula describes the colour in all of it; otherwise returns
+    /// `None`.
     ///
     /// A textured cell is cut along texel centres, so that each part's colour and alpha are of degree 2. A
-    /// faded one is cut where the depth leaves 0..1, and halved until the distance at most doubles in it.
+    /// cell with a colour that fades is cut where the depth leaves 0 to 1, and halved until the distance at
+    /// most doubles within it.
     pub(super) fn kink(&self, cell: &Cell) -> Option<(Cell, Cell)> {
         let cut = |function: &dyn Fn(Point) -> f64, range: (f64, f64)| match cell
             .cut(function, 1e-9 * (range.1 - range.0))

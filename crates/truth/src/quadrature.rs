@@ -4,14 +4,14 @@ use super::cell::{Point, area_of};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// The most points along one side.
+/// The maximum number of points along one side.
 pub(super) const MOST: usize = 14;
 
 /// Gauss-Legendre points and weights on 0 to 1, by the number of points.
 static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(|| (0..=MOST).map(gauss).collect());
 
-/// Returns the points and weights of the rule with `n` points on 0..1: roots of the Legendre polynomial
-/// by Newton's method from the usual guess (Press and others, Numerical Recipes, 4.6).
+/// Returns the points and weights of the rule with `n` points on 0 to 1: roots of the Legendre polynomial by
+/// Newton's method from the usual guess (Press and others, Numerical Recipes, 4.6).
 fn gauss(n: usize) -> Vec<(f64, f64)> {
     let rule = (0..n).map(|i| {
         let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
@@ -36,8 +36,8 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
 }
 
 /// Returns the integral of a function over a triangle from `points`² points, at most [`MOST`]²: exact for
-/// polynomials of degree `2 * points - 2`, because the map from the square to the triangle, collapsed at
-/// its first corner (Duffy 1982), adds one degree.
+/// polynomials of degree `2 * points - 2`, because the map from the square to the triangle, collapsed at its
+/// first corner (Duffy 1982), adds one degree.
 pub(super) fn integral(
     triangle: [Point; 3],
     points: usize,

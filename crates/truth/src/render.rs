@@ -1,4 +1,4 @@
-//! The picture, in halves down to texels.
+//! The picture, by halving down to texels.
 
 use super::area::{self, Layers};
 use super::cell::{Cell, Point};
@@ -12,21 +12,20 @@ use std::thread::available_parallelism;
 
 /// Returns the true picture of a scene.
 ///
-/// With [`Coverage::Center`] a texel has the colour at its centre; where an edge runs through it, the
-/// top-left rule gives it to one of the two polygons. With [`Coverage::Area`] it has the mean over its
-/// area: exact for flat paints, depth and distance, and for up to six textured surfaces
-/// over each other. With more of these, every piece on which their product is one polynomial is
-/// integrated by 36 points in each triangle, and the error is estimated as twice what 16 points give
-/// otherwise: on one polynomial the error of such rules falls geometrically with the points along a
-/// side, so that the difference is several times what is left. A texel whose edges make more than
-/// 4096 pieces is halved up to 8 times; a part still in too many pieces is sampled, and the error is
-/// its area times the spread of colours there.
+/// With [`Coverage::Center`], a texel has the colour at its centre; if an edge runs through the centre, the
+/// top-left rule gives it to one of the two polygons. With [`Coverage::Area`], it has the mean over its area:
+/// exact for flat paints, depth and distance, and for up to six stacked textured surfaces. With more textured
+/// surfaces, every piece on which their product is one polynomial is integrated with 36 points per triangle.
+/// The error is then estimated as twice the difference from the result with 16 points: on one polynomial, the
+/// error of such rules falls geometrically with the number of points along a side, so the difference is
+/// several times the remaining error. A texel whose edges make more than 4096 pieces is halved up to 8 times;
+/// a part that still has too many pieces is sampled, and the error is its area times the spread of colours
+/// there.
 ///
-/// A surface covers nothing where it has fewer than three corners, no area, a corner or a paint
-/// that is not finite, a near or far plane that is not positive or not apart from the other, or a
-/// texture whose texels or coordinates do not match its size or corners. Alpha is clamped to 0..1, and so is
-/// the depth of a paint that fades. A polygon that is not convex covers only the points
-/// that lie inside of all its edges.
+/// A surface covers nothing if it has fewer than three corners, no area, a corner or a paint that is not
+/// finite, near and far planes that are not positive and distinct, or a texture whose texels or coordinates
+/// do not match its size or corners. Alpha is clamped to 0 to 1, and so is the depth of a paint that fades. A
+/// polygon that is not convex covers only the points that are inside all its edges.
 pub fn truth(scene: &Truth) -> TruthPicture {
     let surfaces: Vec<PreparedSurface<'_>> = scene
         .surfaces
@@ -65,7 +64,7 @@ pub fn truth(scene: &Truth) -> TruthPicture {
     picture
 }
 
-/// A picture of the background alone.
+/// Returns a picture of the background alone.
 fn empty(scene: &Truth) -> TruthPicture {
     let [width, height] = scene.size;
     TruthPicture {
@@ -75,8 +74,9 @@ fn empty(scene: &Truth) -> TruthPicture {
     }
 }
 
-/// Parts of a picture for threads, several times as many as there are cores since some take longer: its corners
-/// as [`Renderer::block`] would halve it, so that no texel depends on the number of threads.
+/// Returns parts of a picture for threads, as their corners; several times as many as there are cores, since
+/// some take longer. The parts are the halves that [`Renderer::block`] would make, so that no texel depends
+/// on the number of threads.
 fn blocks([width, height]: [u32; 2]) -> Vec<[[u32; 2]; 2]> {
     const TEXELS: u64 = 1024;
     let mut blocks = Vec::new();
@@ -95,7 +95,7 @@ fn blocks([width, height]: [u32; 2]) -> Vec<[[u32; 2]; 2]> {
     blocks
 }
 
-/// A block in halves, along its longer side.
+/// Returns the two halves of a block, cut across its longer side.
 fn halves(low: [u32; 2], high: [u32; 2]) -> [[[u32; 2]; 2]; 2] {
     let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
     let (mut before, mut after) = (high, low);
@@ -104,7 +104,7 @@ fn halves(low: [u32; 2], high: [u32; 2]) -> [[[u32; 2]; 2]; 2] {
     [[low, before], [after, high]]
 }
 
-/// The picture while blocks of it are filled.
+/// A picture whose blocks are being filled.
 struct Renderer<'a> {
     surfaces: &'a [PreparedSurface<'a>],
     background: [f64; 3],
@@ -113,8 +113,8 @@ struct Renderer<'a> {
 }
 
 impl Renderer<'_> {
-    /// Fills the texels from `low` to `high`, the latter excluded, in which no other than these surfaces
-    /// are visible: at once where all texels have one colour, else in halves.
+    /// Fills the texels from `low` to `high`, the latter excluded, in which only these surfaces can be
+    /// visible: at once if all texels have one colour, otherwise by halves.
     fn block(&mut self, low: [u32; 2], high: [u32; 2], surfaces: &[usize]) {
         let [from, to] = [low, high].map(|corner| corner.map(f64::from));
         let mut whole = true;
@@ -151,7 +151,7 @@ impl Renderer<'_> {
         }
     }
 
-    /// Returns the colour of a rectangle; `None` if it may have several.
+    /// Returns the colour of a rectangle; `None` if it can have several.
     fn only_color(&self, low: Point, high: Point, covering: &[usize]) -> Option<[f64; 3]> {
         let layers = self.layers(covering);
         let visible = layers.visible(&Cell::rectangle(low, high), covering).ok()?;

@@ -1,17 +1,17 @@
-//! Pictures in 8-bit red, green and blue, as reports show them.
+//! Pictures in 8-bit red, green and blue, for reports.
 
 use super::picture::TruthPicture;
 use etalon_frame::{ChannelEncoding, Image};
 
 impl TruthPicture {
-    /// Returns red, green and blue of each texel, row by row from the top, values 0..1 as 0..255.
+    /// Returns red, green and blue of each texel, row by row from the top, with 0 to 1 as 0 to 255.
     pub fn rgb8(&self) -> Vec<u8> {
         self.rgb.iter().flatten().map(|v| quantized(*v)).collect()
     }
 }
 
-/// Returns a colour image in the layout of [`TruthPicture::rgb8`]: the first sample of each texel, 0 for
-/// a missing channel. An image with fewer codes than its size asks for gives fewer texels.
+/// Returns a colour image in the layout of [`TruthPicture::rgb8`]: the first sample of each texel, with 0 for
+/// a missing channel. An image with fewer codes than its size requires gives fewer texels.
 pub fn rgb8(image: &Image) -> Vec<u8> {
     let channels = image.channels.len().max(1);
     let texels = image
@@ -29,7 +29,7 @@ pub fn rgb8(image: &Image) -> Vec<u8> {
     rgb
 }
 
-/// Returns the linear value of a code; NaN for a code that is none.
+/// Returns the linear value of a code; NaN for an invalid code.
 pub(super) fn decode(encoding: ChannelEncoding, code: u32) -> f64 {
     if encoding.is_nan(code) {
         return f64::NAN;

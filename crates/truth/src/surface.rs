@@ -1,4 +1,4 @@
-//! Prepared surfaces: edges, depth as a linear function, bounds of the paint.
+//! Prepared surfaces: edges, depth as a linear function, and bounds of the paint.
 
 use super::cell::{Cell, Point, SLACK};
 use etalon_methods::{Paint, Surface, Texture};
@@ -12,8 +12,8 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// Returns the function with these values at these corners; if there is none, the mean of those
-    /// through the triangles around the first corner, weighted by their areas.
+    /// Returns the function with these values at these corners. If no linear function has them, returns the
+    /// mean of those through the triangles around the first corner, weighted by their areas.
     fn through(corners: &[Point], values: &[f64]) -> Self {
         let (origin, value) = (corners[0], values[0]);
         let (mut area, mut slope) = (0.0, [0.0; 2]);
@@ -43,15 +43,15 @@ impl Linear {
     }
 }
 
-/// One side of a polygon, its ends in an order that both polygons at it share, so that they compute the
-/// same number for a point up to the sign.
+/// One side of a polygon. The order of its ends is the same for both polygons that share it, so that they
+/// compute the same number for a point up to the sign.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     from: Point,
     to: Point,
-    /// 1 over its length, negative where the inside lies on the other side.
+    /// 1 over its length, negative if the inside is on the other side.
     scale: f64,
-    /// True if a point on it belongs to this polygon: the top-left rule.
+    /// True if a point on the edge belongs to this polygon: the top-left rule.
     owns: bool,
 }
 
@@ -61,7 +61,7 @@ impl Edge {
         let (from, to) = if swapped { (b, a) } else { (a, b) };
         let sign = if swapped { -orientation } else { orientation };
         let along = [to[0] - from[0], to[1] - from[1]];
-        // Points inwards: right of a left edge, down from a top edge.
+        // Points inwards: to the right of a left edge, down from a top edge.
         let inwards = [-along[1] * sign, along[0] * sign];
         Self {
             from,
@@ -79,14 +79,14 @@ impl Edge {
     }
 }
 
-/// The part of a rectangle that a polygon covers.
+/// How much of a rectangle a polygon covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overlap {
-    /// None of it, by more than rounding.
+    /// None of it, by more than rounding error.
     None,
-    /// Perhaps a part of it.
+    /// Possibly a part of it.
     Part,
-    /// All of it, by more than rounding.
+    /// All of it, by more than rounding error.
     Whole,
 }
 
@@ -109,8 +109,8 @@ pub(super) struct PreparedSurface<'a> {
 }
 
 impl<'a> PreparedSurface<'a> {
-    /// Returns the prepared surface; `None` if it covers nothing: fewer than three different corners, no
-    /// area, or invalid numbers in it or in its paint.
+    /// Returns the prepared surface; `None` if it covers nothing: fewer than three distinct corners, no area,
+    /// or invalid numbers in it or in its paint.
     pub(super) fn new(surface: &'a Surface) -> Option<Self> {
         let corners: Vec<Point> = surface.corners.iter().map(|c| [c[0], c[1]]).collect();
         let depths: Vec<f64> = surface.corners.iter().map(|c| c[2]).collect();
@@ -132,7 +132,7 @@ impl<'a> PreparedSurface<'a> {
                 a[0] * b[1] - a[1] * b[0]
             })
             .sum();
-        // Below this the area is rounding. An extent or an area that overflows fails the test too.
+        // A smaller area is due to rounding. An extent or an area that overflows also fails the test.
         let least = 1e-13 * extent * extent;
         if !(area.is_finite() && area.abs() > least) {
             return None;
@@ -175,7 +175,8 @@ impl<'a> PreparedSurface<'a> {
         })
     }
 
-    /// True if the surface covers a point; of two that share an edge, one covers a point on it.
+    /// Returns true if the surface covers a point. Of two surfaces that share an edge, exactly one covers a
+    /// point on it.
     pub(super) fn covers(&self, p: Point) -> bool {
         self.edges.iter().all(|edge| {
             let distance = edge.distance(p);
@@ -183,7 +184,7 @@ impl<'a> PreparedSurface<'a> {
         })
     }
 
-    /// Returns the part of a rectangle that the surface covers: `Part` if rounding could decide.
+    /// Returns how much of a rectangle the surface covers; `Part` if rounding could decide.
     pub(super) fn overlap(&self, low: Point, high: Point) -> Overlap {
         const ROOM: f64 = 1e-9;
         let apart =
@@ -215,7 +216,7 @@ impl<'a> PreparedSurface<'a> {
         self.edges[edge].distance(p)
     }
 
-    /// True if a cell lies outside one of the edges.
+    /// Returns true if a cell is outside one of the edges.
     pub(super) fn misses(&self, cell: &Cell) -> bool {
         let mut edges = self.edges.iter();
         edges.any(|edge| cell.range(|p| edge.distance(p)).1 <= SLACK)

@@ -1,10 +1,10 @@
-//! Axes, and values that follow from them.
+//! Axes, and values derived from them.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// The values of an axis: a list, or so many integers from one on.
+/// The values of an axis: a list, or `count` consecutive integers.
 #[derive(Clone, Debug)]
 pub(crate) struct Axis(Vec<AxisValue>);
 
@@ -16,7 +16,7 @@ impl std::ops::Deref for Axis {
     }
 }
 
-/// So many integers from one on.
+/// `count` consecutive integers, starting at `from`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Count {
@@ -61,7 +61,7 @@ impl JsonSchema for Axis {
         let value = generator.subschema_for::<AxisValue>();
         let range = generator.subschema_for::<Count>();
         schemars::json_schema!({
-            "description": "The values of an axis: a list, or so many integers from one on.",
+            "description": "The values of an axis: a list, or `count` consecutive integers starting at `from`.",
             "anyOf": [{ "type": "array", "items": value }, range]
         })
     }
@@ -128,16 +128,16 @@ impl JsonSchema for AxisValue {
     }
 }
 
-/// A value that follows from an axis: the axis's own some places further on, so that two states differ
-/// in every case, or one of a list beside the axis.
+/// A value derived from an axis: the axis's own value some positions further on, so that two states differ in
+/// every case, or the corresponding value of a list.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DerivedWire {
     /// The axis.
     pub(crate) axis: String,
-    /// The number of values further on, wrapping at the end.
+    /// The number of positions further on, wrapping at the end.
     #[serde(default)]
     pub(crate) shift: usize,
-    /// As many values as the axis has, each instead of the axis's own.
+    /// As many values as the axis has, each used in place of the axis's own.
     pub(crate) values: Option<Vec<Value>>,
 }

@@ -1,24 +1,24 @@
-//! The keys of a draw's path to the pipeline: indices, offsets and instances.
+//! The keys for how a draw's vertices are fetched: indices, offsets and instances.
 
 use etalon_scene::{IndexFormat, Splat};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The numbers of a draw call beside its mesh. Whatever they are, the mesh is drawn.
+/// The numbers of a draw call apart from its mesh. Whatever they are, the same mesh is drawn.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FetchWire {
     /// The size of an index.
     #[serde(default = "uint32")]
     pub(crate) index: IndexFormat,
-    /// The number added to every index; unused vertices stand in front, or indices are greater if it is
+    /// The number added to every index; unused vertices come first to match it, or greater indices if it is
     /// negative.
     #[serde(default)]
     pub(crate) base_vertex: i32,
-    /// The number of unused indices in front.
+    /// The number of unused indices before the used ones.
     #[serde(default)]
     pub(crate) first_index: u32,
-    /// The number of unused vertices in front of a draw without indices.
+    /// The number of unused vertices before the used ones in a draw without indices.
     #[serde(default)]
     pub(crate) first_vertex: u32,
 }
@@ -34,15 +34,15 @@ impl Default for FetchWire {
     }
 }
 
-/// Instances: the mesh again for each of them, in the instance's colour instead of its vertices'.
+/// Instances: the mesh once for each, in the instance's colour in place of its vertices' colours.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InstancesWire {
     /// The colour of each instance, repeated as needed.
     pub(crate) colors: Vec<Splat>,
-    /// The number of instances; without it, as many as there are colours.
+    /// The number of instances; by default, as many as there are colours.
     pub(crate) count: Option<u32>,
-    /// The number of unused instances in front.
+    /// The number of unused instances before the used ones.
     #[serde(default)]
     pub(crate) first: u32,
 }

@@ -11,59 +11,58 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::num::{NonZeroU32, NonZeroUsize};
 
-/// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
-/// the axis or derived value of that name.
+/// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` is replaced by the value of the
+/// axis or derived value with that name.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FileWire {
     /// The purpose of the cases, in a sentence.
     pub(crate) about: String,
-    /// The clauses of the specifications that bind, each as `API: section`.
+    /// The clauses of the specifications that bind the cases, each as `API: section`.
     pub(crate) spec: Vec<String>,
-    /// The cases of the product that the quick profile takes; without it, all.
+    /// The cases of the product that the quick profile takes; by default all.
     pub(crate) quick: Option<QuickWire>,
-    /// The axes; the file stands for their whole product.
+    /// The axes; the file expands to their whole product.
     #[serde(default)]
     pub(crate) axes: BTreeMap<String, Axis>,
-    /// Values that follow from an axis and are no part of the id.
+    /// Values that are derived from an axis and are not part of the id.
     #[serde(default)]
     pub(crate) derived: BTreeMap<String, DerivedWire>,
     /// The scene.
     #[serde(default)]
     #[schemars(with = "SceneWire")]
     pub(crate) scene: Value,
-    /// Instead of `scene`: a scene that is made from a seed.
+    /// In place of `scene`: a scene that is made from a seed.
     #[serde(default)]
     #[schemars(with = "RandomWire")]
     pub(crate) random: Value,
-    /// Instead of `scene`: many draws, each with a state of its own.
+    /// In place of `scene`: many draws, each with a state of its own.
     #[serde(default)]
     #[schemars(with = "StatesWire")]
     pub(crate) states: Value,
-    /// Instead of `scene`: draws that take turns between two states.
+    /// In place of `scene`: draws that alternate between two states.
     #[serde(default)]
     #[schemars(with = "SequenceWire")]
     pub(crate) sequence: Value,
-    /// Instead of `scene`: a scene that is drawn by a rendering method, whose picture is held against
-    /// the truth. The file lies in `methods/<question>/<scene>.json` and has an axis `method`.
+    /// In place of `scene`: a scene that a rendering method draws, and whose picture is compared with the
+    /// truth. The file must be `methods/<question>/<scene>.json` and have an axis `method`.
     #[serde(default)]
     #[schemars(with = "MethodWire")]
     pub(crate) method: Value,
-    /// Methods only: the axis with numbers along which the methods' errors are followed.
+    /// For methods only: the numeric axis along which the methods' errors are plotted.
     pub(crate) parameter: Option<String>,
-    /// Changes to the scene, each of which is drawn too.
+    /// Changed copies of the scene, all of them drawn too.
     #[serde(default)]
     pub(crate) variants: Vec<VariantWire>,
-    /// Further submissions of the prepared scene, behind each of which the frame is read again: it must be the
-    /// same every time.
+    /// Further submissions of the prepared scene. After each, the frame is read again and must be the same.
     #[serde(default)]
     pub(crate) submissions: Vec<NonZeroU32>,
     /// The relation of the variants' frames to the scene's own.
     #[serde(default)]
     #[schemars(with = "Option<RelationWire>")]
     pub(crate) relation: Value,
-    /// Selftests only: changes to the scene, as JSON pointers and values, that the judge sees and
-    /// the adapter does not. A Fail is then due.
+    /// For selftests only: changes to the scene, as JSON pointers and values, that the judge sees and the
+    /// adapter does not. A Fail is then expected.
     #[serde(default)]
     pub(crate) judged_as: BTreeMap<String, Value>,
     /// Literal values that must come back.
@@ -92,8 +91,8 @@ pub(crate) struct StatesWire {
     pub(crate) size: [u32; 2],
 }
 
-/// A scene of draws that take turns between two states: the first, the third and so on have one, the others
-/// have the other.
+/// A scene of draws that alternate between two states: the first, the third and so on have one state, the
+/// others have the other.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SequenceWire {
@@ -108,13 +107,13 @@ pub(crate) struct SequenceWire {
     pub(crate) prepare: Vec<Value>,
     /// The common part of all steps: a draw.
     pub(crate) draw: Value,
-    /// Each step's own part: changes to the draw, as JSON merge patches.
+    /// The changes of each step to the draw, as JSON merge patches.
     pub(crate) steps: Vec<Value>,
     /// The state of the first, the third and so on of the steps: a change to the draw.
     pub(crate) first: Value,
-    /// The state of the others.
+    /// The state of the other steps.
     pub(crate) then: Value,
-    /// The separation of the steps.
+    /// How the steps are separated.
     pub(crate) across: Across,
     /// Counters by name; all are read back.
     #[serde(default)]
@@ -128,28 +127,28 @@ pub(crate) struct SequenceWire {
     pub(crate) path: BTreeMap<String, Value>,
 }
 
-/// The separation of the steps of a sequence.
+/// How the steps of a sequence are separated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Across {
-    /// Draws of one pass.
+    /// As draws of one pass.
     Draw,
-    /// Passes on the same attachments.
+    /// As passes on the same attachments.
     Pass,
-    /// Passes that take turns between these attachments and others like them.
+    /// As passes that alternate between these attachments and others like them.
     Framebuffer,
 }
 
-/// The scene again with some changes.
+/// The scene with some changes.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VariantWire {
     /// Its name in records.
     pub(crate) name: String,
-    /// JSON pointers into the scene and what stands there instead.
+    /// JSON pointers into the scene, and the values that replace what is there.
     #[serde(default)]
     pub(crate) patch: BTreeMap<String, Value>,
-    /// JSON pointers to lists and the order in which their items stand instead.
+    /// JSON pointers to lists, and the new order of their items.
     #[serde(default)]
     pub(crate) permute: BTreeMap<String, Vec<usize>>,
 }
@@ -158,9 +157,9 @@ pub(crate) struct VariantWire {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelationWire {
-    /// The reason why they must.
+    /// The reason why they must be the same.
     pub(crate) same: Invariance,
-    /// Left, top, width and height of the texels that are compared; without it, all.
+    /// Left, top, width and height of the texels that are compared; by default all.
     pub(crate) within: Option<[u32; 4]>,
     /// The colour channels that are compared, as letters of `rgba`.
     #[serde(default = "all_channels")]
@@ -168,7 +167,7 @@ pub(crate) struct RelationWire {
     /// The offset of the variants' pictures in texels, to the right and down.
     #[serde(default)]
     pub(crate) offset: [i32; 2],
-    /// Attachments of each frame that are compared with each other, instead of frames.
+    /// Attachments of each frame that are compared with each other, in place of frames.
     #[serde(default)]
     pub(crate) attachments: Vec<String>,
 }
@@ -178,21 +177,21 @@ pub(crate) struct RelationWire {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
-    /// So many that every two values of every two axes meet.
+    /// Enough that every two values of every two axes occur together.
     Pairwise,
-    /// So many that every value of every axis stands in this many, beside different others: for
-    /// products of two long axes, of which pairs leave nothing out.
+    /// Enough that every value of every axis occurs in this many, with different others: for products of two
+    /// long axes, where pairs would be everything.
     Each(NonZeroUsize),
-    /// So many from the first on: for seeds, of which one is as good as another.
+    /// This many from the first one on: for seeds, which are interchangeable.
     First(NonZeroUsize),
-    /// Those in which these axes have the values of these names: for sizes that only a benchmark wants.
+    /// The cases in which these axes have the values of these names: for sizes that only a benchmark needs.
     Where(BTreeMap<String, String>),
-    /// Those that each of these describes by values of some axes: for products of which a few rows stand for all.
+    /// The cases that any of these describes by values of some axes: for products that a few rows represent.
     Any(Vec<BTreeMap<String, String>>),
 }
 
 impl QuickWire {
-    /// True if each case has its like with every value of an axis.
+    /// Returns true if each case has a counterpart with every value of an axis.
     pub(crate) fn takes_all_of(&self, axis: &str) -> bool {
         match self {
             Self::Pairwise | Self::Each(_) | Self::First(_) => false,
@@ -209,6 +208,6 @@ pub(crate) struct ExpectWire {
     pub(crate) attachment: String,
     /// Column and row.
     pub(crate) texel: [u32; 2],
-    /// The values, channel by channel, as the textbook gives them; the nearest code is meant.
+    /// The values, channel by channel, as exact arithmetic gives them; the nearest code must come back.
     pub(crate) value: Vec<f64>,
 }

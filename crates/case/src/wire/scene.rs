@@ -26,12 +26,12 @@ pub(crate) struct SceneWire {
     /// Counters by name; all are read back.
     #[serde(default)]
     pub(crate) counters: BTreeMap<String, CounterKind>,
-    /// The part of the scene that one query encloses; the count is the same.
+    /// The part of the scene that one query encloses; the counts are the same.
     #[serde(default)]
     pub(crate) queries: QueryScope,
     /// The pool that fragment shaders fill and read.
     pub(crate) pool: Option<Pool>,
-    /// The way in which the scene reaches the driver; it leaves the picture as it is.
+    /// How the scene reaches the driver; the picture is the same.
     #[serde(default)]
     pub(crate) path: Path,
 }
@@ -40,17 +40,17 @@ pub(crate) struct SceneWire {
 #[serde(deny_unknown_fields)]
 pub(crate) struct AttachmentWire {
     pub(crate) format: TextureFormat,
-    /// Width and height in texels; without it, what the scene's other attachments say, or 16 by 16.
+    /// Width and height in texels; by default those of the scene's other attachments, or 16 by 16.
     pub(crate) size: Option<[u32; 2]>,
     /// Samples per texel.
     pub(crate) samples: Option<u32>,
-    /// A list of four numbers for colour, a number for depth or for stencil alone, both for both.
+    /// A list of four numbers for colour, a number for depth or for stencil alone, an object for both.
     pub(crate) clear: Option<ClearWire>,
-    /// Uploaded values, instead of a clear.
+    /// Uploaded values, in place of a clear.
     pub(crate) texels: Option<TexelsWire>,
 }
 
-/// A clear value, whose form follows the format.
+/// A clear value, whose form depends on the format.
 #[derive(Clone, Debug)]
 pub(crate) enum ClearWire {
     Number(f64),
@@ -119,10 +119,10 @@ pub(crate) enum TexelsWire {
     },
     /// Every texel, row by row from the top.
     Grid {
-        /// As many rows as the attachment is high, each of as many texels as it is wide.
+        /// As many rows as the attachment is high, each with as many texels as it is wide.
         values: Vec<Vec<[f64; 4]>>,
     },
-    /// Codes computed from the format, which tell rows, columns, channels and bits apart.
+    /// Codes computed from the format, which distinguish rows, columns, channels and bits.
     Codes,
 }
 
@@ -132,17 +132,17 @@ pub(crate) struct PassWire {
     /// Names of the colour attachments.
     #[serde(default)]
     pub(crate) color: Vec<String>,
-    /// Names of the attachments that the colour attachments are averaged to, `null` for none.
+    /// Names of the attachments that the colour attachments are resolved to, `null` for none.
     #[serde(default)]
     pub(crate) resolve: Vec<Option<String>>,
     /// Name of the depth-stencil attachment.
     pub(crate) depth_stencil: Option<String>,
-    /// True if the pass promises to write neither depth nor stencil.
+    /// True if the pass declares that it writes neither depth nor stencil.
     #[serde(default)]
     pub(crate) depth_stencil_read_only: bool,
     /// The resolve of depth and stencil at the end of the pass.
     pub(crate) depth_stencil_resolve: Option<DepthStencilResolveWire>,
-    /// Load and store operations; without them, everything is loaded and stored.
+    /// Load and store operations; by default, everything is loaded and stored.
     #[serde(default)]
     pub(crate) operations: PassOperations,
     /// Clear commands, in order.
@@ -168,13 +168,13 @@ fn no_resolve() -> ResolveMode {
     ResolveMode::None
 }
 
-/// A clear command: of one colour attachment, of depth, of stencil or of the last two together.
+/// A clear command: of one colour attachment, of depth, of stencil, or of depth and stencil together.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ClearCommandWire {
-    /// The index of the draw before which it is executed; the number of draws stands for the end.
+    /// The index of the draw before which it is executed; the number of draws for the end of the pass.
     pub(crate) before: usize,
-    /// The place of a colour attachment in the pass, with a `value`.
+    /// The location of a colour attachment in the pass; requires `value`.
     pub(crate) color: Option<usize>,
     /// Red, green, blue and alpha of a colour.
     pub(crate) value: Option<[f32; 4]>,
@@ -182,13 +182,14 @@ pub(crate) struct ClearCommandWire {
     pub(crate) depth: Option<f32>,
     /// A stencil value.
     pub(crate) stencil: Option<u8>,
-    /// Left, top, width and height in texels; without it, everything.
+    /// Left, top, width and height in texels; by default, everything.
     pub(crate) rect: Option<[u32; 4]>,
-    /// Written channels, as letters of `rgba`; `false` for depth; bits of stencil; both in an object.
+    /// Written channels, as letters of `rgba`; `false` for depth; bits of stencil; an object for depth and
+    /// stencil.
     pub(crate) write_mask: Option<ClearMaskWire>,
 }
 
-/// The mask of a clear command, whose form follows what is cleared.
+/// The mask of a clear command, whose form depends on what is cleared.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(crate) enum ClearMaskWire {
@@ -202,22 +203,22 @@ pub(crate) enum ClearMaskWire {
 #[serde(deny_unknown_fields)]
 pub(crate) struct DrawWire {
     pub(crate) mesh: MeshSource,
-    /// The factors of the vertices' positions, repeated as needed: w of what has 1, which leaves its place in the
-    /// picture if it is positive.
+    /// The factors of the vertices' positions, repeated as needed: they become the w of positions with w 1. A
+    /// positive factor does not move a vertex in the picture.
     #[serde(default = "one")]
     pub(crate) w: Vec<f32>,
-    /// The path of the mesh's vertices to the pipeline.
+    /// How the mesh's vertices reach the pipeline.
     #[serde(default)]
     pub(crate) fetch: FetchWire,
-    /// Instances of the mesh; without it, one without a colour of its own.
+    /// Instances of the mesh; by default, one without a colour of its own.
     pub(crate) instances: Option<InstancesWire>,
-    /// The draw once for each tile of the attachments, instead of once.
+    /// Repeats the draw once for each tile of the attachments.
     pub(crate) tiles: Option<TilesWire>,
     #[serde(default = "triangle_list")]
     pub(crate) topology: PrimitiveTopology,
-    /// Patches of three vertices with all levels 1; without it, no tessellation.
+    /// Patches of three vertices with all levels 1; by default, no tessellation.
     pub(crate) tessellation: Option<Tessellation>,
-    /// The vertex whose attributes are flat over a primitive; without it, either.
+    /// The vertex whose attributes are flat over a primitive; by default, either.
     pub(crate) provoking: Option<ProvokingVertex>,
     pub(crate) shader: Shader,
     #[serde(default)]
@@ -241,33 +242,33 @@ pub(crate) struct DrawWire {
     pub(crate) polygon_mode: PolygonMode,
     #[serde(default)]
     pub(crate) rasterizer_discard: bool,
-    /// Without it, the whole attachments and depths 0 to 1.
+    /// The viewport; by default, the whole attachments and depths 0 to 1.
     pub(crate) viewport: Option<Viewport>,
-    /// Left, top, width and height in texels; without it, everything.
+    /// Left, top, width and height in texels; by default, everything.
     pub(crate) scissor: Option<[u32; 4]>,
-    /// Bits of the shader's clip distances that clip; without it, all.
+    /// Bits of the shader's enabled clip distances; by default, all.
     #[serde(default = "all_bits")]
     pub(crate) clip_distances: u8,
     #[serde(default)]
     pub(crate) depth_bias: DepthBias,
     #[serde(default)]
     pub(crate) depth_clamp: bool,
-    /// Least and greatest stored depth that lets fragments through; without it, off.
+    /// The least and the greatest stored depth for which fragments pass; off by default.
     pub(crate) depth_bounds: Option<[f32; 2]>,
-    /// The depth test; without it, off.
+    /// The depth test; off by default.
     pub(crate) depth: Option<DepthState>,
-    /// The stencil test; without it, off.
+    /// The stencil test; off by default.
     pub(crate) stencil: Option<StencilWire>,
-    /// Blending; without it, off.
+    /// Blending; off by default.
     pub(crate) blend: Option<BlendState>,
-    /// Advanced blending instead, to the only colour attachment; without it, off.
+    /// Advanced blending of the only colour attachment, in place of `blend`; off by default.
     pub(crate) advanced_blend: Option<AdvancedBlend>,
     /// Written channels, as letters of `rgba`.
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,
-    /// Blending and write mask of each colour attachment apart, instead of `blend` and `write_mask`.
+    /// Blending and write mask of each colour attachment separately, in place of `blend` and `write_mask`.
     pub(crate) targets: Option<Vec<TargetWire>>,
-    /// A logic operation instead of blending; without it, off.
+    /// A logic operation in place of blending; off by default.
     pub(crate) logic: Option<LogicOperation>,
     #[serde(default)]
     pub(crate) multisample: Multisample,
@@ -322,12 +323,12 @@ pub(crate) struct ParamsWire {
     pub(crate) back_color: Splat,
 }
 
-/// The stencil test. Masks and reference hold for both faces unless a face has its own.
+/// The stencil test. Masks and reference apply to both faces unless a face has its own.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StencilWire {
     pub(crate) front: StencilFaceWire,
-    /// Without it, as the front.
+    /// The back face; by default, like the front face.
     pub(crate) back: Option<StencilFaceWire>,
     #[serde(default = "all_bits")]
     pub(crate) read_mask: u8,

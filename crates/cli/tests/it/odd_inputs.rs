@@ -85,7 +85,7 @@ fn links_and_pipes_among_case_files_are_named() {
     assert!(made.success());
     list(&folder)
         .code(64)
-        .stderr(contains("x.json").and(contains("no file")));
+        .stderr(contains("x.json").and(contains("not a regular file")));
     drop(work);
 }
 
@@ -95,7 +95,7 @@ fn what_json_leaves_open_is_refused() {
         (
             "\"about\":",
             "\"about\": \"twice\", \"about\":",
-            "the key `about` stands twice",
+            "duplicate key `about`",
         ),
         (
             "\"clear\": [",

@@ -18,7 +18,7 @@ pub(super) fn clamp_to_unit<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real
     a.min(value, one)
 }
 
-/// Returns the place of a value between two others: 0 at the first, 1 at the second.
+/// Returns the position of a value between two others: 0 at the first, 1 at the second.
 pub(super) fn share_between<A: Arithmetic>(
     a: &mut A,
     value: A::Real,
@@ -89,11 +89,11 @@ pub(super) fn magnitude<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real {
     a.max(value, turned)
 }
 
-/// The most steps that [`stepped`] tells apart.
+/// The maximum number of steps that [`stepped`] distinguishes.
 const STEPS: u8 = 8;
 
-/// Returns the whole steps of two values as colours: of the first as three bits of which neighbouring steps differ in
-/// one, of the second as alpha, odd or even.
+/// Returns the whole steps of two values as colours: the first as three bits, in Gray code; the second as
+/// alpha, odd or even.
 pub(super) fn stepped<A: Arithmetic>(a: &mut A, [first, second]: [A::Real; 2]) -> [A::Real; 4] {
     [0, 1, 2, 3].map(|channel| {
         let (value, bits): (_, fn(u8) -> u8) = match channel {

@@ -1,5 +1,5 @@
-//! Twin of `shaders/centroid.wgsl`. Inside a primitive whose first texture coordinates are not
-//! negative, the interpolated coordinate is not negative either.
+//! Twin of `shaders/centroid.wgsl`. Inside a primitive whose first texture coordinates are not negative, the
+//! interpolated coordinate is not negative either.
 
 use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;

@@ -14,7 +14,7 @@ pub(super) fn fragment<A: Arithmetic>(
     let nothing = a.constant(-1.0);
     let nearest = a.sub(zero, range[0]);
     let farthest = range[1];
-    // A depth strictly between the two ends is left to the next pass.
+    // A depth strictly between the two ends is left for the next pass.
     let between = |a: &mut A, value: A::Real| {
         let inside = a.select_less(depth, farthest, value, nothing);
         a.select_less(nearest, depth, inside, nothing)
@@ -29,7 +29,7 @@ pub(super) fn fragment<A: Arithmetic>(
         let share = a.rounded(share);
         let sum = a.add(before[c], share);
         let sum = a.rounded(sum);
-        // Neither nearer than the nearest, nor behind it, nor behind the farthest.
+        // The depth is neither nearer than the nearest, nor behind it, nor behind the farthest.
         let same = a.select_less(nearest, depth, before[c], sum);
         let same = a.select_less(farthest, depth, before[c], same);
         a.select_less(depth, nearest, before[c], same)

@@ -1,12 +1,12 @@
-//! Twin of `shaders/expensive_color.wgsl`. The expensive value is 0 after any number of steps, so
-//! that the output is that of `flat_color`.
+//! Twin of `shaders/expensive_color.wgsl`. The expensive value is 0 after any number of steps, so the output
+//! is that of `flat_color`.
 //!
-//! [`cost`] is the same work, for a rasterizer whose frame times are measured.
+//! [`cost`] does the same work, for a rasterizer whose frame times are measured.
 
 pub(super) use super::flat_color::fragment;
 
 /// Returns the value that the shader adds to its colour, for texels of a row by their columns: 0, after
-/// `steps` steps for each. The compiler cannot leave out the steps as long as the result is used.
+/// `steps` steps for each. The compiler cannot remove the steps as long as the result is used.
 #[inline(always)]
 pub fn cost<const N: usize>(columns: [u32; N], row: u32, steps: f32) -> [f32; N] {
     let mut hashes = columns.map(|x| x.wrapping_mul(747_796_405).wrapping_add(row));
@@ -17,7 +17,7 @@ pub fn cost<const N: usize>(columns: [u32; N], row: u32, steps: f32) -> [f32; N]
             *hash ^= *hash >> 15;
         }
     }
-    // One of two neighbours is even.
+    // One of two consecutive integers is even.
     hashes.map(|hash| (hash.wrapping_mul(hash.wrapping_add(1)) & 1) as f32)
 }
 

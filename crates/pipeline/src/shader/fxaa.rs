@@ -1,10 +1,10 @@
-//! Twin of `shaders/fxaa.wgsl`. Choices are numbers, 1 for true, since lanes differ in them.
+//! Twin of `shaders/fxaa.wgsl`. Choices are numbers, 1 for true, since lanes can differ in them.
 
 use super::arithmetic::{difference, magnitude, product, quotient, scaled, sum};
 use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
-/// The texels that each step of the walk goes on.
+/// The length in texels of each step of the walk along an edge.
 const STRIDES: [f32; 12] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 2.0, 2.0, 4.0, 8.0];
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -87,7 +87,8 @@ pub(super) fn fragment<A: Arithmetic>(
 
     let to_edge = scaled(a, side, 0.5);
     let start = moved(a, [u, v], across, to_edge);
-    // To both sides: walked so far, luma there less the average, arrived.
+    // For each of the two sides: the distance walked, the luma there minus the average, and whether the end
+    // was reached.
     let mut walks = [(zero, zero, zero); 2];
     for stride in STRIDES {
         let stride = a.constant(stride);
@@ -145,7 +146,7 @@ fn luma<A: Arithmetic>(a: &mut A, input: &FragmentInput<'_, A::Real>, at: [A::Re
     sum(a, all, blue)
 }
 
-/// Returns how sharply three lines of three texels bend, the middle one counted twice.
+/// Returns how sharply three lines of three texels bend; the middle line counts twice.
 fn bend<A: Arithmetic>(
     a: &mut A,
     first: [A::Real; 3],
@@ -164,7 +165,7 @@ fn bend<A: Arithmetic>(
     sum(a, all, last)
 }
 
-/// Returns a place moved by a number of steps.
+/// Returns a position moved by a number of steps.
 fn moved<A: Arithmetic>(
     a: &mut A,
     from: [A::Real; 2],

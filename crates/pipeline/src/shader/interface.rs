@@ -1,4 +1,4 @@
-//! The interface of fragment shaders: inputs, outputs, the condition to discard, the sample mask, and the
+//! The interface of fragment shaders: inputs, outputs, the discard condition, the sample mask, and the
 //! stencil reference.
 
 use etalon_scene::Params;
@@ -15,20 +15,19 @@ pub struct FragmentInput<'a, R> {
     pub depth: R,
     /// The sample being shaded.
     pub sample: u32,
-    /// The sample mask, where [`etalon_scene::Shader::reads_mask`].
+    /// The sample mask, if [`etalon_scene::Shader::reads_mask`].
     pub mask: InputMask<'a, R>,
     /// The fragment's window coordinates, in texels from the left and from the top.
     pub position: [R; 2],
-    /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
-    /// none.
+    /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros if the shader reads none.
     pub texels: [[R; 4]; 2],
-    /// Texture 0 at coordinates that the shader computes, where [`etalon_scene::Shader::taps_texture`].
+    /// Texture 0 at coordinates that the shader computes, if [`etalon_scene::Shader::taps_texture`].
     pub taps: Taps<'a, R>,
-    /// The list of the texel, where the shader reads it.
+    /// The list of the texel, if the shader reads it.
     pub list: List<'a, R>,
-    /// 1 over the clip-space w at the fragment, where [`etalon_scene::Shader::reads_w`].
+    /// 1 over the clip-space w at the fragment, if [`etalon_scene::Shader::reads_w`].
     pub reciprocal_w: R,
-    /// The interpolated texture coordinates, where [`etalon_scene::Shader::uses_uv`]; zeros elsewhere.
+    /// The interpolated texture coordinates, if [`etalon_scene::Shader::uses_uv`]; otherwise zeros.
     pub uv: [R; 2],
     /// The parameter block.
     pub params: &'a Params,
@@ -42,7 +41,7 @@ impl<'a, R> InputMask<'a, R> {
     /// No mask.
     pub const NONE: Self = Self(None);
 
-    /// The mask whose bits a function returns by their numbers.
+    /// Returns a mask with bits from a function of the bit's number.
     pub fn of(bit: &'a dyn Fn(u32) -> R) -> Self {
         Self(Some(bit))
     }
@@ -59,7 +58,7 @@ impl<R> fmt::Debug for InputMask<'_, R> {
     }
 }
 
-/// A texture that a shader samples at coordinates of its own.
+/// A texture that a shader samples at coordinates that it computes.
 #[derive(Clone, Copy)]
 pub struct Taps<'a, R>(Option<&'a dyn Fn([R; 2]) -> [R; 4]>);
 
@@ -67,7 +66,7 @@ impl<'a, R> Taps<'a, R> {
     /// No texture.
     pub const NONE: Self = Self(None);
 
-    /// The texture that a function samples.
+    /// Returns a texture that a function samples.
     pub fn of(sample: &'a dyn Fn([R; 2]) -> [R; 4]) -> Self {
         Self(Some(sample))
     }
@@ -87,19 +86,19 @@ impl<R> fmt::Debug for Taps<'_, R> {
 /// The fragments that earlier passes left for a texel.
 #[derive(Clone, Copy, Debug)]
 pub enum List<'a, R> {
-    /// They are not followed: what is made of them may be anything.
+    /// The fragments are not modelled: a result computed from them can be anything.
     Unknown,
-    /// All of them, the later ones first. Where a lane has fewer, what is missing lies behind all depths and has no
-    /// alpha.
+    /// All fragments, the latest first. If a lane has fewer, the missing ones are behind all depths and have
+    /// alpha 0.
     Known(&'a [Node<R>]),
 }
 
 /// A fragment in a list.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<R> {
-    /// Its colour, straight.
+    /// The colour, not premultiplied.
     pub color: [R; 4],
-    /// Its depth.
+    /// The depth.
     pub depth: R,
 }
 
@@ -108,19 +107,19 @@ pub struct Node<R> {
 pub struct FragmentOutput<R> {
     /// The colour at location 0, and at the shader's other locations unless `others` has them.
     pub color: [R; 4],
-    /// The colours at locations 1 and 2, where they differ from that at location 0.
+    /// The colours at locations 1 and 2, if they differ from the colour at location 0.
     pub others: Option<[[R; 4]; 2]>,
-    /// The second source of dual-source blending, where the shader writes one.
+    /// The second source of dual-source blending, if the shader writes one.
     pub second: Option<[R; 4]>,
-    /// The depth, where the shader writes one.
+    /// The depth, if the shader writes one.
     pub depth: Option<R>,
-    /// The condition that keeps the fragment, where the shader may discard.
+    /// The condition under which the fragment is kept, if the shader can discard it.
     pub kept: Option<Kept<R>>,
-    /// The sample mask, where the shader writes one.
+    /// The sample mask, if the shader writes one.
     pub mask: Option<SampleMask<R>>,
-    /// The stencil reference, where the shader writes one.
+    /// The stencil reference, if the shader writes one.
     pub reference: Option<StencilReference<R>>,
-    /// The node that the shader adds to the list of its texel, where it does.
+    /// The node that the shader adds to the list of its texel, if it does.
     pub node: Option<Node<R>>,
 }
 
@@ -149,15 +148,14 @@ impl<R: Copy> FragmentOutput<R> {
     }
 }
 
-/// The condition that keeps a fragment.
+/// The condition under which a fragment is kept.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept<R> {
     /// The value that is compared.
     pub value: R,
     /// The limit that it is compared with.
     pub limit: R,
-    /// True if a value equal to the limit is discarded: values above the limit are kept. Else those not
-    /// below it are.
+    /// True if values above the limit are kept, false if values equal to the limit are kept as well.
     pub strict: bool,
 }
 
@@ -171,7 +169,7 @@ impl<R> Kept<R> {
         }
     }
 
-    /// Discards values not above a limit.
+    /// Discards values that are not above a limit.
     pub fn above(value: R, limit: R) -> Self {
         Self {
             value,
@@ -184,9 +182,9 @@ impl<R> Kept<R> {
 /// The sample mask that a shader writes.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleMask<R> {
-    /// The bits, as a whole number.
+    /// The bits, as an integer.
     pub bits: R,
-    /// The sample whose bit stays where all others are turned; `None` where none is.
+    /// The sample whose bit is kept while all others are inverted; `None` to invert none.
     pub turned_but: Option<u32>,
 }
 
@@ -212,9 +210,9 @@ impl<R> SampleMask<R> {
 /// The stencil reference that a shader writes.
 #[derive(Clone, Copy, Debug)]
 pub struct StencilReference<R> {
-    /// A whole number.
+    /// An integer.
     pub number: R,
-    /// What the shader adds to it.
+    /// The number that the shader adds to it.
     pub plus: i32,
 }
 

@@ -1,4 +1,4 @@
-//! Twin of `shaders/list_append.wgsl`. Whoever runs it adds the node to the pool.
+//! Twin of `shaders/list_append.wgsl`. The caller adds the node to the pool.
 
 use super::interface::{FragmentInput, FragmentOutput, Node};
 use crate::arithmetic::Arithmetic;

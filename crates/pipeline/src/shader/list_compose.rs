@@ -29,8 +29,8 @@ pub(super) fn fragment<A: Arithmetic>(
     FragmentOutput::of([red, green, blue, left])
 }
 
-/// Sorts nodes by depth, the nearest first; those at the same depth stay in order. Lanes differ in their order, so
-/// that each pair of neighbours is compared until no lane can have any left to exchange.
+/// Sorts nodes by depth, nearest first; nodes at equal depth stay in order. Lanes can differ in their order,
+/// so neighbours are compared as often as the worst order requires.
 fn sort<A: Arithmetic>(a: &mut A, nodes: &mut [Node<A::Real>]) {
     for end in (1..nodes.len()).rev() {
         for i in 0..end {
@@ -63,7 +63,7 @@ mod tests {
     use crate::plain::Plain;
     use etalon_scene::Params;
 
-    /// The colour and what is left of the background, of nodes in the order of the list.
+    /// Returns the colour, and the transmittance as alpha, of nodes in the order of the list.
     fn composed(list: &[(f32, [f32; 4])]) -> [f32; 4] {
         let nodes: Vec<Node<[f32; 1]>> = list
             .iter()

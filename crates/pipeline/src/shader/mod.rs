@@ -1,6 +1,6 @@
-//! Twins of the fragment shaders: each `shaders/<name>.wgsl` written a second time by hand, so that a
-//! bug in a shader's translation shows instead of being shared by both sides. All vertex shaders pass
-//! positions and attributes through.
+//! Twins of the fragment shaders: each `shaders/<name>.wgsl` written a second time by hand, so that a bug in
+//! a shader's translation shows rather than being shared by both sides. All vertex shaders pass positions and
+//! attributes through.
 
 mod arithmetic;
 mod centroid;

@@ -1,5 +1,5 @@
-//! Twin of `shaders/moment_transmittance.wgsl`. What may be NaN is chosen by comparisons, of which judging
-//! makes anything.
+//! Twin of `shaders/moment_transmittance.wgsl`. Values that can be NaN are chosen by comparisons, whose
+//! result is open in the judging number system.
 
 use super::arithmetic::{difference, magnitude, premultiplied, product, quotient, scaled, sum};
 use super::interface::{FragmentInput, FragmentOutput};
@@ -104,7 +104,7 @@ fn in_front<A: Arithmetic>(a: &mut A, [b1, b2, b3, b4]: [A::Real; 4], z: A::Real
     a.select_less(share, one, share, one)
 }
 
-/// Returns the larger of two values, of which the first may be NaN.
+/// Returns the larger of two values; the first can be NaN.
 fn larger<A: Arithmetic>(a: &mut A, value: A::Real, least: A::Real) -> A::Real {
     a.select_less(value, least, least, value)
 }
@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// The transmittance that the moments of layers of depth and alpha tell at each of them.
+    /// Returns the transmittance that the moments of layers, given as depth and alpha, yield at each layer.
     fn told(layers: &[(f32, f32)]) -> Vec<f32> {
         let params = Params::default();
         let mut sums = [[[0.0_f32; 1]; 4]; 2];
@@ -162,7 +162,7 @@ mod tests {
         shown.collect()
     }
 
-    /// The transmittance in front of each layer and a quarter of its own absorbance.
+    /// Returns the transmittance in front of each layer, including a quarter of its own absorbance.
     fn due(layers: &[(f32, f32)]) -> Vec<f32> {
         let in_front = |depth: f32| {
             let nearer = layers.iter().filter(|l| l.0 < depth);
@@ -182,7 +182,7 @@ mod tests {
                 for third in depths.into_iter().skip(j + 1) {
                     for n in 0..27_usize {
                         let alpha = |by: usize| alphas[n / by % 3];
-                        // Drawn in another order than that of depths.
+                        // Drawn in an order that differs from that of the depths.
                         let all = [(second, alpha(1)), (third, alpha(3)), (first, alpha(9))];
                         for count in 1..=3 {
                             let layers = &all[..count];
@@ -206,7 +206,7 @@ mod tests {
                 let layers = [(depths[0], alphas[0]), (depths[1], alphas[1])];
                 let shown = told(&layers).into_iter().zip(alphas);
                 for (told, alpha) in shown {
-                    // Of no alpha nothing is shown.
+                    // Without alpha, nothing is visible.
                     let known = if alpha == 0.0 { 0.0 } else { told };
                     assert!((0.0..=1.0).contains(&known), "{layers:?}: {told}");
                 }

@@ -1,5 +1,5 @@
-//! Twin of `shaders/vertex_only.wgsl`: without a fragment shader, nothing is written but what the
-//! rasterizer made. The colour is undefined, and no scene lets it through its write masks.
+//! Twin of `shaders/vertex_only.wgsl`: without a fragment shader, only the rasterizer's values are written.
+//! The colour is undefined, and every scene masks it.
 
 use super::interface::FragmentOutput;
 use crate::arithmetic::Arithmetic;

@@ -1,5 +1,5 @@
-//! Pictures against samples: what is judged once for all samples of a state is what each of them has when
-//! it is walked alone.
+//! Pictures against single samples: the result for all samples of a state equals the result for each of them
+//! walked alone.
 
 use super::legal_set_of_texels;
 use crate::notes::Notes;
@@ -12,7 +12,7 @@ use etalon_case::{Library, Profile};
 use etalon_frame::{Api, Limits, TexelSet};
 use etalon_scene::Scene;
 
-/// The samples of one scene that are walked alone, at most.
+/// The maximum number of samples per scene that are walked alone.
 const MOST: usize = 600;
 
 fn alone(walk: &Walk<'_>, at: Sample) -> TexelSet {
@@ -31,7 +31,7 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
     for group in &set.groups {
         let ([width, height], samples) = (group.size, group.samples);
         let all = (width * height * samples) as usize;
-        // A step that is prime to the sizes meets all columns, rows and samples.
+        // A step that is coprime to the sizes reaches all columns, rows and samples.
         let step = if all > MOST { (all / MOST) | 1 } else { 1 };
         for i in (0..all as u32).step_by(step) {
             let (texel, sample) = (i / samples, i % samples);
@@ -50,8 +50,7 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
     }
 }
 
-/// A case of each file, another one for each API; with `ETALON_TESTS=all` every case of the quick
-/// profile.
+/// A case of each file, a different one per API; with `ETALON_TESTS=all`, every case of the quick profile.
 #[test]
 fn samples_of_a_picture_are_what_each_of_them_is_alone() {
     let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");

@@ -1,4 +1,4 @@
-//! Stories of scenes made by chance: nothing is skipped in silence, and no rejection is told that was none.
+//! Stories of random scenes: every primitive is explained, and every reported rejection is true.
 
 use super::explained;
 use crate::rules::Rules;
@@ -10,7 +10,7 @@ use etalon_scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
-/// Meshes with topology and shader, some of which cover little or nothing.
+/// Meshes with topology and shader, some of them covering little or nothing.
 const MESHES: [&str; 10] = [
     r#""mesh":{"kind":"full","z":0.5},"shader":"uniform_color""#,
     r#""mesh":{"kind":"cover","z":0.25},"shader":"uniform_color""#,
@@ -24,7 +24,7 @@ const MESHES: [&str; 10] = [
     r#""mesh":{"kind":"vertices","positions":[[0.1,0.1,0.2]]},"topology":"point-list","shader":"uniform_color""#,
     r#""mesh":{"kind":"full","z":0.5},"shader":"texel_discard","textures":["texture"]"#,
 ];
-/// States that reject, or may.
+/// States that reject fragments, or can.
 const STATES: [&str; 18] = [
     r#""scissor":[1,1,2,2]"#,
     r#""scissor":[0,0,0,0]"#,
@@ -126,7 +126,7 @@ proptest! {
                     "primitive {primitive} of draw {d} at {at:?} is not explained:\n{notes:#?}"
                 );
             }
-            // A draw that only ends does nothing: without it, the same is legal.
+            // A draw whose fragments are all rejected does nothing: the same values are legal without it.
             if events().all(|e| matches!(e.effect, Effect::Rejects(_) | Effect::Keeps(_))) {
                 let mut without = scene.clone();
                 without.passes[0].draws.remove(d);
@@ -159,7 +159,7 @@ fn a_mesh_elsewhere_is_one_event() {
         let x = -1.0 + f64::from(i) / 2000.0;
         positions.push(format!("[{x},-1,0],[{x},-0.9,0],[-1,-0.9,0]"));
     }
-    // The last one covers the texel.
+    // The last triangle covers the texel.
     positions.push("[-1,-1,0],[3,-1,0],[-1,3,0]".to_owned());
     let mesh = format!(
         r#"{{"mesh":{{"kind":"vertices","positions":[{}]}},"shader":"uniform_color"}}"#,

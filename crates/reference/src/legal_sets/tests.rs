@@ -66,7 +66,7 @@ fn a_vertex_depth_of_one_half_has_four_codes_on_16_bits_and_many_on_24() {
         );
         set.groups[0].sample(1, 1, 0).count(0)
     };
-    // Viewport, interpolation and store each compute within 1 part in 10^5.
+    // Viewport, interpolation and store are each computed within 1 part in 10^5.
     assert_eq!(of("depth16unorm"), 4);
     assert!((490..520).contains(&of("depth24plus")));
     assert!((490..520).contains(&of("depth32float")));
@@ -87,7 +87,7 @@ fn a_depth_between_those_of_the_vertices_may_pass_them_by_the_error_of_interpola
         .hull(0)
         .expect("asserted")
         .high;
-    // The vertices' own error ends at 0.75 * (1 + 1e-5).
+    // The vertices' own error reaches up to 0.75 * (1 + 1e-5).
     assert!(highest > i64::from((0.75_f32 * 1.000_01).to_bits()));
 }
 
@@ -109,7 +109,7 @@ fn a_comparison_that_cannot_be_told_leaves_two_joint_outcomes() {
     let half = 1 << 23;
     assert!(sample.allows(&[0, 0, 0, 0, half]));
     assert!(sample.allows(&[255, 255, 255, 255, half - 1]));
-    // Half a colour, or a colour without its depth, is no consistent story.
+    // Half a colour, or a colour without its depth, is not consistent.
     assert!(!sample.allows(&[255, 0, 0, 0, half]));
     assert!(!sample.allows(&[0, 0, 0, 0, half - 100]));
 }
@@ -239,7 +239,7 @@ fn a_story_tells_which_stencil_reference_counts() {
     }
 }
 
-/// The set of two passes over `color` and `depth`, which `first` and `second` extend.
+/// Returns the set of two passes over `color` and `depth`, with the keys `first` and `second` added.
 fn passes(api: Api, first: &str, second: &str) -> etalon_frame::LegalSet {
     let pass = |keys: &str| format!(r#"{{"color":["color"],"depth_stencil":"depth"{keys}}}"#);
     let text = format!(
@@ -372,7 +372,8 @@ fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
     assert_eq!(shares(discard, &cleared), (vec![64, 16, 16], 16, Some(16)));
 }
 
-/// The set of `one`, to which four samples of depth and stencil are resolved: 0, 1, 0.5, 1 and 7, 3, 9, 3.
+/// Returns the set of `one`, to which four samples of depth and stencil are resolved: 0, 1, 0.5, 1 and 7, 3,
+/// 9, 3.
 fn resolved(format: &str, depth: &str, stencil: &str) -> etalon_frame::LegalSet {
     let values = [(0.0, 7), (1.0, 3), (0.5, 9), (1.0, 3)]
         .into_iter()
@@ -420,7 +421,7 @@ fn depth_and_stencil_are_resolved_each_by_its_mode() {
 
 #[test]
 fn a_resolve_of_what_may_be_nan_may_be_anything() {
-    // A color without alpha, which advanced blending divides by.
+    // A colour with alpha 0, by which advanced blending divides.
     let text = r#"{"about":"t","spec":["t"],"scene":{"attachments":{
         "many":{"format":"rgba16float","size":[1,1],"samples":2},
         "one":{"format":"rgba16float"}},
@@ -466,13 +467,13 @@ fn a_line_between_texels_that_its_viewport_clips_is_not_lost() {
     let limits = limits(Api::Vulkan);
     let set = legal_set(&scene, &limits, &Rules::of(&limits));
     let group = &set.groups[0];
-    // No other texel of these rows lies in the viewport.
+    // No other texel of these rows is inside the viewport.
     let drawn = |y: u32| group.sample(4, y, 0).allows(&[255; 4]);
     let rows: Vec<u32> = (0..64).filter(|y| drawn(*y)).collect();
     assert!(rows.contains(&22) && rows.contains(&23), "{rows:?}");
 }
 
-/// Returns which texels of row 3 may be red or must be, where a viewport begins at column 4.
+/// Returns which texels of row 3 can be red and which must be, with a viewport that begins at column 4.
 fn beside_the_viewport(topology: &str, positions: &str, limits: &Limits) -> Vec<(bool, bool)> {
     let scene = case(&format!(
         r#"{{"about":"t","spec":["t"],"scene":{{
@@ -490,7 +491,8 @@ fn beside_the_viewport(topology: &str, positions: &str, limits: &Limits) -> Vec<
     (0..8).map(both).collect()
 }
 
-/// Limits of a version, with Vulkan's promise to discard points outside of the view volume or without.
+/// Returns the limits of a version, with or without Vulkan's promise to discard points outside the view
+/// volume.
 fn clipping_limits(api: Api, version: [u8; 2], promise: bool) -> Limits {
     let mut limits = limits(api);
     limits.version = ApiVersion::new(version[0], version[1]);
@@ -519,7 +521,7 @@ fn a_point_beside_the_viewport_is_discarded_where_the_text_says_so() {
             expected[column].0 = may;
             assert_eq!(texels, expected, "{api} {version:?} {promise}");
         }
-        // Inside it is drawn, whatever the text says of others.
+        // A point inside is drawn, whatever the specification says about others.
         let inside = beside_the_viewport("point-list", "[[1.5,3.5,0]]", &limits);
         assert_eq!(inside[5], (true, true), "{api}");
     }
@@ -552,7 +554,7 @@ fn a_line_may_leave_the_viewport_where_the_text_lets_it() {
         let crossing = texels("[[-3.75,3.5,0],[3.75,3.5,0]]");
         assert_eq!(crossing[0].0, may, "{api}: {crossing:?}");
         assert!(crossing[5].1, "{api}: {crossing:?}");
-        // Wholly outside, it is discarded or whole.
+        // A line wholly outside is discarded or drawn whole.
         let outside = texels("[[-3.75,3.5,0],[-0.25,3.5,0]]");
         assert_eq!(outside[3].0, may, "{api}: {outside:?}");
         assert!(outside.iter().all(|texel| !texel.1), "{api}: {outside:?}");
@@ -599,7 +601,7 @@ fn a_bias_that_is_no_normal_number_may_be_nothing() {
 
 #[test]
 fn samples_of_minus_one_are_read_as_either_code() {
-    // A logic operation alone stores the least code, which no API copies out of several samples.
+    // A logic operation alone stores the least code, and no API can copy several samples out unresolved.
     let of = |samples: u32| {
         let scene = case(&format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
@@ -639,7 +641,8 @@ fn opengl_3_may_clamp_biased_depths_at_vertices() {
         let sample = set.groups[0].sample(0, 0, 0);
         sample.allows(&[i64::from(depth.to_bits())])
     };
-    // The depth of 0.63 at the texel and a slope of 0.5 make more than 1; of the vertices, the nearest stays below.
+    // The depth of 0.63 at the texel and a slope of 0.5 add up to more than 1; the nearest vertex stays
+    // below.
     for (version, at_vertices) in [
         ((3, 3), true),
         ((4, 1), true),
@@ -669,7 +672,7 @@ fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
         let sample = set.groups[0].sample(0, 0, 0);
         sample.allows(&[i64::from(depth.to_bits())])
     };
-    // The depth of 0.55 lies far outside, and what is drawn lies below 0.5.
+    // The depth of 0.55 is far outside, and the drawn part is below 0.5.
     let beyond = "[-1,-1,0.45],[-1,6,0.45],[18,-1,0.55]";
     assert!(of(beyond, 0.485_065_46) && of(beyond, 0.514_867_8));
     assert!(!of(beyond, 0.6));
@@ -780,7 +783,7 @@ fn filtering_may_round_each_step_to_codes() {
         assert_eq!(of(&text, red, 255.0), legal, "{red}");
         assert_eq!(of(&yardstick, red, 255.0), red == 1.5, "{red}");
     }
-    // Equal texels leave no choice.
+    // Equal texels give only one result.
     assert!(!of(&text, 1.5, 254.0));
 }
 

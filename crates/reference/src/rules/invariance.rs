@@ -5,9 +5,9 @@ use etalon_frame::{Api, Band, Limits};
 use etalon_scene::Invariance;
 
 impl Rules {
-    /// Returns the band of a difference between two pictures that differ in this change alone: Fail if the
-    /// text requires them to be equal, Imprecise if it suggests it or is silent while the others require it,
-    /// `None` otherwise.
+    /// Returns the band of a difference between two pictures that differ only in this change: Fail if the
+    /// specification requires them to be equal, Imprecise if it suggests it or is silent while the others
+    /// require it, otherwise `None`.
     pub fn invariance(limits: &Limits, change: Invariance) -> Permission<Option<Band>> {
         use Invariance as By;
         match (limits.api, change) {

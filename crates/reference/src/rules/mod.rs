@@ -1,10 +1,9 @@
-//! The permissions of each specification: data with citations, one file per API, so that a reader can
-//! hold each against its text.
+//! The permissions of each specification: data with citations, one file per API, so that a reader can compare
+//! each with the specification.
 //!
-//! If a text is silent, the union of the other APIs' permissions holds: never nothing, never the
-//! tightest. The yardstick is not a permission but the quality band: 32-bit float arithmetic on exact
-//! inputs, one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits, the top-left
-//! rule.
+//! If a specification is silent, the union of the other APIs' permissions applies: never nothing, never the
+//! tightest. The yardstick is not a permission but the quality band: 32-bit float arithmetic on exact inputs,
+//! one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits, the top-left rule.
 
 mod invariance;
 mod opengl;
@@ -25,7 +24,7 @@ pub use permission::{
 use etalon_frame::{Api, Limits};
 
 impl Rules {
-    /// Returns the permissions of the text that binds an adapter, by all evidence; see
+    /// Returns the permissions of the specification that binds an adapter, by all evidence; see
     /// [`Rules::bound_by`].
     pub fn of(limits: &Limits) -> Self {
         match limits.api {
@@ -48,7 +47,7 @@ mod tests {
     use crate::test_limits;
     use etalon_frame::{ApiVersion, Grade, Property};
 
-    /// The limits of every text that is read.
+    /// Returns limits for every version of a specification that was read.
     fn all_limits() -> Vec<Limits> {
         let versions = [
             (Api::Vulkan, [(1, 0), (1, 3), (1, 4)]),
@@ -76,7 +75,8 @@ mod tests {
             assert_eq!(rules.name, limits.api.name());
             for (name, citation, _) in rules.permissions() {
                 assert!(citation.contains(':'), "{name}: {citation:?}");
-                // A text before the feature cites the first that has it; silence names the others.
+                // Before a version has a feature, its rule cites the first version that has it; where an API
+                // is silent, its rule names the others.
                 let own = rules.text.split(" (").next().expect("a name");
                 let family = own.split(' ').next().expect("a word");
                 assert!(
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(new.signed_clamp.value, SignedClamp::Signed);
         assert_eq!(old.srgb_logic.value, SrgbLogic::Applies);
         assert_eq!(new.srgb_logic.value, SrgbLogic::PassesThrough);
-        // Version 3.3 was corrected, so neither reading proves the other wrong.
+        // Version 3.3 was corrected, so neither reading can prove the other wrong.
         let proven = old.bound_by(Grade::Proven);
         assert_eq!(proven.signed_clamp.value, SignedClamp::Either);
         assert_eq!(proven.srgb_logic.value, SrgbLogic::Either);

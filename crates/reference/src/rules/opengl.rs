@@ -1,4 +1,4 @@
-//! OpenGL's permissions, by version of the core profile: 3.3, 4.5 and 4.6 are read.
+//! OpenGL's permissions, by version of the core profile: 3.3, 4.5 and 4.6 were read.
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
@@ -8,8 +8,8 @@ use super::permission::{
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
-/// The text that binds a context: the newest one that was read and is not newer than the context. 4.2 to
-/// 4.4 are held against 4.5, whose rules on blending came with 4.2.
+/// The specification that binds a context: the newest one that was read and is not newer than the context.
+/// Versions 4.2 to 4.4 are judged by 4.5, whose rules on blending came with 4.2.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Text {
     V33,
@@ -26,7 +26,7 @@ impl Text {
         }
     }
 
-    /// Returns one of three citations: of 3.3, of 4.5, of 4.6.
+    /// Returns the citation for this version out of those for 3.3, 4.5 and 4.6.
     fn cite(self, [v33, v45, v46]: [&'static str; 3]) -> &'static str {
         match self {
             Self::V33 => v33,
@@ -36,8 +36,8 @@ impl Text {
     }
 }
 
-/// Returns a rule on the runs of shaders: 4.6 contradicts itself where 4.5 does not. Older contexts have
-/// storage by an extension, whose text is that of 4.5.
+/// Returns a rule on the runs of shaders: 4.6 contradicts itself where 4.5 does not. Older contexts get
+/// storage from an extension whose specification matches 4.5.
 fn run_rule(text: Text, v45: &'static str, v46: &'static str) -> Permission<bool> {
     match text {
         Text::V46 => narrowed(true, false, Grade::Disputed, v46),

@@ -8,7 +8,7 @@ use super::permission::{
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
-/// The text that binds a context.
+/// The specification that binds a context.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Text {
     V30,
@@ -25,7 +25,7 @@ impl Text {
         }
     }
 
-    /// Returns one of three citations: of 3.0, of 3.1, of 3.2.
+    /// Returns the citation for this version out of those for 3.0, 3.1 and 3.2.
     fn cite(self, [v30, v31, v32]: [&'static str; 3]) -> &'static str {
         match self {
             Self::V30 => v30,

@@ -1,10 +1,11 @@
-//! Permissions as data: the set of choices that a text leaves open, each with its citation.
+//! Permissions as data: the choices that a specification leaves open, each with its citation.
 
 use etalon_frame::{ChannelEncoding, Grade};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A permission with its citation, and the evidence for what it forbids. It remembers being asked for, so
-/// that what was computed under some rules holds under all others that agree on the permissions asked for.
+/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for:
+/// results computed under some rules can then be reused under all rules that agree on the permissions asked
+/// for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Permission<T> {
     pub(super) value: T,
@@ -12,7 +13,7 @@ pub struct Permission<T> {
     pub citation: &'static str,
     /// The evidence for what the permission forbids beyond [`Permission::wide`].
     pub grade: Grade,
-    /// The permission by the stronger evidence alone; the same as the value where it is proven.
+    /// The permission without this evidence; equal to the value if the grade is proven.
     pub wide: T,
     asked: Asked,
 }
@@ -29,7 +30,7 @@ impl<T: Copy> Permission<T> {
         self.value = value;
     }
 
-    /// Returns the permission as evidence of this grade or a stronger one leaves it.
+    /// Returns the permission that evidence of at least this grade supports.
     pub fn bound_by(&self, least: Grade) -> Self {
         let value = if self.grade < least {
             self.wide
@@ -43,7 +44,7 @@ impl<T: Copy> Permission<T> {
     }
 }
 
-/// Permissions that were asked for, by name, with their values as text.
+/// The permissions that were asked for, by name, with their values as text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AskedValues(Vec<(&'static str, String)>);
 
@@ -54,12 +55,12 @@ impl AskedValues {
     }
 }
 
-/// True if a permission was asked for since it was made or cloned. It is no part of what the permission is.
+/// Whether a permission was asked for since it was made or cloned. Ignored when permissions are compared.
 #[derive(Debug, Default)]
 struct Asked(AtomicBool);
 
 impl Asked {
-    /// Not asked for.
+    /// Returns the state of a permission that was not asked for.
     const fn not() -> Self {
         Self(AtomicBool::new(false))
     }
@@ -77,7 +78,7 @@ impl PartialEq for Asked {
     }
 }
 
-/// Returns a permission that a must of the text bounds.
+/// Returns a permission that a must of the specification bounds.
 pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permission<T> {
     Permission {
         value,
@@ -107,37 +108,37 @@ pub(super) const fn narrowed<T: Copy>(
 /// Snapping of vertices to the sub-pixel grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Snap {
-    /// To either grid line beside the position.
+    /// To the grid line on either side of the position.
     EitherSide,
     /// To the nearest grid line.
     Nearest,
 }
 
-/// Coverage of a sample on the shared edge of two triangles, or too near to it to tell.
+/// Coverage of a sample on the shared edge of two triangles, or so close to it that either may cover it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SharedEdge {
-    /// Exactly one of two triangles whose edges have identical end points.
+    /// Exactly one of two triangles whose edges have identical end points covers it.
     ExactlyOne,
-    /// Unspecified; each triangle decides for itself.
+    /// Unspecified: each triangle decides separately.
     Independent,
-    /// The one whose top or left edge it is.
+    /// The triangle for which the edge is a top or left edge covers it.
     TopLeft,
 }
 
 /// Conversion of a real number to a normalized integer code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rounding {
-    /// Either of the two nearest codes; an exactly representable value exactly.
+    /// Either of the two nearest codes; an exactly representable value is exact.
     EitherNeighbour,
-    /// Any code within this distance in codes.
+    /// Any code within this distance, in codes.
     Within(f64),
 }
 
 /// The precision of blending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendPrecision {
-    /// With every operand and result rounded to one of the destination's neighbouring codes, or to a
-    /// neighbouring float with as many bits in its significand, or less coarsely.
+    /// Every operand and result may be rounded to one of the destination's neighbouring codes, or to a
+    /// neighbouring float with as many significand bits, or less coarsely.
     DestinationCodes,
     /// In 32-bit floating-point.
     Float32,
@@ -153,8 +154,8 @@ pub enum DepthOrder {
 }
 
 /// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth and of
-/// `2^(exponent - 23)` for float depth: at least, at most, once per reading of the text. Of these the
-/// implementation chooses one reading and, for normalized depth, one step for all of an attachment.
+/// `2^(exponent - 23)` for float depth: a least and a greatest value for each reading of the specification.
+/// The implementation chooses one reading and, for normalized depth, one step for a whole attachment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasUnit {
     /// For normalized depth of 16 bits.
@@ -163,7 +164,7 @@ pub struct BiasUnit {
     pub unorm: &'static [(f64, f64)],
     /// For float depth, by the exponent of the primitive's greatest depth.
     pub float: &'static [(f64, f64)],
-    /// The part of these that is assumed; none: all of them.
+    /// The assumed part of the range; `None` for all of it.
     pub assumed: Option<(f64, f64)>,
 }
 
@@ -185,23 +186,23 @@ impl BiasUnit {
     }
 }
 
-/// Conversion of a finite value to a float of 11 or 10 bits without a sign.
+/// Conversion of a finite value to an unsigned float of 11 or 10 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmallFloats {
-    /// To either neighbour; past the largest value to that or to infinity.
+    /// To either neighbour; past the largest value, to it or to infinity.
     EitherNeighbour,
-    /// To the nearest, or always towards zero; past the largest value to that. Subnormal values are kept.
+    /// To the nearest, or always towards zero; past the largest value, to it. Subnormal values are kept.
     NearestOrTowardsZero,
 }
 
 /// Clamping of the blend constant to 0 to 1, whatever the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstantClamp {
-    /// None.
+    /// Never clamped.
     Never,
-    /// When it is set.
+    /// Clamped when it is set.
     Always,
-    /// Either.
+    /// Clamped or not.
     Either,
 }
 
@@ -214,87 +215,87 @@ pub enum FactorClamp {
     Either,
 }
 
-/// The range that blending clamps source, destination and constant of a signed normalized format to.
+/// The range to which blending clamps source, destination and constant for a signed normalized format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignedClamp {
     /// -1 to 1.
     Signed,
     /// 0 to 1.
     Unit,
-    /// Either of both.
+    /// Either range.
     Either,
 }
 
-/// The codes that come back where a stored value is copied.
+/// The codes that a copy of stored values returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Copies {
-    /// Those that are stored.
+    /// The stored codes.
     Exact,
-    /// Others of the same value, and any for infinities, NaN and subnormal values.
+    /// Possibly other codes of the same value; any codes for infinities, NaN and subnormal values.
     SameNumbers,
 }
 
 /// Logic operations on sRGB attachments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SrgbLogic {
-    /// The source is stored as it is.
+    /// The source is stored unchanged.
     PassesThrough,
     /// The operation works on the encoded codes.
     Applies,
-    /// Either of both.
+    /// Either.
     Either,
 }
 
 /// Alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaToCoverage {
-    /// Alpha 0 gives no sample, alpha 1 all, anything between any.
+    /// Alpha 0 gives no sample, alpha 1 all samples, anything in between any samples.
     Ends,
     /// Any alpha gives any samples.
     Any,
 }
 
-/// The result for a depth outside of the viewport's range that a shader or a bias produced, if the draw
-/// does not clamp.
+/// The result of a depth outside the viewport's range that a shader or a bias produced, if the draw does not
+/// clamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthRange {
-    /// Anything from 0 to 1.
+    /// Any depth from 0 to 1.
     Undefined,
-    /// It is clamped to 0..1.
+    /// The depth clamped to 0 to 1.
     Unit,
-    /// It is clamped to the viewport's range or to 0..1.
+    /// The depth clamped to the viewport's range or to 0 to 1.
     Either,
-    /// A shader's depth is clamped to the viewport's range, a biased one to that or to 0..1.
+    /// A shader's depth is clamped to the viewport's range; a biased one to that or to 0 to 1.
     ViewportIfWritten,
 }
 
 /// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
-    /// Anything between the least and the greatest of them; of integers one of them.
+    /// Anything between the least and the greatest sample; for integers, one of the samples.
     Between,
-    /// Their average, computed by halvings that may each be rounded to a neighbouring code, of sRGB the
-    /// codes' or the linear values'; of integers the first of them.
+    /// The average, computed in halvings that may each be rounded to a neighbouring code; for sRGB, of the
+    /// codes or of the linear values; for integers, the first sample.
     CoarseAverage,
-    /// Their average; of integers one of them.
+    /// The average; for integers, one of the samples.
     Average,
 }
 
-/// The terms of which the viewport makes window depth.
+/// The terms from which the viewport computes window depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthTerms {
-    /// Depth from 0 to 1 times the range, and the near plane's depth: one term if that is 0.
+    /// Depth from 0 to 1 times the range, plus the near plane's depth: one term if that is 0.
     NearPlane,
-    /// Depth from -1 to 1 times half the range, and the middle of the range.
+    /// Depth from -1 to 1 times half the range, plus the middle of the range.
     Middle,
 }
 
-/// The effect of a sample mask that a shader writes where a texel has one sample.
+/// The effect of a shader's sample mask on a texel with one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskOfOne {
     /// Its first bit decides.
     Acts,
-    /// None.
+    /// No effect.
     Ignored,
     /// Either.
     Either,
@@ -308,52 +309,52 @@ pub enum EarlyUpdates {
     Happen,
     /// They happen or not.
     Either,
-    /// That of depth happens or not, and that of stencil.
+    /// Depth and stencil are each updated or not.
     Each,
 }
 
 /// The increment of a precise occlusion query for a fragment of several samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SamplesCounted {
-    /// Its samples that pass.
+    /// The samples that pass.
     Passing,
-    /// Those, or all of the texel's samples when any passes.
+    /// The samples that pass, or all of the texel's samples if any passes.
     PassingOrAll,
 }
 
-/// The redraws of the same geometry that have the same depths, bit for bit.
+/// The redraws of the same geometry that have bit-identical depths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SameDepth {
-    /// Those whose shaders write the fragment's own depth.
+    /// Redraws whose shaders write the fragment's own depth.
     Written,
-    /// All whose depth is the fragment's own, written or not.
+    /// All redraws with the fragment's own depth, written or not.
     All,
 }
 
-/// The coordinates that a shader reads of a fragment of several samples.
+/// The coordinates that a shader reads for a fragment with several samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FragCoord {
-    /// The centre of the texel, or with sample shading the position of one of the samples of the run.
+    /// The centre of the texel, or with sample shading the position of one of the run's samples.
     Sample,
     /// The point at which other inputs are interpolated.
     Inputs,
 }
 
-/// The sample mask that a shader reads, of the samples that a primitive covers.
+/// The sample mask that a shader reads, out of the samples that a primitive covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputMask {
-    /// The samples of the run with sample shading, all otherwise.
+    /// With sample shading the samples of the run, otherwise all.
     OfRun,
-    /// The samples of the run, of which there may be more than state asks for: without sample shading, the sample and
-    /// any others.
+    /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
+    /// can have the sample and any others.
     OfAnyRun,
-    /// As `OfAnyRun`, and with a share the sample and any others too.
+    /// As `OfAnyRun`; with a minimum share of sample shading, also the sample and any others.
     OfRunIfAsked,
-    /// All of them, or the sample alone.
+    /// All samples, or the sample alone.
     AllOrOwn,
 }
 
-/// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
+/// Declares the permissions of [`Rules`], so that code that narrows or lists them covers all.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
         /// One specification's permissions, or the yardstick.
@@ -361,7 +362,7 @@ macro_rules! rules {
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
             pub name: &'static str,
-            /// The text and its version: `OpenGL 3.3 (core profile)`.
+            /// The specification and its version: `OpenGL 3.3 (core profile)`.
             pub text: &'static str,
             $($(#[$doc])* pub $field: Permission<$kind>,)+
             /// The clause on zero-area and reversed triangles.
@@ -373,7 +374,7 @@ macro_rules! rules {
         }
 
         impl Rules {
-            /// Returns the rules as evidence of this grade or a stronger one leaves them.
+            /// Returns the rules that evidence of at least this grade supports.
             pub fn bound_by(&self, least: Grade) -> Self {
                 Self {
                     $($field: self.$field.bound_by(least),)+
@@ -390,8 +391,8 @@ macro_rules! rules {
                 asked
             }
 
-            /// True if the values that were asked for of other rules are these rules' too. What was computed
-            /// by those then holds by these, whatever they cite.
+            /// Returns true if these rules have the same values for everything that was asked of other rules.
+            /// Results computed by those rules then hold under these too, whatever the citations.
             pub fn agree_on(&self, asked: &AskedValues) -> bool {
                 asked.0.iter().all(|(name, value)| match *name {
                     $(stringify!($field) => format!("{:?}", self.$field.value) == *value,)+
@@ -417,36 +418,37 @@ rules! {
     float_error: f64,
     /// Relative error of each result that a shader computes.
     shader_error: f64,
-    /// Relative error of a normalized code read as a float; 0 and 1 are exact.
+    /// Relative error of reading a normalized code as a float; 0 and 1 are exact.
     decode_error: f64,
-    /// True if the index that restarts a strip is found before the base vertex is added; otherwise there or after.
+    /// True if the restart index of a strip is detected before the base vertex is added; otherwise before or
+    /// after.
     restarts_before_base_vertex: bool,
     /// Vertex snapping.
     snap: Snap,
-    /// Samples on edges.
+    /// Coverage of samples on edges.
     shared_edge: SharedEdge,
-    /// True if a sample is covered at the position that the adapter tells for it; otherwise anywhere in its
+    /// True if coverage is tested at the sample positions that the adapter reports; otherwise anywhere in the
     /// texel.
     covers_at_positions: bool,
-    /// Conversion at the store and of clear values.
+    /// Rounding of stores and of clear values.
     store: Rounding,
-    /// Blending.
+    /// The precision of blending.
     blend: BlendPrecision,
-    /// Advanced blending, which 16-bit floats are precise enough for.
+    /// The precision of advanced blending, for which 16-bit floats suffice.
     advanced_blend: BlendPrecision,
-    /// Clamping of what is blended into signed normalized formats.
+    /// Clamping of operands of blends into signed normalized formats.
     signed_clamp: SignedClamp,
-    /// Clamping of what a shader or a blend stores into signed normalized formats.
+    /// Clamping of results that a shader or a blend stores into signed normalized formats.
     signed_result: SignedClamp,
     /// Clamping of the blend constant.
     constant_clamp: ConstantClamp,
-    /// True if alpha to one may leave all alphas but that of the first output as they are.
+    /// True if alpha to one may leave all alphas except that of the first output unchanged.
     one_is_first_output: bool,
-    /// True if an advanced blend of a negative alpha has a result; otherwise it is undefined.
+    /// True if an advanced blend with a negative alpha is defined.
     blends_negative_alpha: bool,
-    /// True if the stencil read mask also masks the reference; otherwise it may.
+    /// True if the stencil read mask also masks the reference; otherwise it may or may not.
     masks_reference: bool,
-    /// Codes of colours read back by a copy.
+    /// Codes of colours that a copy reads back.
     copies: Copies,
     /// Logic operations on sRGB attachments.
     srgb_logic: SrgbLogic,
@@ -456,64 +458,66 @@ rules! {
     depth_bias_unit: BiasUnit,
     /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger growth.
     slope_root: bool,
-    /// True if biased depths are clamped at fragments; otherwise there or at vertices.
+    /// True if biased depths are clamped at fragments; otherwise at fragments or at vertices.
     bias_clamps_fragments: bool,
     /// The terms of window depth.
     depth_terms: DepthTerms,
-    /// Depths outside of the viewport's range.
+    /// The result of depths outside the viewport's range.
     depth_range: DepthRange,
-    /// Blend factors beyond a normalized format's range.
+    /// Clamping of blend factors beyond a normalized format's range.
     factor_clamp: FactorClamp,
     /// Averaging samples.
     resolve: Resolve,
-    /// True if a point before the near or beyond the far plane is discarded; otherwise it may be.
+    /// True if a point before the near or beyond the far plane must be discarded.
     clips_points: bool,
-    /// True if a point beyond a side of the view volume is discarded; otherwise it may be.
+    /// True if a point beyond a side of the view volume must be discarded.
     clips_points_at_sides: bool,
-    /// True if lines are clipped at the sides of the view volume; otherwise they may be.
+    /// True if lines are clipped at the sides of the view volume; otherwise they may or may not be.
     clips_lines_at_sides: bool,
-    /// True if lines are clipped at the near and far planes; otherwise they may be.
+    /// True if lines are clipped at the near and far planes; otherwise they may or may not be.
     clips_lines_by_depth: bool,
-    /// True if clip distances clip lines; otherwise they may.
+    /// True if clip distances clip lines; otherwise they may or may not.
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
-    /// The number of fragments that a line may have less than by the diamond-exit rule; `None` if no text counts them.
+    /// The number of fragments that a line may have less than the diamond-exit rule gives it; `None` if no
+    /// specification counts them.
     lines_lack: Option<usize>,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
-    /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.
+    /// True if the edges of a polygon drawn as lines face like the polygon; otherwise either facing is legal.
     /// Culling always follows the polygon.
     outlines_face_as_polygons: bool,
     /// Updates of depth and stencil by fragments that the shader discards after forced early tests.
     early_updates: EarlyUpdates,
     /// Updates of depth and stencil by samples that alpha to coverage removes after forced early tests.
     early_coverage: EarlyUpdates,
-    /// Updates of depth and stencil by samples that the shader's own mask removes after forced early tests.
+    /// Updates of depth and stencil by samples that the shader's sample mask removes after forced early
+    /// tests.
     early_mask: EarlyUpdates,
-    /// True if forced early tests ignore the depth and the stencil reference that the shader writes; otherwise
-    /// they may.
+    /// True if forced early tests ignore the depth and the stencil reference that the shader writes;
+    /// otherwise they may use them.
     early_ignores_written: bool,
-    /// The sample mask that a shader writes for a single sample.
+    /// The effect of a shader's sample mask with a single sample per texel.
     mask_of_one: MaskOfOne,
-    /// True if without a fragment shader fragments go on as they were rasterized; otherwise they may be
-    /// lost or have any depth.
+    /// True if fragments without a fragment shader go on as they were rasterized; otherwise they may be lost
+    /// or have any depth.
     goes_on_unshaded: bool,
     /// The sample mask that a shader reads.
     input_mask: InputMask,
-    /// True if it lacks the samples that the draw's sample mask and sample coverage remove; otherwise it may have
-    /// them.
+    /// True if that mask lacks the samples that the draw's sample mask and sample coverage remove; otherwise
+    /// it may have them.
     input_mask_lacks_masked: bool,
     /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.
     early_counts: EarlyUpdates,
-    /// Precise occlusion queries over several samples.
+    /// What a precise occlusion query counts with several samples.
     samples_counted: SamplesCounted,
-    /// True if clears, load and store operations, and resolves count nothing in an occlusion query that encloses them;
+    /// True if clears, load and store operations, and resolves count nothing in an enclosing occlusion query;
     /// otherwise they may count.
     operations_count_nothing: bool,
-    /// The redraws with the same depths.
+    /// The redraws that have identical depths.
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     filter_step: f64,
@@ -522,38 +526,38 @@ rules! {
     /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
     /// anything.
     half_overflows: bool,
-    /// True if subnormal floats of 16 bits, and of 11 and 10 where [`Rules::small_floats`] leaves them open, may be
-    /// stored as zero.
+    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats where [`Rules::small_floats`]
+    /// leaves them open, may be stored as zero.
     flushes_small_floats: bool,
-    /// Floats of 11 and 10 bits.
+    /// Conversion to floats of 11 and 10 bits.
     small_floats: SmallFloats,
-    /// True if a shader that counts in storage runs for a fragment that never contributes to the
-    /// attachments; otherwise it may.
+    /// True if a shader that counts in storage runs for a fragment that never contributes to the attachments;
+    /// otherwise it may not run.
     runs_for_discarded: bool,
-    /// True if it runs for a fragment that a later one overwrites; otherwise it may.
+    /// True if it runs for a fragment that a later one overwrites; otherwise it may not run.
     runs_for_overwritten: bool,
-    /// True if it does not run for a fragment that forced early tests reject; otherwise it may.
+    /// True if it does not run for a fragment that forced early tests reject; otherwise it may run.
     skips_rejected: bool,
-    /// True if it runs at most once per fragment, or per covered sample of several; otherwise as often as
-    /// the implementation likes.
+    /// True if it runs at most once per fragment, or per covered sample if there are several; otherwise any
+    /// number of times.
     runs_once: bool,
-    /// True if the least share of sample shading sets the least number of runs; otherwise one run may serve all
-    /// samples.
+    /// True if the minimum share of sample shading sets the least number of runs; otherwise one run may serve
+    /// all samples.
     runs_by_share: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
-    /// Sample coverage, as alpha to coverage. The same value covers the same samples again, and its
-    /// inverse the others.
+    /// Sample coverage, with the permissions of alpha to coverage. The same value always covers the same
+    /// samples, and its inverse the others.
     sample_coverage: AlphaToCoverage,
-    /// The fragment's coordinates that a shader of several samples reads.
+    /// The fragment coordinates that a shader reads with several samples.
     frag_coord: FragCoord,
-    /// True if with sample shading of a share of 1 each sample's inputs are those at its position;
-    /// otherwise at any point of the texel.
+    /// True if with a sample shading share of 1 each sample's inputs are those at its position; otherwise at
+    /// any point of the texel.
     inputs_at_samples: bool,
 }
 
 impl Rules {
-    /// Returns the rules with an assumption about the step of depth bias, in the unit of [`BiasUnit`].
+    /// Returns the rules with an assumed step of depth bias, in the unit of [`BiasUnit`].
     pub(crate) fn assuming(&self, step: (f64, f64)) -> Self {
         let mut rules = self.clone();
         rules.depth_bias_unit.value.assumed = Some(step);

@@ -1,8 +1,8 @@
 //! What each version of an API requires of every implementation: formats, limits and features, as rows
 //! with their citations.
 //!
-//! Only what a driver can deny stands here. What a backend takes for granted from the version alone
-//! would be a row that no driver can break.
+//! Only requirements that a driver can deny are listed. A row for what a backend takes for granted from the
+//! version could never fail.
 
 use etalon_frame::{Api, ApiVersion, Feature, Limits, Requirement, TextureFormat};
 
@@ -11,7 +11,7 @@ use etalon_frame::{Api, ApiVersion, Feature, Limits, Requirement, TextureFormat}
 pub struct Required {
     /// The API.
     pub api: Api,
-    /// The first version that requires it, as far as its texts were read.
+    /// The first version that requires it, among those whose specification was read.
     pub since: ApiVersion,
     /// The requirement.
     pub requirement: Requirement,
@@ -19,8 +19,8 @@ pub struct Required {
     pub citation: &'static str,
 }
 
-/// Returns the first of the requirements that the limits deny although the adapter's API and version
-/// require it, and the row that does; `None` if the adapter may lack all that it lacks.
+/// Returns the first of the requirements that the limits deny although the adapter's API and version require
+/// it, and the row that does; `None` if the adapter may lack everything it lacks.
 pub fn denied(limits: &Limits, requirements: &[Requirement]) -> Option<(Requirement, Required)> {
     let is_exempt = |needed| limits.exempt.iter().any(|exempt| covers(*exempt, needed));
     let lacks =
@@ -41,18 +41,18 @@ fn row(limits: &Limits, needed: Requirement) -> Option<Required> {
     rows().into_iter().find(binds)
 }
 
-/// True if what is required includes what is needed.
+/// Returns true if what is required includes what is needed.
 fn covers(required: Requirement, needed: Requirement) -> bool {
     match (required, needed) {
         (Requirement::Size(most), Requirement::Size(size)) => size <= most,
         (Requirement::ColorAttachments(most), Requirement::ColorAttachments(n)) => n <= most,
-        // An attachment of a format is also a texture that can be cleared and read.
+        // A drawable format is also a texture format that can be cleared and read.
         (Requirement::Drawing(format), Requirement::Format(needed)) => format == needed,
         (required, needed) => required == needed,
     }
 }
 
-/// The colour formats of 8 bits that everything draws, blends and multisamples.
+/// The 8-bit colour formats that every API draws to, blends and multisamples.
 const BYTES: [TextureFormat; 4] = [
     TextureFormat::R8Unorm,
     TextureFormat::Rg8Unorm,
@@ -84,7 +84,7 @@ pub fn rows() -> Vec<Required> {
     all
 }
 
-/// Appends what an API requires from a version on, by one place of its text.
+/// Appends what an API requires from a version on, all from one section of its specification.
 fn add<const N: usize>(
     rows: &mut Vec<Required>,
     (api, since): (Api, ApiVersion),
@@ -99,7 +99,8 @@ fn add<const N: usize>(
     }));
 }
 
-/// Vulkan's tables are those of 1.0 to this day: 1.0 (2016-02-16), 1.3.302 and 1.4.303 were compared.
+/// Appends Vulkan's rows. The tables have not changed since 1.0: 1.0 (2016-02-16), 1.3.302 and 1.4.303 were
+/// compared.
 fn vulkan(rows: &mut Vec<Required>) {
     use Requirement::{Blending, ColorAttachments, Drawing, Feature as Has, Format, Samples, Size};
     let since = (Api::Vulkan, ApiVersion::new(1, 0));
@@ -113,7 +114,7 @@ fn vulkan(rows: &mut Vec<Required>) {
         TextureFormat::Rgba16Float,
     ];
     let drawn = [TextureFormat::Rgba8Uint, TextureFormat::Rgba32Float];
-    // D24 or D32 of the first, D24S8 or D32S8 of the others.
+    // D24 or D32 for the first, D24S8 or D32S8 for the others.
     let depth = [
         TextureFormat::Depth16Unorm,
         TextureFormat::Depth24Plus,
@@ -217,7 +218,7 @@ fn opengl_es(rows: &mut Vec<Required>) {
     let since = (Api::OpenGlEs, ApiVersion::new(3, 0));
     let formats =
         "OpenGL ES 3.0: 3.8.3.1, Required Texture Formats; 4.4.2.2, Required Renderbuffer Formats";
-    // Stencil alone as a renderbuffer.
+    // Stencil alone is required as a renderbuffer.
     let more = [
         TextureFormat::Rgb10a2Unorm,
         TextureFormat::Rgba8Uint,

@@ -8,7 +8,7 @@ use super::permission::{
 };
 use etalon_frame::{Grade, Limits, Property};
 
-/// Returns the text that binds a version.
+/// Returns the name of the specification that binds a version.
 fn text(limits: &Limits) -> &'static str {
     match (limits.version.major, limits.version.minor) {
         (1, 0) => "Vulkan 1.0",
@@ -20,7 +20,8 @@ fn text(limits: &Limits) -> &'static str {
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    // Promises of maintenance5 and Vulkan 1.4, of texts up to 1.3.216, of maintenance2 and Vulkan 1.1.
+    // Promises of maintenance5 and Vulkan 1.4, of specifications up to 1.3.216, and of maintenance2 and
+    // Vulkan 1.1.
     let coverage_last = limits.properties.contains(&Property::CoverageAfterCounting);
     let shades_last = limits.properties.contains(&Property::ShadesAfterCounting);
     let mask_first = limits.properties.contains(&Property::MaskBeforeCounting);
@@ -163,8 +164,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Blending: factors are clamped for fixed-point attachments",
         ),
         resolve: permit(
-            // Render passes resolve by a mode. `vkCmdResolveImage` may choose one, which is the same where all samples of a
-            // texel are: paths that call it ask for that.
+            // Render passes resolve by a mode. `vkCmdResolveImage` may choose one, which makes no difference
+            // if all samples of a texel are equal: paths that call it require that.
             Resolve::CoarseAverage,
             "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),

@@ -10,17 +10,17 @@ use etalon_frame::{Api, Limits};
 const YARDSTICK: &str = "yardstick";
 
 impl Rules {
-    /// True if these rules demand quality and not legality.
+    /// Returns true if these rules demand quality rather than legality.
     pub fn is_yardstick(&self) -> bool {
         self.name == YARDSTICK
     }
 }
 
-/// Returns the band for an adapter; `text` are the permissions of its API, which the band does not forbid
-/// where Direct3D asks for something else.
+/// Returns the band for an adapter. `text` is the permissions of its API: where Direct3D demands something
+/// else, the band forbids nothing that they allow.
 pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
     let api = limits.api;
-    // WebGPU does not tell the sub-pixel grid, so nothing tighter than the API's rule can be asked.
+    // WebGPU does not report the sub-pixel grid, so nothing tighter than the API's rule can be demanded.
     let snap = match api {
         Api::WebGpu => Snap::EitherSide,
         _ => Snap::Nearest,
@@ -28,7 +28,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
     Rules {
         name: YARDSTICK,
         text: "the yardstick",
-        // Two units in the last place of a 32-bit float: one rounding each of operand and result.
+        // Two units in the last place of a 32-bit float: one rounding each for operand and result.
         float_error: permit(
             f64::from(f32::EPSILON),
             "Direct3D 11.3: 3.1 Floating Point Rules: 1 ULP",

@@ -19,7 +19,7 @@ impl Builder {
         }
     }
 
-    /// One triangle that reaches far beyond the viewport.
+    /// Adds one triangle that reaches far beyond the viewport.
     pub(super) fn cover(&mut self, z: f32, value: [f32; 4], uv: [f32; 4]) {
         let [left, top, right, bottom] = uv;
         for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
@@ -67,8 +67,8 @@ impl Builder {
         Ok(())
     }
 
-    /// Covers a rectangle with squares, the largest first: only a square's diagonal can be kept
-    /// away from all texel centres.
+    /// Covers a rectangle with squares, the largest first: only the diagonal of a square can avoid all texel
+    /// centres.
     pub(super) fn rect(
         &mut self,
         texels: [u32; 4],
@@ -98,7 +98,7 @@ impl Builder {
         Ok(())
     }
 
-    /// The clip-space position of a point in texels.
+    /// Returns the clip-space position of a point in texels.
     pub(super) fn clip(&self, texels: DVec2, z: f32) -> [f32; 4] {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
         let ndc = (texels / size * 2.0 - 1.0) * DVec2::new(1.0, -1.0);
@@ -107,9 +107,9 @@ impl Builder {
             .to_array()
     }
 
-    /// Two triangles over the texels from (x, y) on. With y down, the corners stand at (0, -1/4)
-    /// bottom left, (0, 0) bottom right, (-1/4, 0) top right and (0, 0) top left from the square's;
-    /// so the diagonal lies 0.177 texels beside the nearest centres and nothing leaves the square.
+    /// Adds two triangles over the square of texels from (x, y) on. With y down, the corners are offset from
+    /// the square's by (0, -1/4) bottom left, (0, 0) bottom right, (-1/4, 0) top right and (0, 0) top left.
+    /// The diagonal is then 0.177 texels away from the nearest centres, and no texel outside is covered.
     pub(super) fn square(
         &mut self,
         x: u32,

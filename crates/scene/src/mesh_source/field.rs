@@ -1,6 +1,6 @@
-//! Fields of separate primitives, as many as a driver's batches need to overflow.
+//! Fields of separate primitives, enough of them to overflow a driver's batches.
 //!
-//! Every primitive has a cell of its own, so that one that is lost, doubled or drawn with another's
+//! Every primitive has a cell of its own, so a primitive that is lost, doubled or drawn with another's
 //! vertices shows in a place that no other primitive reaches.
 
 use super::builder::Builder;
@@ -13,20 +13,20 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The primitives of a field.
     FieldOf {
-        /// Triangles, each in a cell of one texel, whose centre lies 0.177 texels or more inside.
+        /// Triangles, each in a cell of one texel, whose centre is at least 0.177 texels inside.
         Triangles = "triangles",
         /// Points, each in a cell of one texel.
         Points = "points",
-        /// Lines, each along a cell of 8 by 1 texels and 1.5 texels away from its ends.
+        /// Lines, each along a cell of 8 by 1 texels, 1.5 texels away from its ends.
         Lines = "lines",
-        /// Triangles to be drawn as outlines: a right angle in a cell of 8 by 8 texels, 1.5 texels away
-        /// from its sides.
+        /// Triangles to be drawn as outlines: a right angle in a cell of 8 by 8 texels, 1.5 texels away from
+        /// its sides.
         Outlines = "outlines",
     }
 }
 
 impl FieldOf {
-    /// The width and height in texels of the cell that a primitive needs.
+    /// Returns the width and height in texels of the cell that a primitive needs.
     fn needs(self) -> [u32; 2] {
         match self {
             Self::Triangles | Self::Points => [1, 1],
@@ -35,7 +35,7 @@ impl FieldOf {
         }
     }
 
-    /// The vertices of a primitive in texels from its cell's top left corner, y down,
+    /// Returns the vertices of a primitive in texels from its cell's top left corner, y down,
     /// counter-clockwise.
     fn corners(self) -> &'static [[f64; 2]] {
         match self {
@@ -50,19 +50,19 @@ impl FieldOf {
 /// The keys of a field that are not attributes.
 pub(super) struct Field {
     pub(super) of: FieldOf,
-    /// Width and height of a cell; `None` is what the primitives need.
+    /// Width and height of a cell; `None` for what the primitives need.
     pub(super) cell: Option<[u32; 2]>,
-    /// The texel of its cell at which a primitive starts.
+    /// The texel, within its cell, at which a primitive starts.
     pub(super) at: [u32; 2],
-    /// The number of primitives; `None` fills the viewport.
+    /// The number of primitives; `None` to fill the viewport.
     pub(super) count: Option<u32>,
-    /// The number of unused vertices in front.
+    /// The number of unused vertices at the front.
     pub(super) spare: u32,
 }
 
 impl Builder {
-    /// Adds a primitive to each cell, row by row from the top left, and returns indices of all of them
-    /// in order.
+    /// Adds a primitive to each cell, row by row from the top left, and returns the indices of all of them in
+    /// order.
     pub(super) fn field(
         &mut self,
         field: &Field,
@@ -122,7 +122,7 @@ mod tests {
             let edge = |i: usize| {
                 let ([ax, ay], [bx, by]) = (corners[i], corners[(i + 1) % 3]);
                 let cross = (bx - ax) * (at[1] - ay) - (by - ay) * (at[0] - ax);
-                // Counter-clockwise with y down: inside is negative.
+                // For a counter-clockwise triangle with y down, the edge function is negative inside.
                 -cross / (bx - ax).hypot(by - ay)
             };
             (0..3).map(edge).fold(f64::INFINITY, f64::min)

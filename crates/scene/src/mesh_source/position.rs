@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 
-/// A position x, y, z and w; in files w may be missing, and is 1.
+/// A position x, y, z and w; in files w is optional and defaults to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position(pub [f32; 4]);
 

@@ -1,4 +1,4 @@
-//! Four values that may be written as one.
+//! Four values that can be written as one.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

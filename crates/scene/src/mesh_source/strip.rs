@@ -1,7 +1,7 @@
-//! One strip of as many primitives as a driver's batches need to overflow.
+//! A strip with enough primitives to overflow a driver's batches.
 //!
-//! It turns at the ends of rows and never ends before its last primitive, so that it can be parted nowhere
-//! but where a driver parts it. Every primitive that is counted has texels of its own.
+//! It turns at the ends of rows and does not end before its last primitive, so that only a driver can split
+//! it. Every counted primitive has texels of its own.
 
 use super::builder::Builder;
 use crate::mesh::Vertex;
@@ -13,17 +13,17 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The primitives of a strip.
     StripOf {
-        /// Triangles, each over one texel, whose centre lies 0.22 texels or more inside; counter-clockwise.
-        /// Four without area join two pairs of rows.
+        /// Counter-clockwise triangles, each over one texel, whose centre is at least 0.22 texels inside.
+        /// Four triangles without area join two pairs of rows.
         Triangles = "triangles",
-        /// Lines, each along 8 texels of a row, with a line of one texel down or up between two of them.
-        /// The number of rows is odd where there is more than one column of them.
+        /// Lines, each along 8 texels of a row; between two of them, a line of one texel down or up. If there
+        /// is more than one column, the number of rows must be odd.
         Lines = "lines",
     }
 }
 
 impl Builder {
-    /// Adds the vertices of a strip of some primitives that cover texels of their own.
+    /// Adds the vertices of a strip with `count` primitives that cover texels of their own.
     pub(super) fn strip(
         &mut self,
         of: StripOf,
@@ -59,7 +59,7 @@ impl Builder {
     }
 }
 
-/// Pairs of rows, from the left to the right each: an upper and a lower triangle in each column.
+/// Pairs of rows, each from left to right: an upper and a lower triangle in each column.
 fn triangles(width: u32, count: u32) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = Vec::new();
     let mut left = count;
@@ -78,7 +78,8 @@ fn triangles(width: u32, count: u32) -> Vec<DVec2> {
     points
 }
 
-/// Columns, one downwards and the next upwards; rows of a column to the right and to the left by turns.
+/// Columns, alternately downwards and upwards; within a column, rows run alternately to the right and to the
+/// left.
 fn lines(rows: u32, count: u32) -> Vec<DVec2> {
     let line = |i: u32| {
         let (column, step) = (i / rows, i % rows);
@@ -101,7 +102,7 @@ fn lines(rows: u32, count: u32) -> Vec<DVec2> {
 mod tests {
     use super::*;
 
-    /// Twice the area of each triangle of a strip, counter-clockwise with y down above 0.
+    /// Returns twice the area of each triangle of a strip, positive if counter-clockwise with y down.
     fn areas(points: &[DVec2]) -> Vec<f64> {
         let each = points.windows(3).enumerate();
         each.map(|(i, p)| {

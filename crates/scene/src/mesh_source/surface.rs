@@ -5,11 +5,11 @@ use crate::mesh::{MAX_VERTICES, Vertex};
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// The torus in clip space: from its axis to the middle of the tube, and the tube itself.
+/// The radii of the torus in clip space: from its axis to the middle of the tube, and of the tube.
 const RADII: [f64; 2] = [0.6, 0.3];
 
 impl Builder {
-    /// A sheet over the viewport; the indices of its triangles.
+    /// Adds a sheet over the viewport and returns the indices of its triangles.
     pub(super) fn grid(
         &mut self,
         cells: [u32; 2],
@@ -27,7 +27,7 @@ impl Builder {
             let shift = step.min(1.0) / 4.0;
             let line = |i: u32| match i {
                 0 => 0.0,
-                // The last line stands a little before the viewport's end, but behind the last centre.
+                // The last line is slightly before the viewport's end, but past the last centre.
                 i => f64::from(i) * length / f64::from(count) - shift,
             };
             (0..=count).map(line).collect()
@@ -47,7 +47,7 @@ impl Builder {
         Ok(quads([columns, rows], at))
     }
 
-    /// A closed surface; the indices of its triangles.
+    /// Adds a torus and returns the indices of its triangles.
     pub(super) fn torus(
         &mut self,
         segments: [u32; 2],
@@ -61,7 +61,7 @@ impl Builder {
         let angle = |i: u32, of: u32| TAU * f64::from(i) / f64::from(of);
         let [large, small] = RADII;
         for j in 0..tube {
-            // From the outside over the far half: rows that go down from the eye.
+            // Starts at the outside and goes over the far half: the rows first move away from the eye.
             let (height, out) = (-angle(j, tube)).sin_cos();
             for i in 0..around {
                 let (y, x) = angle(i, around).sin_cos();
@@ -89,8 +89,8 @@ impl Builder {
     }
 }
 
-/// Two triangles to each cell, cut from its bottom left to its top right corner, of a surface whose
-/// vertices `at` numbers; counter-clockwise where columns count to the right and rows down.
+/// Returns two triangles for each cell of a surface, cut from bottom left to top right; `at` gives the
+/// vertices' indices. They are counter-clockwise if columns go right and rows go down.
 fn quads([columns, rows]: [u32; 2], at: impl Fn(u32, u32) -> u32) -> Vec<u32> {
     let mut indices = Vec::with_capacity(6 * columns as usize * rows as usize);
     for row in 0..rows {

@@ -5,7 +5,8 @@ use crate::mesh::PrimitiveVertices;
 use crate::rasterization::PrimitiveTopology;
 use std::collections::HashMap;
 
-/// Twice the signed area with y up, and the least distance of any edge from any texel centre.
+/// Returns twice the signed area of each triangle with y up, and the least distance of any edge from any
+/// texel centre.
 fn measure(mesh: &Mesh, size: [u32; 2]) -> (Vec<f64>, f64) {
     let to_texels = |v: &Vertex| {
         DVec2::new(
@@ -90,12 +91,12 @@ fn triangles(mesh: &Mesh) -> Vec<[usize; 3]> {
     all.into_iter()
         .map(|p| match p {
             PrimitiveVertices::Triangle(t) => t,
-            other => panic!("{other:?} is no triangle"),
+            other => panic!("{other:?} is not a triangle"),
         })
         .collect()
 }
 
-/// Twice the signed area in clip space, above 0 where the winding is counter-clockwise.
+/// Returns twice the signed area in clip space, positive if the winding is counter-clockwise.
 fn area(mesh: &Mesh, t: [usize; 3]) -> f64 {
     let p = t.map(|i| {
         let [x, y, ..] = mesh.vertices[i].position.map(f64::from);
@@ -115,7 +116,7 @@ fn grid(cells: [u32; 2], size: [u32; 2]) -> Mesh {
 
 #[test]
 fn a_grid_covers_every_centre_once_with_room() {
-    // Cells of several texels, of one, and parts of one.
+    // Cells of several texels, of one texel, and parts of a texel.
     for (cells, size) in [([4, 3], [16, 12]), ([8, 8], [8, 8]), ([24, 24], [8, 8])] {
         let mesh = grid(cells, size);
         let all = triangles(&mesh);
@@ -128,7 +129,7 @@ fn a_grid_covers_every_centre_once_with_room() {
                 (1.0 - y) / 2.0 * f64::from(size[1]),
             )
         };
-        // The first cells' diagonals pass through centres: those of both cells share them.
+        // The first cells' diagonals pass through centres, which both triangles of the cell share.
         let whole = cells[0] >= size[0];
         for y in 0..size[1] {
             for x in 0..size[0] {
@@ -170,7 +171,7 @@ fn a_torus_is_closed_and_faces_outwards() {
     for ((from, to), count) in &edges {
         assert_eq!((*count, edges.get(&(*to, *from))), (1, Some(&1)));
     }
-    // The half that is nearer to the eye faces it.
+    // Triangles of the nearer half face the eye.
     for t in all {
         let depth = t.map(|i| f64::from(mesh.vertices[i].position[2]));
         let nearer = depth.iter().sum::<f64>() / 3.0 < 0.5;

@@ -1,4 +1,4 @@
-//! All that a series tells.
+//! The analysis of a series.
 
 use super::change::{Cause, ChangePoint, Drift, ratio};
 use super::clean::clean;
@@ -9,10 +9,11 @@ use crate::compare::{BEYOND_RULER, LEVEL, MINIMUM};
 use crate::rank::upper_normal;
 use crate::summary::CONFIDENCE;
 
-/// The fewest runs that can drift.
+/// The minimum number of runs that can drift.
 const MIN_DRIFT: usize = 20;
 
-/// Stretches at one of two levels from which on a series goes back and forth: four changes from one to the other.
+/// The number of stretches at one of two levels from which on a series alternates: four changes between the
+/// levels.
 const VISITS: usize = 5;
 
 /// The changes of a series.
@@ -30,14 +31,14 @@ pub struct Changes {
 
 /// Finds the change points of a series, oldest run first.
 ///
-/// All runs must be of one case, adapter, machine and ruler. A change is reported if it lasts for [`MIN_RUNS`]
-/// runs, its size is [`STEP`] at least, and Student's test at the chosen place rules out noise at [`LEVEL`], once
-/// per 100 runs and the choice of the place allowed for.
+/// All runs must be of one case, adapter, machine and ruler. A change is reported if it lasts for at least
+/// [`MIN_RUNS`] runs, its size is at least [`STEP`], and Student's test at the chosen place rules out noise
+/// at [`LEVEL`] per 100 runs, with a correction for the choice of the place.
 ///
-/// Takes n log n steps for n runs, times the number of divisions that hold; see [`Changes::append`].
+/// Takes n log n steps for n runs, times the number of divisions that are kept; see [`Changes::append`].
 ///
 /// # Errors
-/// If a time is not finite and above zero, or an interval does not hold its median.
+/// If a time is not finite and above zero, or an interval does not contain its median.
 pub fn change_points(points: &[Point]) -> Result<Changes, PointError> {
     check(points)?;
     let mut changes = analyze(points);
@@ -46,8 +47,9 @@ pub fn change_points(points: &[Point]) -> Result<Changes, PointError> {
 }
 
 impl Changes {
-    /// Returns the smallest step, as a ratio above 1, that will be found with probability [`crate::POWER`] when so many
-    /// runs have followed it; `None` where no step could be: with fewer than [`MIN_RUNS`] runs before or after.
+    /// Returns the smallest step, as a ratio above 1, that will be found with probability [`crate::POWER`]
+    /// once `after` runs have followed it; `None` if no step could be found, with fewer than [`MIN_RUNS`]
+    /// runs before or after.
     pub fn visible(&self, after: usize) -> Option<f64> {
         let last = self.points.last().map_or(0, |point| point.index);
         let before = self.runs - last;
@@ -55,9 +57,9 @@ impl Changes {
         enough.then(|| Test::of_noise(self.noise, before, after).visible().exp())
     }
 
-    /// Returns the first run that later ones can still matter to: [`Changes::append`] reads none before it.
+    /// Returns the first run that can still matter to later ones: [`Changes::append`] reads none before it.
     ///
-    /// That is the change before the last one that 50 runs or more have followed.
+    /// That is the change before the last one that at least 50 runs have followed.
     pub fn settled(&self) -> usize {
         let ends = self.points.iter().skip(1).map(|point| point.index);
         let ends = ends.chain([self.runs]);
@@ -67,10 +69,10 @@ impl Changes {
         before.map_or(0, |place| self.points[place].index)
     }
 
-    /// The changes of a series that has grown. `all` holds the old runs and the new ones.
+    /// Returns the changes of a series that has grown. `all` contains the old runs and the new ones.
     ///
-    /// Runs before [`Changes::settled`] are not looked at again, so that the cost grows with the runs since then and
-    /// not with the history. Their changes stay as they are.
+    /// Runs before [`Changes::settled`] are not analysed again, so the cost grows with the runs since then
+    /// and not with the history. Their changes stay as they are.
     ///
     /// # Errors
     /// As for [`change_points`].
@@ -102,8 +104,8 @@ impl Changes {
     }
 }
 
-/// The logarithms of a series, of the ruler, and of the series in units of the ruler: as measured, and without a
-/// drift that goes through all of it.
+/// The logarithms of a series, of the ruler, and of the series in units of the ruler: as measured, and
+/// without a drift over the whole series.
 struct Logs {
     measured: Sums,
     measured_ruler: Option<Sums>,
@@ -111,8 +113,8 @@ struct Logs {
     ruled: Option<[Sums; 2]>,
 }
 
-/// The changes of a series, and the series without its drift. What looks like stairs with a drift in each is looked at
-/// again without that drift.
+/// Returns the changes of a series, and the series without its drift. If the series looks like stairs with
+/// the same drift in each step, the changes are found again without that drift.
 fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
     let places = segmentation::places(&sums);
     match sums.without_drift(&places) {
@@ -122,7 +124,7 @@ fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
 }
 
 impl Logs {
-    /// The logarithms, and the changes that they show as measured and in units of the ruler.
+    /// Returns the logarithms, and the changes as measured and in units of the ruler.
     fn new(points: &[Point]) -> (Self, [Vec<usize>; 2]) {
         let times: Vec<f64> = points.iter().map(|p| p.median.ln()).collect();
         let deviations = upper_normal((1.0 - CONFIDENCE) / 2.0);
@@ -156,7 +158,7 @@ impl Logs {
         (logs, [places, hidden])
     }
 
-    /// The tests of a step as measured, in units of the ruler, and of the ruler.
+    /// Returns the tests of a step as measured, in units of the ruler, and of the ruler.
     fn tests(&self, [from, place, to]: [usize; 3]) -> (Test, Option<[Test; 2]>) {
         let raw = segmentation::test(&self.level, from, place, to);
         let ruled = self.ruled.as_ref().map(|[ruled, ruler]| {
@@ -177,7 +179,7 @@ impl Logs {
 fn analyze(points: &[Point]) -> Changes {
     let runs = points.len();
     let (logs, [raw, hidden]) = Logs::new(points);
-    // A machine that changes its pace all the time hides steps of the times, and none in units of the ruler.
+    // A machine whose speed changes constantly hides steps of the times, but not in units of the ruler.
     let mut found: Vec<(usize, bool)> = raw.iter().map(|place| (*place, false)).collect();
     if !hidden.is_empty() {
         let far = |place: &usize| raw.iter().all(|other| place.abs_diff(*other) >= MIN_RUNS);
@@ -201,7 +203,7 @@ fn analyze(points: &[Point]) -> Changes {
     }
 }
 
-/// The place before, the place, and the place after, of each.
+/// Returns, for each change, the previous place, its own place, and the next place.
 fn neighbourhoods(found: &[(usize, bool)], runs: usize) -> Vec<[usize; 3]> {
     let place = |index: usize| found.get(index).map_or(runs, |(place, _)| *place);
     let before = |index: usize| index.checked_sub(1).map_or(0, place);
@@ -210,7 +212,7 @@ fn neighbourhoods(found: &[(usize, bool)], runs: usize) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// The change at a place; `hidden` if it was found in units of the ruler.
+/// Returns the change at a place; `hidden` if it was found in units of the ruler.
 fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
     let [from, place, to] = around;
     let (raw, ruled) = logs.tests(around);
@@ -263,7 +265,7 @@ fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
     found
 }
 
-/// Marks the changes between two levels to which the series returns.
+/// Marks the changes between two levels to which the series keeps returning.
 fn mark_returns(points: &mut [ChangePoint]) {
     let levels: Vec<f64> = points
         .first()
@@ -278,7 +280,7 @@ fn mark_returns(points: &mut [ChangePoint]) {
         let reach = (point.ratio.high / point.ratio.low).ln() / 2.0;
         let near = reach.max(STEP.ln());
         let times = |level: f64| levels.iter().filter(|l| (*l - level).abs() <= near).count();
-        // Both levels within reach of each other say nothing.
+        // If both levels are within reach of each other, returning means nothing.
         let apart = (levels[index + 1] - levels[index]).abs() > 2.0 * near;
         let visits = [levels[index], levels[index + 1]].map(times);
         let open = matches!(point.cause, Cause::NoRuler | Cause::Unclear);

@@ -8,53 +8,55 @@ use crate::series::stretch::Test;
 pub struct ChangePoint {
     /// The first run at the new level, from 0.
     pub index: usize,
-    /// The last run that is before the change and the first that is after it, with a confidence of 99 % where
-    /// the noise is normal: what changed came after the first of the two and not after the second.
+    /// The last run that is certainly before the change and the first that is certainly after it, with a
+    /// confidence of 99 % if the noise is normal: the cause came after the first of the two and not after the
+    /// second.
     pub between: [usize; 2],
-    /// The level before, back to the change before: the geometric mean, single runs that stand out clamped.
+    /// The level before, back to the previous change: the geometric mean, with outliers clamped.
     pub before: f64,
     /// The level after, up to the next change.
     pub after: f64,
-    /// The step as a ratio, after over before. On a line, which drifts before and after, it is the step alone.
+    /// The step as a ratio, after over before. On a line that drifts before and after, it is only the step.
     pub ratio: Ratio,
     /// The same in units of the ruler.
     pub ruled: Option<Ratio>,
-    /// The ruler's own step there.
+    /// The ruler's own step at that run.
     pub ruler: Option<Ratio>,
-    /// The probability with which noise alone has as clear a step at any place of 100 runs.
+    /// The probability that noise alone has as clear a step at any place of 100 runs.
     pub p: f64,
-    /// The smallest step, as a ratio above 1, that is found with probability [`crate::POWER`] between as many runs
-    /// as lie before and after this one, in the noise that they have.
+    /// The smallest step, as a ratio above 1, that is found with probability [`crate::POWER`] with as many
+    /// runs before and after as here, and with their noise.
     pub visible: f64,
     /// The cause.
     pub cause: Cause,
-    /// True if the series goes back and forth between the two levels, four times or more: a machine with two paces that
-    /// the ruler does not feel, or a change that came and went again and again. Never where the ruler tells which.
+    /// True if the series alternates between the two levels at least four times: a machine with two speeds
+    /// that the ruler does not feel, or a change that repeatedly came and went. Never true if the ruler
+    /// identifies the cause.
     pub returns: bool,
 }
 
 impl ChangePoint {
-    /// True if somebody should look: the change is not the machine's, and the series does not go back and forth.
+    /// Returns true if a person should look: the machine is not the cause, and the series does not alternate.
     pub fn is_alarm(&self) -> bool {
         self.cause != Cause::Machine && !self.returns
     }
 }
 
-/// The cause of a change, as far as the ruler tells it.
+/// The cause of a change, according to the ruler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The timed frames stepped, and not the ruler: the driver, or the suite.
+    /// The driver or the suite: the timed frames stepped, and the ruler did not.
     Driver,
-    /// The machine: the ruler steps the same way, and by more than half as much.
+    /// The machine: the ruler stepped the same way, by more than half as much.
     Machine,
-    /// Either: the ruler is too unsteady to tell.
+    /// Driver or machine: the ruler is too unsteady to decide.
     Unclear,
-    /// Either: some run has no ruler.
+    /// Driver or machine: some run has no ruler.
     NoRuler,
 }
 
 impl Cause {
-    /// The words in reports.
+    /// Returns the words for reports.
     pub fn text(self) -> &'static str {
         match self {
             Self::Driver => "the ruler stayed where it was",
@@ -64,7 +66,8 @@ impl Cause {
         }
     }
 
-    /// The cause of a step as measured, in units of the ruler, and of the ruler itself.
+    /// Returns the cause of a step from its tests as measured, in units of the ruler, and of the ruler
+    /// itself.
     pub(super) fn of(raw: &Test, ruled: &Test, ruler: &Test) -> Self {
         let clear = |test: &Test| test.shift.abs() > test.reach();
         let beyond = raw.shift.abs() >= BEYOND_RULER * ruler.shift.abs();
@@ -81,7 +84,7 @@ impl Cause {
     }
 }
 
-/// A stretch without a step whose times climb or fall slowly.
+/// A stretch without a step whose times slowly rise or fall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
     /// The first run.
@@ -90,11 +93,11 @@ pub struct Drift {
     pub to: usize,
     /// The change from the first run to the last as a ratio, along a line.
     pub ratio: Ratio,
-    /// True if the ruler drifts the same way, and by more than half as much.
+    /// True if the ruler drifts the same way, by more than half as much.
     pub machine: bool,
 }
 
-/// The ratio of a shift of logarithms.
+/// Returns the ratio of a shift of logarithms.
 pub(super) fn ratio(test: &Test) -> Ratio {
     let reach = test.reach();
     Ratio {

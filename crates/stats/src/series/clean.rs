@@ -1,26 +1,26 @@
-//! Single runs that stand out, brought back to their neighbours.
+//! Outliers, clamped towards their neighbours.
 //!
-//! A value is clamped to [`REACH`] deviations about the median of [`WINDOW`] runs around it. That leaves
-//! steps where they are, since a stretch of four runs or more is the majority of its own window, and
-//! takes the weight from one to three disturbed runs in a row. The deviation comes from differences of
-//! neighbours, which a step or a drift hardly touches.
+//! A value is clamped to [`REACH`] deviations around the median of the [`WINDOW`] runs around it. Steps stay,
+//! since a stretch of at least four runs is the majority of its own window, and one to three disturbed runs
+//! in a row lose their weight. The deviation comes from differences of neighbours, which a step or a drift
+//! hardly affects.
 
 use crate::samples::quantile;
 
-/// Runs whose median a value is held against.
+/// The number of runs in the window whose median a value is compared with.
 const WINDOW: usize = 7;
-/// Deviations that a value may lie from it.
+/// The number of deviations that a value can be away from that median.
 const REACH: f64 = 3.5;
-/// The quantile of differences that stands for the deviation. Up to an eighth of all runs may be
-/// disturbed before it rises; the two paces of a machine that changes more often than that raise it, and
-/// neither is clamped.
+/// The quantile of differences from which the deviation is computed. Up to an eighth of all runs can be
+/// disturbed before it rises. If a machine switches between two speeds more often than that, the switches
+/// raise it, and neither speed is clamped.
 const QUANTILE: f64 = 0.75;
-/// That quantile of the size of a standard normal variable.
+/// The same quantile of the magnitude of a standard normal variable.
 const NORMAL: f64 = 1.150_349;
-/// The least deviation, as a logarithm: medians of times are no finer.
+/// The minimum deviation, as a logarithm: medians of times are no finer.
 pub(super) const FLOOR: f64 = 1e-4;
 
-/// The values with those clamped that stand out.
+/// Returns the values with outliers clamped.
 pub(super) fn clean(values: &[f64]) -> Vec<f64> {
     let reach = REACH * deviation(values);
     let half = WINDOW / 2;
@@ -35,7 +35,7 @@ pub(super) fn clean(values: &[f64]) -> Vec<f64> {
     clamped.collect()
 }
 
-/// The deviation of values by the differences of neighbours.
+/// Returns the deviation of values, from the differences of neighbours.
 fn deviation(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
     sizes.sort_unstable_by(f64::total_cmp);

@@ -1,10 +1,10 @@
-//! The place at which a stretch falls into two that differ the most.
+//! The place that divides a stretch into the two parts that differ the most.
 //!
-//! The energy distance of Matteson and James (2014) between what lies before a place and what lies after
-//! it, with exponent 1. Sums of distances between values on a line need no pairs: a Fenwick tree over
-//! ranks keeps count and sum of what was seen, so that all places of n values take n log n steps.
+//! The measure is the energy distance of Matteson and James (2014) between the parts before and after a
+//! place, with exponent 1. Sums of distances between numbers need no pairs: a Fenwick tree over ranks keeps
+//! count and sum of the values so far, so all places of n values take n log n steps.
 
-/// The place from `least` to `len - least` that divides the values best, if there is one.
+/// Returns the place from `least` to `len - least` that divides the values best, if there is one.
 pub(super) fn best_place(values: &[f64], least: usize) -> Option<usize> {
     let n = values.len();
     let last = n.checked_sub(least).filter(|last| *last >= least)?;
@@ -25,7 +25,7 @@ pub(super) fn best_place(values: &[f64], least: usize) -> Option<usize> {
     best.1
 }
 
-/// The sum of the distances of all pairs among the first k values, for each k.
+/// Returns, for each k, the sum of the distances of all pairs among the first k values.
 fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.clone().copied().collect();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -45,7 +45,7 @@ fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64
     sums
 }
 
-/// Counts and sums of the values seen, by rank from 1.
+/// Counts and sums of the values so far, by rank from 1.
 struct Seen(Vec<(f64, f64)>);
 
 impl Seen {
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
     use oorandom::Rand64;
 
-    /// The same by the definition.
+    /// Returns the divergence at a place, directly by its definition.
     fn divergence(values: &[f64], place: usize) -> f64 {
         let (before, after) = values.split_at(place);
         let mean = |a: &[f64], b: &[f64]| {

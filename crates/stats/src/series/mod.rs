@@ -1,9 +1,9 @@
 //! Change points of one series of times over runs.
 //!
-//! E-divisive means with Student's test in place of permutations, as in Hunter (Fleming et al. 2023), so
-//! that the same series gives the same changes. Beyond it: single runs that stand out have no weight, a
-//! slow drift is told from a staircase, the level allows for the choice of the place and for neighbours
-//! that resemble each other, and the ruler tells the machine's steps from the others.
+//! E-divisive means with Student's test in place of permutations, as in Hunter (Fleming et al. 2023), so that
+//! the same series always gives the same changes. In addition, outliers have no weight, a slow drift is
+//! distinguished from a staircase, the level accounts for the choice of the place and for correlated
+//! neighbours, and the ruler distinguishes the machine's steps from others.
 
 mod analysis;
 mod change;

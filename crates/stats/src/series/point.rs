@@ -1,4 +1,4 @@
-//! Points of a series, one for each run.
+//! Points of a series, one per run.
 
 use crate::samples::{Samples, quantile};
 use crate::summary::summarize;
@@ -9,9 +9,10 @@ use thiserror::Error;
 pub struct Point {
     /// The median of the run's rounds, in seconds or any other unit.
     pub median: f64,
-    /// Its interval with a confidence of [`crate::CONFIDENCE`], where there were enough rounds.
+    /// Its interval with a confidence of [`crate::CONFIDENCE`], if there were enough rounds.
     pub interval: Option<[f64; 2]>,
-    /// The median of the ruler's times in that run: fixed work that was timed beside.
+    /// The median of the ruler's times in that run. The ruler is fixed work that is timed along with the
+    /// frames.
     pub ruler: Option<f64>,
 }
 
@@ -28,20 +29,20 @@ impl From<&Samples> for Point {
     }
 }
 
-/// The reasons why points are no series.
+/// The reason why points are not a valid series.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum PointError {
     /// A time is not above zero.
-    #[error("run {index} of the series holds a time of {time} s")]
+    #[error("run {index} of the series has a time of {time} s")]
     Time {
         /// The point, from 0.
         index: usize,
         /// The time.
         time: f64,
     },
-    /// An interval does not hold its median.
+    /// An interval does not contain its median.
     #[error(
-        "run {index} of the series has an interval from {low} to {high} s, outside of its median"
+        "run {index} of the series has an interval from {low} to {high} s, which does not contain its median"
     )]
     Interval {
         /// The point, from 0.

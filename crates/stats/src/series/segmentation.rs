@@ -1,28 +1,28 @@
-//! Where a series changes: weak changes first, then the removal of those that do not hold.
+//! Where a series changes: finds weak changes first, then removes those without enough evidence.
 //!
-//! As in Hunter (Fleming et al. 2023), the divisive search of Matteson and James (2014) goes over
-//! windows of a fixed length, so that two changes near each other do not hide one another in a long
-//! series, and takes all places at a lenient level. Then the weakest that fails the strict test between
-//! its neighbours is removed, and its neighbours are tested again, until all hold. What is only visible
-//! over more runs than a window has is looked for afterwards, in each stretch as a whole.
+//! As in Hunter (Fleming et al. 2023), the divisive search of Matteson and James (2014) goes over windows of
+//! a fixed length, so that two nearby changes do not hide each other in a long series, and takes all places
+//! at a lenient level. Then the weakest change that fails the strict test between its neighbours is removed,
+//! and its neighbours are tested again, until all pass. Changes that need more runs than a window to be
+//! visible are searched for afterwards, in each stretch as a whole.
 
 use super::divergence::best_place;
 use super::stretch::{MIN_RUNS, STEP, Sums, Test};
 use crate::compare::LEVEL;
 use std::collections::BTreeSet;
 
-/// Runs of a window.
+/// The number of runs in a window.
 pub(super) const WINDOW: usize = 50;
 /// The level of weak changes.
 const WEAK: f64 = 0.05;
-/// Rounds of search and removal, of which two or three are needed.
+/// The maximum number of rounds of search and removal; two or three suffice.
 const ROUNDS: usize = 8;
 
-/// The places of all changes, ascending.
+/// Returns the places of all changes, ascending.
 pub(super) fn places(sums: &Sums) -> Vec<usize> {
     let runs = sums.values().len();
     let mut found = BTreeSet::new();
-    // From both ends, so that a series backwards has the same changes.
+    // From both ends, so that the reversed series has the same changes.
     for start in (0..runs).step_by(WINDOW / 2) {
         let end = (start + WINDOW).min(runs);
         split(sums, start, end, WEAK, &mut found);
@@ -47,7 +47,7 @@ pub(super) fn places(sums: &Sums) -> Vec<usize> {
     found.into_iter().collect()
 }
 
-/// The test by which a change between its neighbours is one: that of two levels, or on a line, where a line says more.
+/// Returns the test of a change between its neighbours: for two levels, or on a line if a line fits better.
 pub(super) fn test(sums: &Sums, from: usize, place: usize, to: usize) -> Test {
     if sums.is_rather_a_line(from, place, to) {
         sums.step_of_line(from, place, to)
@@ -62,7 +62,7 @@ fn split(sums: &Sums, from: usize, to: usize, level: f64, found: &mut BTreeSet<u
         return;
     };
     let place = from + place;
-    // Neighbours resemble each other where a stretch holds further changes; the strict test allows for it.
+    // Neighbours correlate if a stretch contains further changes; the strict test corrects for that.
     if sums.plain_step(from, place, to).p() > level {
         return;
     }
@@ -79,7 +79,7 @@ struct Candidate {
     evidence: f64,
 }
 
-/// Removes the weakest change that does not hold until all do.
+/// Removes the weakest change that fails its test, until all pass.
 fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
     let runs = sums.values().len();
     let mut places: Vec<usize> = found.iter().copied().collect();
@@ -95,7 +95,8 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
         };
         candidates.remove(weakest_index);
         places.remove(weakest_index);
-        // Those too near to each other look past one another, so that more than two may see the gap.
+        // Changes too near to each other are tested against farther ones, so removing one can affect more
+        // than two.
         let near =
             weakest_index.saturating_sub(MIN_RUNS)..places.len().min(weakest_index + MIN_RUNS);
         for (index, candidate) in near.clone().zip(&mut candidates[near]) {
@@ -105,8 +106,8 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
     *found = candidates.into_iter().map(|c| c.place).collect();
 }
 
-/// Judges a change between the nearest that are far enough from it. Of those that are too near to each other
-/// the one with the most evidence remains.
+/// Tests a change between the nearest changes that are far enough from it. Out of changes that are too near
+/// to each other, the one with the most evidence remains.
 fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> Candidate {
     let place = places[index];
     let before = places[..index].iter().rev();

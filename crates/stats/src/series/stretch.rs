@@ -1,4 +1,4 @@
-//! Tests of one place between two stretches of a series, from running sums.
+//! Tests of a place between two stretches of a series, from running sums.
 
 use super::clean::FLOOR;
 use crate::compare::LEVEL;
@@ -6,15 +6,15 @@ use crate::rank::upper_normal;
 use crate::student::{least, quantile, two_sided};
 use crate::visible::POWER;
 
-/// The fewest runs on each side of a change. Three in a row are a disturbance.
+/// The minimum number of runs on each side of a change. Three in a row are a disturbance.
 pub const MIN_RUNS: usize = 4;
 
-/// The least step, as a ratio, that is reported as a change of a series. Over many runs smaller ones can be
-/// told from noise, and say as little as those below [`crate::MINIMUM`] do between two benches. It is half of
-/// that, so that a step of 1 % is found more often than not.
+/// The minimum step, as a ratio, that is reported as a change of a series. Over many runs, smaller steps can
+/// be distinguished from noise, but mean as little as changes below [`crate::MINIMUM`] between two benches.
+/// It is half of that, so that a step of 1 % is usually found.
 pub const STEP: f64 = 1.005;
 
-/// The runs for which [`LEVEL`] is the probability of a false change.
+/// The number of runs for which [`LEVEL`] is the probability of a false change.
 pub(super) const PER_RUNS: f64 = 100.0;
 
 /// The largest correlation of neighbours that is corrected for.
@@ -24,9 +24,9 @@ const MOST_CORRELATION: f64 = 0.9;
 pub(super) struct Sums {
     value: Vec<f64>,
     square: Vec<f64>,
-    /// Products with the index.
+    /// Products of values with their index.
     by_index: Vec<f64>,
-    /// Products of a value and its successor.
+    /// Products of a value and the next one.
     by_next: Vec<f64>,
     /// Squares of the standard errors within runs.
     error: Vec<f64>,
@@ -42,7 +42,7 @@ struct Moments {
     /// The mean index.
     middle: f64,
     squares: f64,
-    /// The sum of products of value and index, and that of squares of the index.
+    /// The sum of products of value and index, and the sum of squares of the index.
     by_index: f64,
     index_squares: f64,
     /// The sum of products of neighbours.
@@ -53,33 +53,33 @@ struct Moments {
 /// A shift with its test.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Test {
-    /// By how much the logarithm steps.
+    /// The step of the logarithm.
     pub(super) shift: f64,
     /// Its standard error.
     pub(super) error: f64,
     /// Degrees of freedom of the error.
     pub(super) freedom: f64,
-    /// The runs among which the place was chosen.
+    /// The number of runs among which the place was chosen.
     runs: f64,
 }
 
 impl Test {
-    /// The probability of a shift as clear, at a place given in advance: Student's test.
+    /// Returns the probability of an equally clear shift at a place given in advance: Student's test.
     pub(super) fn p(&self) -> f64 {
         two_sided(self.shift.abs() / self.error, self.freedom)
     }
 
-    /// The same at some place of [`PER_RUNS`] runs.
+    /// Returns that probability for any place of [`PER_RUNS`] runs.
     pub(super) fn p_of_any_place(&self) -> f64 {
         of_any_place(self.p(), self.runs)
     }
 
-    /// Half the length of the interval of the shift with a confidence of 1 - [`LEVEL`].
+    /// Returns half the length of the interval of the shift with a confidence of 1 - [`LEVEL`].
     pub(super) fn reach(&self) -> f64 {
         quantile(LEVEL, self.freedom) * self.error
     }
 
-    /// The test of a step between so many runs of a noise and so many after.
+    /// Returns the test of a step with these numbers of runs before and after, given the noise.
     pub(super) fn of_noise(noise: f64, before: usize, after: usize) -> Self {
         let (m, n) = (before as f64, after as f64);
         Self {
@@ -90,22 +90,22 @@ impl Test {
         }
     }
 
-    /// The size of a step that is found with probability [`POWER`] where noise is as large as here.
+    /// Returns the size of a step that is found with probability [`POWER`] in noise like this.
     pub(super) fn visible(&self) -> f64 {
         let found = |t: f64| of_any_place(two_sided(t, self.freedom), self.runs) <= LEVEL;
-        // As for two benches, the deviation that a few runs show is taken for one on the safe side of it.
+        // As for two benches, the deviation estimated from a few runs is increased to be safe.
         let error = self.error * (1.0 + 1.0 / (2.0 * self.freedom).sqrt());
         let bound = (least(found) * error).max(STEP.ln());
         bound + upper_normal(1.0 - POWER) * error
     }
 }
 
-/// The probability that the clearest of all places among `runs` has a test with a probability of at most
-/// `p`, once for each such stretch in [`PER_RUNS`] runs.
+/// Returns the probability that the clearest place among `runs` has a test with a probability of at most `p`,
+/// given one such stretch in every [`PER_RUNS`] runs.
 ///
 /// The tests of neighbouring places depend on each other; over all places they behave like an
-/// Ornstein–Uhlenbeck process over the logarithm of the odds of the place. The probability that this
-/// exceeds a bound is that of Csörgő and Horváth (1997, 1.3.26).
+/// Ornstein–Uhlenbeck process over the logarithm of the odds of the place. The probability that this exceeds
+/// a bound is given by Csörgő and Horváth (1997, 1.3.26).
 fn of_any_place(p: f64, runs: f64) -> f64 {
     if p < 1e-290 {
         return 0.0;
@@ -119,7 +119,7 @@ fn of_any_place(p: f64, runs: f64) -> f64 {
 }
 
 impl Sums {
-    /// Sums of logarithms, with the standard error of each within its run.
+    /// Returns the sums of logarithms, with the standard error of each within its run.
     pub(super) fn new(values: Vec<f64>, errors: &[f64]) -> Self {
         let sums = |each: &dyn Fn(usize) -> f64| {
             let mut sum = 0.0;
@@ -142,7 +142,7 @@ impl Sums {
         }
     }
 
-    /// The same without the slope that all stretches between places have in common, if there is one.
+    /// Returns the sums without the slope that all stretches between places share, if there is one.
     pub(super) fn without_drift(&self, places: &[usize]) -> Option<Self> {
         let mut from = 0;
         let (mut by_index, mut index_squares, mut squares, mut by_next, mut error) =
@@ -175,12 +175,12 @@ impl Sums {
         })
     }
 
-    /// All values.
+    /// Returns all values.
     pub(super) fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The mean of a stretch.
+    /// Returns the mean of a stretch.
     pub(super) fn mean(&self, from: usize, to: usize) -> f64 {
         (self.value[to] - self.value[from]) / (to - from) as f64
     }
@@ -210,7 +210,7 @@ impl Sums {
         self.moments(from, to).squares
     }
 
-    /// The deviation of a run's value in stretches between places.
+    /// Returns the deviation of a run's value, in stretches between places.
     pub(super) fn noise(&self, places: &[usize]) -> f64 {
         let runs = self.values.len();
         let mut sums = [0.0; 3];
@@ -233,17 +233,18 @@ impl Sums {
         .sqrt()
     }
 
-    /// The step at a place between two levels, of runs that do not depend on each other.
+    /// Returns the step at a place between two levels, for independent runs.
     pub(super) fn plain_step(&self, from: usize, place: usize, to: usize) -> Test {
         self.step_with(from, place, to, 0.0)
     }
 
-    /// The step at a place between two levels.
+    /// Returns the step at a place between two levels.
     pub(super) fn step(&self, from: usize, place: usize, to: usize) -> Test {
         self.step_with(from, place, to, 1.0)
     }
 
-    /// The step at a place; `dependence` is the share of neighbours' resemblance that is allowed for.
+    /// Returns the step at a place; `dependence` is the share of the neighbours' correlation that is
+    /// corrected for.
     fn step_with(&self, from: usize, place: usize, to: usize, dependence: f64) -> Test {
         let (a, b) = (self.moments(from, place), self.moments(place, to));
         let runs = a.runs + b.runs;
@@ -263,7 +264,7 @@ impl Sums {
         }
     }
 
-    /// The step at a place of a line.
+    /// Returns the step at a place of a line.
     pub(super) fn step_of_line(&self, from: usize, place: usize, to: usize) -> Test {
         let (a, b) = (self.moments(from, place), self.moments(place, to));
         let runs = a.runs + b.runs;
@@ -289,14 +290,14 @@ impl Sums {
         }
     }
 
-    /// True if a line through all runs leaves less than two levels with a step between.
+    /// Returns true if a line through all runs fits better than two levels with a step between them.
     pub(super) fn is_rather_a_line(&self, from: usize, place: usize, to: usize) -> bool {
         let levels = self.squares(from, place) + self.squares(place, to);
         let moments = self.moments(from, to);
         moments.squares - moments.by_index * moments.by_index / moments.index_squares < levels
     }
 
-    /// The test of the slope of a stretch: by how much it climbs from its first run to its last.
+    /// Returns the test of the slope of a stretch: its rise from the first run to the last.
     pub(super) fn climb(&self, from: usize, to: usize) -> Test {
         let moments = self.moments(from, to);
         let slope = moments.by_index / moments.index_squares;
@@ -314,8 +315,9 @@ impl Sums {
         }
     }
 
-    /// The first and the last place that a step between two neighbours may have as well, with a confidence of 99 %:
-    /// those whose likelihood ratio to the best is not above Yao's (1987) distribution of it.
+    /// Returns the first and the last place that a step between two neighbours could also have, with a
+    /// confidence of 99 %: the places whose likelihood ratio to the best is not above Yao's (1987)
+    /// distribution of it.
     pub(super) fn places(&self, from: usize, place: usize, to: usize) -> [usize; 2] {
         let left = |p: usize| self.squares(from, p) + self.squares(p, to);
         let best = left(place);
@@ -327,12 +329,12 @@ impl Sums {
         [first, open.next_back().unwrap_or(place).max(place)]
     }
 
-    /// The place between two neighbours that leaves the least of the squares.
+    /// Returns the place between two neighbours that leaves the smallest sum of squares.
     pub(super) fn best_place(&self, from: usize, place: usize, to: usize) -> usize {
         let left = |p: usize| self.squares(from, p) + self.squares(p, to);
         let mut best = (left(place), place);
         for other in from + MIN_RUNS..=to - MIN_RUNS {
-            // What sums lose in digits moves no place.
+            // Rounding errors of the sums must not move a place.
             let squares = left(other);
             if squares < best.0 - 1e-12 {
                 best = (squares, other);
@@ -342,9 +344,9 @@ impl Sums {
     }
 }
 
-/// The variance of a run's value, enlarged where neighbours resemble each other: then each tells less.
+/// Returns the variance of a run's value, enlarged if neighbours correlate, since each then says less.
 ///
-/// It is never below what the intervals within runs say, so that a few runs that happen to agree do not
+/// It is never below what the intervals within runs imply, so that a few runs that happen to agree do not
 /// count as exact.
 fn variance(squares: f64, by_next: f64, error: f64, runs: f64, freedom: f64) -> f64 {
     let measured = squares / freedom;
@@ -353,7 +355,7 @@ fn variance(squares: f64, by_next: f64, error: f64, runs: f64, freedom: f64) -> 
     } else {
         0.0
     };
-    // Of independent runs it is this small nearly always.
+    // For independent runs, the correlation is almost always this small.
     let correlation = if correlation > 2.0 / runs.sqrt() {
         correlation.min(MOST_CORRELATION)
     } else {
@@ -422,7 +424,7 @@ mod tests {
 
     #[test]
     fn the_clearest_place_of_noise_keeps_its_level() {
-        // The approximation may err on the side of fewer false changes, and not much on the other.
+        // The approximation can have fewer false changes, but not many more.
         let (mut found, trials) = (0.0, 4000);
         let runs = 100;
         let mut random = Rand64::new(9);
