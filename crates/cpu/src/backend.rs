@@ -1,4 +1,11 @@
 //! The rasterizer as an adapter with its limits.
+//!
+//! It draws a scene in one of two ways, with equal bits. The span code draws every scene, on the calling thread. The
+//! tiles draw scenes of 64 by 64 texels or more whose draws all have kernels, on several threads. A tile keeps a range
+//! around its depths and one around its stencil values, and a test that these decide costs nothing per texel.
+//!
+//! `etalon show CASE --kernels` lists the kernels. Planted bugs replace steps of the span code, so `etalon mutants`
+//! uses it alone.
 
 use crate::linear::SUB_PIXEL_BITS;
 use crate::prepared::PreparedScene;
