@@ -2,7 +2,7 @@
 
 use etalon_diagnose::Match;
 
-/// Returns the reason for which a finding was named.
+/// Returns the reason why a failure matches a finding.
 pub(crate) fn why(found: &Match) -> String {
     let Match { case, states, .. } = found;
     let Some(beyond) = &found.beyond else {
@@ -20,7 +20,7 @@ pub(crate) fn why(found: &Match) -> String {
     text
 }
 
-/// Returns what the description of a case file says of a finding.
+/// Returns the sentence about a finding in a case file's description.
 pub(crate) fn match_sentence(found: &Match) -> String {
     let Match { finding, title, .. } = found;
     let word = if found.is_exact() {

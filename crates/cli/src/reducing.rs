@@ -1,4 +1,4 @@
-//! The way from a case that fails on an adapter to the smallest one that fails in the same way.
+//! Reduces a case that fails on an adapter to the smallest one that fails in the same way.
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
@@ -15,11 +15,11 @@ use etalon_runner::{Launch, Trials, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
-/// either is no steady one.
+/// The number of processes that draw a case at the start, and the number of drawings in each. A failure that
+/// depends on either is not steady.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
-/// The processes of a case that does not end, each of which costs its time.
+/// The number of processes for a case that hangs; each costs the full time limit.
 const HUNG: usize = 2;
 
 /// A reduced case.
@@ -35,7 +35,7 @@ pub(crate) struct Smallest {
     pub(crate) seconds: f64,
 }
 
-/// A case that fails on an adapter, as a user names both.
+/// Flags that name a failing case and its adapter.
 #[derive(Debug, Args)]
 pub(crate) struct FailingArguments {
     #[command(flatten)]
@@ -43,22 +43,22 @@ pub(crate) struct FailingArguments {
     /// Id of the case
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
-    /// The adapter on which it fails
+    /// Adapter on which the case fails
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: String,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
-    /// Seconds that a case may take
+    /// Time limit of a case in seconds
     #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
     timeout: f64,
-    /// Form of the summary
+    /// Format of the summary
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
 impl FailingArguments {
-    /// Returns the time that a case may take.
+    /// Returns the time limit of a case.
     pub(crate) fn timeout(&self) -> Duration {
         Duration::from_secs_f64(self.timeout)
     }
@@ -69,7 +69,7 @@ impl FailingArguments {
     }
 }
 
-/// A case that is to be reduced, and the adapter on which it fails.
+/// A case to reduce, and the adapter on which it fails.
 pub(crate) struct Failing {
     /// The name of its file, which is also its id.
     pub(crate) name: String,
@@ -188,7 +188,7 @@ pub(crate) fn start(adapter: &String, file: Option<&Path>) -> Result<(Launch, Wo
     })
 }
 
-/// Starts the worker of the adapter that a query names.
+/// Starts the worker of the first adapter that a query finds.
 pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
     let names = query.names;
     let adapters = discover(&query)?;
@@ -199,7 +199,7 @@ pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
         .ok_or_else(|| Failure::usage(format!("adapter {} cannot be used", names.join(", "))))
 }
 
-/// The outcome of repeated drawings of a case.
+/// The result of drawing a case repeatedly.
 enum Repetitions {
     /// It fails in the same way every time.
     Steady(Box<(Worker, Record, Symptom)>),
@@ -209,7 +209,7 @@ enum Repetitions {
     Flaky(String),
 }
 
-/// Draws a case several times in several processes, each time alone; once in each that it ends.
+/// Draws a case several times in each of several processes; only once in a process that it ends.
 fn repeat(
     launch: &Launch,
     first: Worker,

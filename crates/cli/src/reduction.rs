@@ -1,7 +1,7 @@
-//! Reductions on a driver: the judge as oracle.
+//! Reductions on a driver, with the judge as oracle.
 //!
-//! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
-//! way. Each such candidate costs a process, and each that hangs its time.
+//! A case that crashes or hangs its worker is reduced like one that is drawn wrong: a candidate must end its
+//! worker in the same way. Each such candidate costs a process, and each hanging one the time limit.
 
 use crate::failure::Failure;
 use etalon_case::{Case, CaseRef, build};
@@ -14,7 +14,8 @@ use serde_json::Value;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
+/// Returns the name of a reduced case's file, which is also its id. Characters that ids cannot have become
+/// `-`.
 pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     let word = |text: &str| -> String {
         let letters = text.chars();
@@ -33,16 +34,16 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
 
 /// The time that a case may take.
 pub(crate) const TIMEOUT: &str = "20";
-/// The time of a candidate, if the case does not end.
+/// The time limit of a candidate if the original case hangs.
 const HUNG_TIME: Duration = Duration::from_secs(2);
-/// The most keys of a scene that is reduced for a comparison.
+/// The largest number of keys of a scene that is reduced for a comparison.
 const MOST_KEYS: usize = 600;
 
-/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
-/// was drawn before.
+/// The largest number of draws of a reduction. 95 % of reductions need fewer than 260; most of the others
+/// depend on earlier drawings.
 const DRAWS: usize = 400;
 
-/// Draws a reduced case in a fresh process.
+/// Draws a reduced case in a new process. Fails if the case does not fail in the same way there.
 pub(crate) fn confirm(
     launch: &Launch,
     case: &Case,
@@ -59,7 +60,7 @@ pub(crate) fn confirm(
     }
 }
 
-/// Returns the sentence on a case that fails in another way, or not at all, when it is drawn alone.
+/// Returns the message about a case that, drawn alone, fails in a different way or not at all.
 fn unconfirmed(before: &Symptom, alone: &Symptom) -> String {
     if alone.verdict.is_bad() {
         return format!(
@@ -72,7 +73,7 @@ fn unconfirmed(before: &Symptom, alone: &Symptom) -> String {
     )
 }
 
-/// The judge as oracle, with a driver's frames; of a case that ends its worker, the way in which it does.
+/// An oracle that draws candidates on a driver and compares their symptoms.
 pub(crate) struct DriverOracle<'a> {
     pub(crate) trials: Trials,
     /// The symptom of the smallest case so far, and its record.
@@ -81,13 +82,13 @@ pub(crate) struct DriverOracle<'a> {
     pub(crate) error: Option<String>,
     /// Set when the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// Starts the process in which each candidate that fails is drawn once more, alone: for drivers on which a failure
-    /// leaves something behind that makes the next case fail.
+    /// If set, each failing candidate is drawn again alone, in a process that this starts. Needed if a
+    /// failure leaves the driver in a state that makes the next case fail.
     pub(crate) alone: Option<Launch>,
 }
 
 impl<'a> DriverOracle<'a> {
-    /// An oracle on a case with this record. A case may take as long as `timeout`.
+    /// Makes an oracle for a case with this record. `timeout` is the time limit of a case.
     pub(crate) fn new(
         mut trials: Trials,
         record: Record,
@@ -110,7 +111,7 @@ impl<'a> DriverOracle<'a> {
         }
     }
 
-    /// Reduces the case with so many draws at most.
+    /// Reduces the case with at most `draws` draws.
     pub(crate) fn reduce(
         &mut self,
         failing: Candidate,
@@ -170,16 +171,16 @@ impl Oracle for DriverOracle<'_> {
     }
 }
 
-/// A failing scene that was looked at.
+/// A failing scene after its reduction.
 pub(crate) struct Looked {
-    /// What is left of it.
+    /// The reduced scene; the whole one if it was not reduced.
     pub(crate) scene: Candidate,
     pub(crate) record: Record,
     pub(crate) symptom: Symptom,
     pub(crate) key: Key,
 }
 
-/// Reduces cases on one driver, whose worker is started when it is needed.
+/// Reduces cases on one driver; starts its worker on demand.
 pub(crate) struct Reducer<'a> {
     pub(crate) launch: Launch,
     pub(crate) limits: Limits,
@@ -210,14 +211,14 @@ impl<'a> Reducer<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Returns an oracle on a case with this record, which is to be given back.
+    /// Returns an oracle for a case with this record. Return it with [`Self::give_back`].
     pub(crate) fn oracle(&mut self, record: Record) -> Result<DriverOracle<'a>, Failure> {
         let trials = self.trials()?;
         let stop = Some(self.stop);
         Ok(DriverOracle::new(trials, record, self.timeout, stop))
     }
 
-    /// Keeps the worker of an oracle for the next one.
+    /// Keeps an oracle's worker for the next oracle.
     pub(crate) fn give_back(&mut self, oracle: DriverOracle<'_>) -> Result<(), Failure> {
         if let Some(error) = oracle.error {
             let adapter = &self.launch.adapter;
@@ -229,7 +230,7 @@ impl<'a> Reducer<'a> {
         Ok(())
     }
 
-    /// Reduces a failing scene, if it fails by itself.
+    /// Reduces a failing scene if it fails again when drawn alone.
     pub(crate) fn look(
         &mut self,
         scene: Candidate,
@@ -287,7 +288,7 @@ impl<'a> Driver for Reducer<'a> {
     }
 
     fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, Failure> {
-        // A case may need all that it reads.
+        // Reading fewer attachments can make a case invalid.
         let Ok(case) = build("found/known", document) else {
             return Ok(None);
         };
