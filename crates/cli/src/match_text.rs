@@ -6,9 +6,9 @@ use etalon_diagnose::Match;
 pub(crate) fn why(found: &Match) -> String {
     let Match { case, states, .. } = found;
     let Some(beyond) = &found.beyond else {
-        return format!("{case}, reduced, leaves the same states and violation");
+        return format!("{case} reduces to the same states and violation");
     };
-    let mut text = format!("has what is left of {case} ({states})");
+    let mut text = format!("matches the reduced {case} ({states})");
     if let Some(violation) = &beyond.violation {
         text.push_str(&format!(", which violates {violation}"));
     }
