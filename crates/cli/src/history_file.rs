@@ -40,7 +40,7 @@ impl LabelArguments {
     /// The labels.
     ///
     /// # Errors
-    /// When a text is no label.
+    /// If a text is not a label.
     pub(crate) fn labels(&self) -> Result<Labels, Failure> {
         parse_labels(&self.texts).map_err(Failure::usage)
     }
@@ -69,7 +69,7 @@ impl OnlyArguments {
     /// The labels.
     ///
     /// # Errors
-    /// When a text is no label.
+    /// If a text is not a label.
     pub(crate) fn labels(&self) -> Result<Labels, Failure> {
         parse_labels(&self.texts).map_err(Failure::usage)
     }

@@ -32,7 +32,7 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     format!("{}.{}", word(case), word(adapter))
 }
 
-/// The time that a case may take.
+/// The default time limit of a case in seconds.
 pub(crate) const TIMEOUT: &str = "20";
 /// The time limit of a candidate if the original case hangs.
 const HUNG_TIME: Duration = Duration::from_secs(2);
@@ -80,7 +80,7 @@ pub(crate) struct DriverOracle<'a> {
     pub(crate) symptom: Symptom,
     pub(crate) record: Record,
     pub(crate) error: Option<String>,
-    /// Set when the search is being stopped.
+    /// True once the search is being stopped.
     stop: Option<&'a AtomicBool>,
     /// If set, each failing candidate is drawn again alone, in a process that this starts. Needed if a
     /// failure leaves the driver in a state that makes the next case fail.
@@ -184,9 +184,9 @@ pub(crate) struct Looked {
 pub(crate) struct Reducer<'a> {
     pub(crate) launch: Launch,
     pub(crate) limits: Limits,
-    /// The time that a case may take.
+    /// The time limit of a case.
     pub(crate) timeout: Duration,
-    /// Set when the search is being stopped.
+    /// True once the search is being stopped.
     pub(crate) stop: &'a AtomicBool,
     trials: Option<Trials>,
 }
