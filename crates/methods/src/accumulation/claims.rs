@@ -17,7 +17,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["columns-alpha"]),
     Claim::new(
         QUESTION,
-        "The error of blending into 8 bits grows with the number of layers.",
+        "The error of blending into 8 bits grows with the layers.",
         "Closed form: half a code per layer, of which 1 - alpha is left by every later one",
         Test::Trend {
             quantity: Quantity::Largest,

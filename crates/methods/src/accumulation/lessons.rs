@@ -6,25 +6,25 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "ordered-8-bit",
         "Layers are blended into 8 bits per channel.",
-        "Each layer rounds by up to half a code, and the next keeps 1 - alpha of that error: in the end it is half a code over alpha.",
+        "Each layer rounds by up to half a code, of which one less alpha is left by the next: in the end half a code over alpha.",
         "Porter and Duff 1984, Compositing Digital Images",
     ),
     Lesson::new(
         "ordered-10-bit",
         "Layers are blended into 10 bits per channel.",
-        "The error of 8 bits, a quarter as large; alpha has only 2 bits.",
+        "As with 8 bits, a quarter as large; alpha has 2 bits.",
         "Vulkan: Blending",
     ),
     Lesson::new(
         "ordered-half",
-        "Layers are blended into 16-bit floats.",
+        "Layers are blended into floats of 16 bits.",
         "Eleven bits of precision near 1, more near 0.",
         "Vulkan: Blending",
     ),
     Lesson::new(
         "ordered-float",
-        "Layers are blended into 32-bit floats.",
-        "The error is below any step of a display; the attachment takes four times the memory.",
+        "Layers are blended into floats of 32 bits.",
+        "The error is below any step of a display; the attachment takes four times the bytes.",
         "Vulkan: Blending",
     ),
 ];

@@ -18,7 +18,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "An edge's area as alpha has less error than four samples.",
+        "The area below an edge as alpha beats four samples of it.",
         "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images: convolution with a box",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -30,7 +30,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["half-planes"]),
     Claim::new(
         QUESTION,
-        "If neighbours share an edge, alpha from both sides lets the background through.",
+        "Where neighbours share an edge, alpha from both sides lets the background through.",
         "Porter and Duff 1984, Compositing Digital Images: alphas are taken to be uncorrelated",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -42,7 +42,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["checker-fan", "half-planes"]),
     Claim::new(
         QUESTION,
-        "Supersampling by 2×2 shades four times as many fragments.",
+        "Supersampling by 2×2 shades four times.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 5.4: screen-based antialiasing",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -52,7 +52,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         },
     )
     .of(&["checker-fan", "half-planes", "thin-wedge"])
-    .noting("The fragments include one per texel of the picture, which takes the mean; in these scenes the ground fills the picture."),
+    .noting("Among the fragments is one more for each texel of the picture, which takes the mean; in these scenes the ground fills it."),
     Claim::new(
         QUESTION,
         "Multisampling shades fewer fragments than supersampling with as many samples.",
@@ -77,7 +77,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "A filter over the finished picture reduces the error of edges.",
+        "A filter over the finished picture lessens the error of edges.",
         "Lottes 2009, FXAA",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -89,7 +89,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["checker-fan", "half-planes", "thin-wedge"]),
     Claim::new(
         QUESTION,
-        "A filter over the finished picture cannot restore what no sample hit: on thin shapes four samples have less error.",
+        "What no sample hit, a filter over the finished picture cannot bring back: four samples err less on what is thin.",
         "Jimenez and others 2011, Filtering Approaches for Real-Time Anti-Aliasing",
         Test::Ratio {
             quantity: Quantity::Rmse,

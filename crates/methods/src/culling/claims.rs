@@ -28,7 +28,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["closed-mesh"]),
     Claim::new(
         QUESTION,
-        "Skipping objects outside the view saves most draws of a large scene.",
+        "Leaving out what lies outside of the view saves most draws of a large scene.",
         "Clark 1976, Hierarchical Geometric Models for Visible Surface Algorithms",
         Test::Ratio {
             quantity: Quantity::Draws,
@@ -40,7 +40,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["field"]),
     Claim::new(
         QUESTION,
-        "Back faces first, then front faces, is the right order for convex objects.",
+        "Back faces first, then front faces, is the right order for what is convex.",
         "McReynolds and Blythe 2005, Advanced Graphics Programming Using OpenGL, 11.9: transparency",
         Test::Unlike {
             right: "front-then-back",

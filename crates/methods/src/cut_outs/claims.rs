@@ -4,7 +4,7 @@ use crate::claim::{Claim, Condition, Quantity, Test, one};
 
 pub(crate) const CLAIMS: &[Claim] = &[Claim::new(
     "cut-outs",
-    "Alpha to coverage has less error on a cut-out than discarding below a half.",
+    "Alpha to coverage leaves less of the error of a cut-out than discarding below a half.",
     "Akeley 1993, RealityEngine Graphics",
     Test::Ratio {
         quantity: Quantity::Rmse,

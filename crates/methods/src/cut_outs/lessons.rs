@@ -5,20 +5,20 @@ use crate::lesson::Lesson;
 pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "discard",
-        "Fragments whose filtered alpha is below a cutoff are discarded.",
-        "A texel is kept or lost as a whole: edges alias, and parts thinner than a texel vanish.",
+        "Fragments whose alpha, filtered, is below a cutoff are discarded.",
+        "A texel is kept or lost as a whole: edges alias, and thin parts vanish when they are smaller than a texel.",
         "Akeley 1993, RealityEngine Graphics",
     ),
     Lesson::new(
         "blend-sorted",
         "Cards are blended by their filtered alpha, the farthest first.",
-        "Cards that cross each other have no right order, and a repeating sampler brings in the opposite border.",
+        "Cards that cross each other have no right order, and a filter that repeats brings in the other border.",
         "Porter and Duff 1984, Compositing Digital Images",
     ),
     Lesson::new(
         "alpha-to-coverage",
         "The filtered alpha becomes a mask of the samples of a texel.",
-        "No order is needed, but all cards use the same mask, so what should be seen through two of them is hidden.",
+        "No order is needed, but the same mask in each card hides what should be seen through two of them.",
         "Akeley 1993, RealityEngine Graphics",
     ),
 ];

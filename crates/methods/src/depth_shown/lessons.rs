@@ -6,19 +6,19 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "grey",
         "Window depth is written as grey.",
-        "With a near plane close to the eye, nearly all depths are almost 1.",
+        "With a near plane close to the eye nearly everything is almost 1.",
         "OpenGL 4.6: 13.8",
     ),
     Lesson::new(
         "linearized",
         "The distance is computed from window depth and written as grey.",
-        "It is one over a difference of nearly equal numbers: with a near plane close to the eye, the steps of 32 bits show.",
+        "One over a difference of nearly equal numbers: with a near plane close to the eye the steps of 32 bits show.",
         "OpenGL 4.6: 13.8",
     ),
     Lesson::new(
         "fog",
-        "The colour fades to the fog's with the distance computed from window depth.",
-        "The error of linearized, in proportion to the difference of the two colours.",
+        "Colour fades to the fog's with the distance that is computed from window depth.",
+        "As linearized, as far as the two colours differ.",
         "OpenGL 4.6: 13.8",
     ),
     Lesson::new(

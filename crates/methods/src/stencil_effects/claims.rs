@@ -7,7 +7,7 @@ const QUESTION: &str = "stencil-effects";
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "With the eye inside a shadow volume, depth-fail is right and depth-pass is not.",
+        "Shadow volumes by depth-fail are right with the eye inside, where depth-pass is not.",
         "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
         Test::Unlike {
             right: "shadow-volume-depth-fail",
@@ -17,7 +17,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["shadow-volume"]),
     Claim::new(
         QUESTION,
-        "A stencil keeps a reflection inside its mirror; without it, the reflection also shows outside.",
+        "A stencil keeps a reflection inside its mirror, where it would show beside it.",
         "Kilgard 1999, Improving Shadows and Reflections via the Stencil Buffer",
         Test::Unlike {
             right: "mirror",

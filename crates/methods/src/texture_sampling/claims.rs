@@ -7,7 +7,7 @@ const QUESTION: &str = "texture-sampling";
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "Coordinates that are linear over the picture are wrong on a receding ground.",
+        "Coordinates that are linear over the picture are wrong on a ground that leads away.",
         "Heckbert and Moreton 1991, Interpolation for Polygon Texture Mapping and Shading",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -18,7 +18,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Four samples per texel have less error than one.",
+        "Four samples a texel leave less of the error of one.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -29,7 +29,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Sixteen samples per texel have less error than four.",
+        "Sixteen samples a texel leave less of the error of four.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
         Test::Ratio {
             quantity: Quantity::Rmse,

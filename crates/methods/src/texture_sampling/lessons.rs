@@ -6,19 +6,19 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "nearest",
         "A fragment has the colour of the texel at its centre.",
-        "Far away a texel of the picture covers many texels of the texture and gets the colour of one: the ground flickers.",
+        "Far away a texel of the picture holds many of the texture, of which one is picked: the ground flickers.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
     ),
     Lesson::new(
         "linear",
         "A fragment has the weighted mean of the four texels around its centre.",
-        "Far away four texels are too few, and close to the eye edges become as wide as a texel.",
+        "Four texels are too few far away, and near to the eye edges become as wide as a texel.",
         "Heckbert 1989, Fundamentals of Texture Mapping and Image Warping",
     ),
     Lesson::new(
         "affine",
         "Texture coordinates are interpolated over the picture, without a division by w.",
-        "The two triangles distort the ground, each in its own way.",
+        "The two triangles bend the ground, each its own way.",
         "Heckbert and Moreton 1991, Interpolation for Polygon Texture Mapping and Shading",
     ),
     Lesson::new(
@@ -30,7 +30,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "supersampling-4x4",
         "The mean of sixteen fragments, each with its nearest texel.",
-        "The same as with four, farther away; it shades sixteen times the fragments.",
+        "As with four; sixteen times the fragments for a quarter of a row's distance.",
         "Fuchs and others 1985, Fast Spheres, Shadows, Textures, Transparencies, and Image Enhancements",
     ),
 ];

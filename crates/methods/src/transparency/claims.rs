@@ -7,7 +7,7 @@ const QUESTION: &str = "transparency";
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "Blending front to back with under gives the same picture as back to front with over.",
+        "Front to back under what is there gives the picture of back to front over it.",
         "Porter and Duff 1984, Compositing Digital Images, 4.3: over is associative",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -19,7 +19,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "smoke"]),
     Claim::new(
         QUESTION,
-        "Depth peeling needs no order: it is right even if triangles intersect.",
+        "Depth peeling needs no order: it is right where triangles pass through each other.",
         "Everitt 2001, Interactive Order-Independent Transparency",
         Test::Value {
             quantity: Quantity::Rmse,
@@ -30,7 +30,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "intersecting-panes", "nested-glass"]),
     Claim::new(
         QUESTION,
-        "No order of objects is right once they intersect.",
+        "No order of objects is right once they pass through each other.",
         "Everitt 2001, Interactive Order-Independent Transparency: the sorting problem",
         Test::Value {
             quantity: Quantity::Rmse,
@@ -42,7 +42,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(35.0, 90.0),
     Claim::new(
         QUESTION,
-        "Depth peeling draws all geometry again for each layer that it peels.",
+        "Depth peeling draws all of the geometry again for each layer that it peels.",
         "Everitt 2001, Interactive Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -51,7 +51,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Above(4.0),
         },
     )
-    .noting("Eight layers are peeled; each peel adds one fragment per texel of the picture, which composes it.")
+    .noting("Eight layers are peeled; each peel has one more fragment for each texel of the picture, which composes it.")
     .of(&["windows", "thin-layers", "smoke"]),
     Claim::new(
         QUESTION,
@@ -65,7 +65,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["peeling"]),
     Claim::new(
         QUESTION,
-        "Weighted blended transparency takes two passes, however many layers there are.",
+        "Weighted blended transparency takes two passes, whatever the layers.",
         "McGuire and Bavoil 2013, Weighted Blended Order-Independent Transparency",
         Test::Value {
             quantity: Quantity::Passes,
@@ -75,7 +75,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Weighted blended transparency has less error than blending in an arbitrary order.",
+        "Weighted blended transparency is nearer to the truth than blending in any order.",
         "McGuire and Bavoil 2013, Weighted Blended Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -97,7 +97,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "smoke"]),
     Claim::new(
         QUESTION,
-        "Moment-based transparency draws the geometry twice and takes three passes, however many layers there are.",
+        "Moment-based transparency draws the geometry twice and takes three passes, whatever the layers.",
         "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
         Test::Value {
             quantity: Quantity::Passes,
@@ -107,7 +107,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Weights from moments of the scene's absorbance have less error than weights from depth alone.",
+        "Weights from moments of what the scene absorbs are nearer to the truth than weights that depth alone gives.",
         "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -118,7 +118,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Four moments distinguish few depths: the error of moment-based transparency grows with the number of layers.",
+        "Four moments tell few depths apart: the error of moment-based transparency grows with the layers.",
         "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
         Test::Trend {
             quantity: Quantity::Rmse,
@@ -129,7 +129,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["thin-layers"]),
     Claim::new(
         QUESTION,
-        "Linked lists hold every fragment, so they are right in any order.",
+        "Linked lists hold every fragment, and so are right whatever the order.",
         "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
         Test::Value {
             quantity: Quantity::Rmse,
@@ -137,11 +137,11 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::AtMost(0.004),
         },
     )
-    .noting("In these scenes no picture has more fragments than the pool has nodes, which is eight per texel.")
+    .noting("In these scenes no picture has more fragments than the pool has nodes, eight for each texel.")
     .of(&["windows", "intersecting-panes", "nested-glass", "smoke"]),
     Claim::new(
         QUESTION,
-        "Linked lists draw the geometry once; depth peeling draws it once per layer.",
+        "Linked lists draw the geometry once, where depth peeling draws it once for each layer.",
         "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -153,7 +153,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "thin-layers", "smoke"]),
     Claim::new(
         QUESTION,
-        "A pool that is almost large enough loses the fragments drawn last, and as many peels lose the farthest layers: lists have more error.",
+        "A pool that is nearly large enough drops what was drawn last, as many peels drop what lies farthest: lists err more.",
         "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU: storage overflow",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -166,7 +166,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(8.0, 8.0),
     Claim::new(
         QUESTION,
-        "Random masks for each layer compose layers better than the fixed masks of alpha to coverage.",
+        "Masks that are random in each layer compose layers better than the fixed masks of alpha to coverage.",
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -178,7 +178,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["thin-layers", "smoke"]),
     Claim::new(
         QUESTION,
-        "Alpha to coverage gives one level for each sample, and zero.",
+        "Alpha to coverage knows one more level than it has samples.",
         "Akeley 1993, RealityEngine Graphics; Vulkan: Multisample Coverage",
         Test::Levels {
             of: "alpha-to-coverage",

@@ -10,7 +10,7 @@ const COUNTED: [&str; 2] = ["unsorted", "no-test"];
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "With a depth test, drawing front to back shades fewer fragments than drawing in no order.",
+        "Front to back, a depth test shades fewer fragments than in no order.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -23,7 +23,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .where_fewer(COUNTED),
     Claim::new(
         QUESTION,
-        "Drawing front to back shades as few fragments as drawing after a depth prepass.",
+        "Drawing front to back shades as few fragments as a depth prepass leaves to shade.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -32,12 +32,12 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Between(0.8, 1.2),
         },
     )
-    .noting("The prepass is drawn in the order of unsorted with the same test, so it has that method's fragments; the remaining fragments were shaded.")
+    .noting("A prepass is drawn in the order of unsorted with the same test, and so has that method's fragments; what is left was shaded.")
     .between(2.0, f64::INFINITY)
     .where_fewer(COUNTED),
     Claim::new(
         QUESTION,
-        "If shading is expensive, a depth prepass takes less time than drawing in no order.",
+        "A depth prepass takes less time than no order where shading is expensive.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Time,
@@ -49,7 +49,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(8.0, f64::INFINITY),
     Claim::new(
         QUESTION,
-        "Early tests cannot skip a shader that writes depth.",
+        "A shader that writes depth cannot be spared by early tests.",
         "Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility; Vulkan: Early Fragment Test",
         Test::Ratio {
             quantity: Quantity::Fragments,
