@@ -1,4 +1,4 @@
-//! Reduces a case that fails on an adapter to the smallest one that fails in the same way.
+//! The way from a case that fails on an adapter to the smallest one that fails in the same way.
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
@@ -15,11 +15,11 @@ use etalon_runner::{Launch, Trials, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The number of processes that draw a case at the start, and the number of drawings in each. A failure that
-/// depends on either is not steady.
+/// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
+/// either is no steady one.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
-/// The number of processes for a case that hangs; each costs the full time limit.
+/// The processes of a case that does not end, each of which costs its time.
 const HUNG: usize = 2;
 
 /// A reduced case.
@@ -199,7 +199,7 @@ pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
         .ok_or_else(|| Failure::usage(format!("adapter {} cannot be used", names.join(", "))))
 }
 
-/// The result of drawing a case repeatedly.
+/// The outcome of repeated drawings of a case.
 enum Repetitions {
     /// It fails in the same way every time.
     Steady(Box<(Worker, Record, Symptom)>),
@@ -209,7 +209,7 @@ enum Repetitions {
     Flaky(String),
 }
 
-/// Draws a case several times in each of several processes; only once in a process that it ends.
+/// Draws a case several times in several processes, each time alone; once in each that it ends.
 fn repeat(
     launch: &Launch,
     first: Worker,

@@ -1,7 +1,7 @@
-//! Reductions on a driver, with the judge as oracle.
+//! Reductions on a driver: the judge as oracle.
 //!
-//! A case that crashes or hangs its worker is reduced like one that is drawn wrong: a candidate must end its
-//! worker in the same way. Each such candidate costs a process, and each hanging one the time limit.
+//! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
+//! way. Each such candidate costs a process, and each that hangs its time.
 
 use crate::failure::Failure;
 use etalon_case::{Case, CaseRef, build};
@@ -14,8 +14,7 @@ use serde_json::Value;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Returns the name of a reduced case's file, which is also its id. Characters that ids cannot have become
-/// `-`.
+/// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
 pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     let word = |text: &str| -> String {
         let letters = text.chars();
@@ -32,18 +31,18 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     format!("{}.{}", word(case), word(adapter))
 }
 
-/// The default time limit of a case in seconds.
+/// The time that a case may take.
 pub(crate) const TIMEOUT: &str = "20";
-/// The time limit of a candidate if the original case hangs.
+/// The time of a candidate, if the case does not end.
 const HUNG_TIME: Duration = Duration::from_secs(2);
-/// The largest number of keys of a scene that is reduced for a comparison.
+/// The most keys of a scene that is reduced for a comparison.
 const MOST_KEYS: usize = 600;
 
-/// The largest number of draws of a reduction. 95 % of reductions need fewer than 260; most of the others
-/// depend on earlier drawings.
+/// The most draws of a reduction: nineteen of twenty need fewer than 260, and what needs more mostly depends on what
+/// was drawn before.
 const DRAWS: usize = 400;
 
-/// Draws a reduced case in a new process. Fails if the case does not fail in the same way there.
+/// Draws a reduced case in a fresh process.
 pub(crate) fn confirm(
     launch: &Launch,
     case: &Case,
@@ -60,7 +59,7 @@ pub(crate) fn confirm(
     }
 }
 
-/// Returns the message about a case that, drawn alone, fails in a different way or not at all.
+/// Returns the sentence on a case that fails in another way, or not at all, when it is drawn alone.
 fn unconfirmed(before: &Symptom, alone: &Symptom) -> String {
     if alone.verdict.is_bad() {
         return format!(
@@ -73,22 +72,22 @@ fn unconfirmed(before: &Symptom, alone: &Symptom) -> String {
     )
 }
 
-/// An oracle that draws candidates on a driver and compares their symptoms.
+/// The judge as oracle, with a driver's frames; of a case that ends its worker, the way in which it does.
 pub(crate) struct DriverOracle<'a> {
     pub(crate) trials: Trials,
     /// The symptom of the smallest case so far, and its record.
     pub(crate) symptom: Symptom,
     pub(crate) record: Record,
     pub(crate) error: Option<String>,
-    /// True once the search is being stopped.
+    /// Set when the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// If set, each failing candidate is drawn again alone, in a process that this starts. Needed if a
-    /// failure leaves the driver in a state that makes the next case fail.
+    /// Starts the process in which each candidate that fails is drawn once more, alone: for drivers on which a failure
+    /// leaves something behind that makes the next case fail.
     pub(crate) alone: Option<Launch>,
 }
 
 impl<'a> DriverOracle<'a> {
-    /// Makes an oracle for a case with this record. `timeout` is the time limit of a case.
+    /// An oracle on a case with this record. A case may take as long as `timeout`.
     pub(crate) fn new(
         mut trials: Trials,
         record: Record,
@@ -111,7 +110,7 @@ impl<'a> DriverOracle<'a> {
         }
     }
 
-    /// Reduces the case with at most `draws` draws.
+    /// Reduces the case with so many draws at most.
     pub(crate) fn reduce(
         &mut self,
         failing: Candidate,
@@ -171,22 +170,22 @@ impl Oracle for DriverOracle<'_> {
     }
 }
 
-/// A failing scene after its reduction.
+/// A failing scene that was looked at.
 pub(crate) struct Looked {
-    /// The reduced scene; the whole one if it was not reduced.
+    /// What is left of it.
     pub(crate) scene: Candidate,
     pub(crate) record: Record,
     pub(crate) symptom: Symptom,
     pub(crate) key: Key,
 }
 
-/// Reduces cases on one driver; starts its worker on demand.
+/// Reduces cases on one driver, whose worker is started when it is needed.
 pub(crate) struct Reducer<'a> {
     pub(crate) launch: Launch,
     pub(crate) limits: Limits,
-    /// The time limit of a case.
+    /// The time that a case may take.
     pub(crate) timeout: Duration,
-    /// True once the search is being stopped.
+    /// Set when the search is being stopped.
     pub(crate) stop: &'a AtomicBool,
     trials: Option<Trials>,
 }
@@ -211,14 +210,14 @@ impl<'a> Reducer<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Returns an oracle for a case with this record. Return it with [`Self::give_back`].
+    /// Returns an oracle on a case with this record, which is to be given back.
     pub(crate) fn oracle(&mut self, record: Record) -> Result<DriverOracle<'a>, Failure> {
         let trials = self.trials()?;
         let stop = Some(self.stop);
         Ok(DriverOracle::new(trials, record, self.timeout, stop))
     }
 
-    /// Keeps an oracle's worker for the next oracle.
+    /// Keeps the worker of an oracle for the next one.
     pub(crate) fn give_back(&mut self, oracle: DriverOracle<'_>) -> Result<(), Failure> {
         if let Some(error) = oracle.error {
             let adapter = &self.launch.adapter;
@@ -230,7 +229,7 @@ impl<'a> Reducer<'a> {
         Ok(())
     }
 
-    /// Reduces a failing scene if it fails again when drawn alone.
+    /// Reduces a failing scene, if it fails by itself.
     pub(crate) fn look(
         &mut self,
         scene: Candidate,
@@ -288,7 +287,7 @@ impl<'a> Driver for Reducer<'a> {
     }
 
     fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, Failure> {
-        // Reading fewer attachments can make a case invalid.
+        // A case may need all that it reads.
         let Ok(case) = build("found/known", document) else {
             return Ok(None);
         };
