@@ -1,4 +1,4 @@
-//! `etalon run --bless`: a list of expectations or a folder of findings follows the verdicts of a run.
+//! `etalon run --bless`: updates a list of expectations or a folder of findings from the verdicts of a run.
 
 use crate::cases::ids;
 use crate::expectations::{replace, today, write};
@@ -15,7 +15,7 @@ const DEFAULT: &str = "ci/findings";
 /// Returns the list or folder that `--bless` writes.
 ///
 /// # Errors
-/// In CI, where expectations are never written, and if no path is named or found.
+/// In CI, where expectations are never written, or if no path is named or found.
 pub(crate) fn to_bless(named: &[PathBuf]) -> Result<PathBuf, Failure> {
     let ci = std::env::var("CI").unwrap_or_default();
     if !matches!(ci.to_lowercase().as_str(), "" | "0" | "false" | "no") {
@@ -85,7 +85,7 @@ pub(crate) fn bless(
     Ok(())
 }
 
-/// Adds a file per new finding, and removes those of findings that are fixed.
+/// Adds a file for each new finding, and removes the files of fixed findings.
 fn write_findings(folder: &Path, blessing: &Blessing) -> Result<(), Failure> {
     for (name, finding) in &blessing.findings {
         let numbered = (2..).map(|number| format!("{name}-{number}"));
@@ -94,7 +94,7 @@ fn write_findings(folder: &Path, blessing: &Blessing) -> Result<(), Failure> {
             .by_ref()
             .map(|name| folder.join(format!("{name}.json")))
             .find(|path| !path.exists());
-        // The names are endless.
+        // The names never run out, so a free path always exists.
         let Some(path) = free else { continue };
         replace(&path, &finding.to_text().map_err(Failure::usage)?)?;
     }

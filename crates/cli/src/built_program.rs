@@ -1,4 +1,4 @@
-//! Building and running the program of a bundle, as its reader will.
+//! Builds and runs the program of a bundle, as its reader will.
 
 use crate::failure::Failure;
 use crate::output::say;
@@ -13,24 +13,24 @@ use std::time::{Duration, Instant};
 
 /// The pause between looks at a running program.
 const PAUSE: Duration = Duration::from_millis(5);
-/// The lock file of the suite: the versions whose calls are recorded.
+/// The suite's lock file, so that programs use the dependency versions whose calls are recorded.
 const LOCK: &str = include_str!("../../../Cargo.lock");
 
 /// A program that was built and run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ProgramRun {
-    /// The exit status; `None` if a signal or its time ended it.
+    /// The exit status; `None` if a signal or the timeout ended it.
     pub(crate) status: Option<i32>,
-    /// Its end, in words.
+    /// The exit status or the timeout, in words.
     pub(crate) ending: String,
-    /// The last line that it wrote.
+    /// The last line of its output.
     pub(crate) line: String,
-    /// Files that its building made and that belong to it.
+    /// Files that the build made and that belong to the program.
     pub(crate) made: Vec<File>,
 }
 
-/// Builds a program in a folder of its own and runs it as a driver's worker is run. Returns `None`, and says why, if
-/// nothing can be built here or the driver is elsewhere.
+/// Builds a program in its own folder and runs it in the environment of the driver's worker. Returns `None`,
+/// and prints the reason, if it cannot be built here or a launcher starts the driver.
 pub(crate) fn built_and_run(
     program: &Program,
     launch: &Launch,
@@ -74,7 +74,7 @@ enum Unbuilt {
     Wrong {
         /// The first line that names an error.
         line: String,
-        /// True if only a download is missing.
+        /// True if cargo failed only because it was offline.
         offline: bool,
     },
     Io(io::Error),
@@ -95,8 +95,8 @@ fn built_c(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
     Ok(Vec::new())
 }
 
-/// Builds a package of Rust, and copies its program to `repro` in a folder. All programs are built in one place, one
-/// after the other, so that their dependencies are compiled once. Returns the lock file.
+/// Builds a Rust package, and copies its program to `repro` in a folder. All programs are built in one place,
+/// one after another, so that their dependencies are compiled once. Returns the lock file.
 fn built_rust(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
     let place = place().unwrap_or_else(|| folder.to_owned());
     let package = place.join("package");
@@ -112,7 +112,7 @@ fn built_rust(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
         .env("CARGO_INCREMENTAL", "0")
         .env("CARGO_PROFILE_DEV_DEBUG", "0");
     match compiled(cargo.current_dir(&package)) {
-        // Dependencies that are not on this machine are no fault of the program.
+        // Missing dependencies are not the program's fault.
         Err(Unbuilt::Wrong {
             line,
             offline: true,
@@ -150,8 +150,8 @@ fn compiled(command: &mut Command) -> Result<(), Unbuilt> {
     })
 }
 
-/// Returns the folder in which packages are built: in cargo's target folder if the environment names one, else among
-/// the user's caches.
+/// Returns the folder in which packages are built: in cargo's target folder if the environment names one,
+/// otherwise in the user's cache folder.
 fn place() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     if let Some(folder) = set("CARGO_TARGET_DIR") {
@@ -162,7 +162,7 @@ fn place() -> Option<PathBuf> {
     Some(caches.join("etalon/programs"))
 }
 
-/// Runs the program of a folder in the environment of a driver.
+/// Runs the program in a folder with the environment of a driver.
 fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<ProgramRun> {
     let out = folder.join("out");
     let mut command = Command::new(folder.join("repro"));

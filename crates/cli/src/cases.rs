@@ -1,4 +1,4 @@
-//! The cases of a command: library, selection, building.
+//! Selects and builds the cases of a command.
 
 use crate::check::check;
 use crate::failure::Failure;
@@ -11,8 +11,8 @@ use etalon_frame::threads::each;
 use std::collections::{BTreeSet, HashSet};
 use std::path::PathBuf;
 
-/// Returns the selected cases, built, so that errors of case files show before anything is drawn. Warnings on files of
-/// a user's own are printed.
+/// Returns the selected cases, built, so that errors in case files are reported before anything is drawn.
+/// Prints the warnings for the user's own files.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
@@ -23,12 +23,12 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     Ok(cases)
 }
 
-/// The most cases that are judged for warnings before they are drawn, and their most draws.
+/// The largest number of cases, and of their draws, that are judged for warnings before drawing.
 const JUDGED: usize = 64;
 const JUDGED_DRAWS: usize = 4096;
 
-/// Prints the warnings of `etalon check` on the files of these cases: all if they are few, else those that need no
-/// judge.
+/// Prints the warnings of `etalon check` for the files of these cases: all warnings if the cases are few,
+/// otherwise only those that need no judge.
 fn warn(library: &Library, cases: &[Case]) {
     let ids: HashSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
     let files = library.files().iter();
@@ -57,12 +57,12 @@ fn warn(library: &Library, cases: &[Case]) {
         say!("warning: {warning}");
     }
     if !few && !warnings.is_empty() {
-        say!("`etalon check` says more of these files");
+        say!("`etalon check` gives further warnings on these files");
     }
 }
 
-/// Returns the ids of the selected cases, each with true if it exists to be measured. Those of a folder are built all the
-/// same, so that errors show.
+/// Returns the ids of the selected cases, each with true if the case is measured rather than judged. Cases of
+/// a folder are still built, so that errors are reported.
 pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)>, Failure> {
     if arguments.cases.is_some() {
         let cases = chosen(arguments)?.into_iter();
@@ -76,8 +76,8 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
     some(ids, arguments)
 }
 
-/// Returns the number of cases of the full profile that match as well as the selected ones, and that the profile
-/// leaves out. An area without a selected case has none.
+/// Returns the number of matching cases that the full profile has and the chosen profile leaves out. Areas
+/// without a selected case are not counted.
 pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
     if Profile::from(arguments.profile) == Profile::Full {
         return Ok(0);
@@ -94,8 +94,8 @@ pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result
     Ok((same.count() - selected.len()) as u64)
 }
 
-/// Takes away the cases that exist to be measured, unless globs name them or there are no others: one such picture takes as
-/// long as hundreds of cases. Returns their number.
+/// Removes the cases that are measured rather than judged, unless globs are given or there are no other
+/// cases: one such picture takes as long as hundreds of cases. Returns the number of removed cases.
 pub(crate) fn leave_measured<T>(
     cases: &mut Vec<T>,
     arguments: &CaseArguments,
@@ -109,7 +109,7 @@ pub(crate) fn leave_measured<T>(
     all - cases.len()
 }
 
-/// Returns what was selected, unless it is nothing.
+/// Returns the selection, or an error if it is empty.
 fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failure> {
     let globs = &arguments.globs;
     if !selected.is_empty() {
@@ -136,7 +136,7 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
     }))
 }
 
-/// Returns what the globs may have meant: an area, a case file, or a case.
+/// Returns suggestions for the globs: areas, case files or cases with similar names.
 fn proposed(globs: &[String]) -> String {
     let Ok(library) = library(None) else {
         return String::new();
@@ -158,7 +158,7 @@ fn proposed(globs: &[String]) -> String {
     each.collect()
 }
 
-/// Returns the case with an id.
+/// Returns the case with this id.
 pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Failure> {
     let found = library.cases(Profile::Full).find(|case| case.id() == id);
     found.ok_or_else(|| {
@@ -169,7 +169,7 @@ pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Fa
     })
 }
 
-/// Returns the cases whose ids are nearest to a text.
+/// Returns a suggestion of the cases whose ids are most similar to a text.
 pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
     did_you_mean(word, ids_of(library).iter().map(String::as_str))
 }
@@ -183,7 +183,7 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     .map_err(Failure::usage)
 }
 
-/// Returns the cases of a library whose ids match, built.
+/// Builds the cases of a library whose ids match.
 pub(crate) fn build(
     library: &Library,
     profile: Profile,
@@ -193,7 +193,7 @@ pub(crate) fn build(
     build_each(&selection.cases)
 }
 
-/// Returns the cases of a library with these ids, built.
+/// Builds the cases of a library with these ids.
 pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<Case>, Failure> {
     let cases = library.cases(Profile::Full);
     let named: Vec<CaseRef<'_>> = cases
@@ -202,7 +202,7 @@ pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<
     build_each(&named)
 }
 
-/// Builds cases on all cores, since a full run would wait a second for it.
+/// Builds cases on all cores; for a full run one core takes a second.
 fn build_each(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, Failure> {
     let share = cases.len().div_ceil(processors()).max(1);
     let parts: Vec<&[CaseRef<'_>]> = cases.chunks(share).collect();
@@ -216,7 +216,8 @@ fn build_each(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, Failure> {
     Ok(cases)
 }
 
-/// Returns the round trips that cases lean on: those of the folder, and built-in ones where it holds none.
+/// Returns the round-trip cases that these cases depend on: those of the folder, and built-in ones if the
+/// folder lacks them.
 pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Vec<Case>, Failure> {
     let given = folder.map(|_| library(folder)).transpose()?;
     let built_in = library(None)?;
@@ -224,7 +225,7 @@ pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Ve
     etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
 }
 
-/// Returns the ids of all cases. Those of a folder are built all the same, so that errors show.
+/// Returns the ids of all cases. Cases of a folder are also built, so that errors are reported.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     let library = library(cases)?;
     if cases.is_some() {

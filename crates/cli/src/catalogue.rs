@@ -1,4 +1,4 @@
-//! The catalogue of a run's cases, for its page: scenes as they are meant, with the rasterizer's picture.
+//! The catalogue of a run's cases, for its page: each scene in words, with the rasterizer's picture.
 
 use crate::processors::processors;
 use crate::scene_text;
@@ -11,10 +11,10 @@ use etalon_report::{Catalogue, CatalogueCase, reference_picture};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The most texels of the pictures that are drawn.
+/// The largest number of texels of a picture that is drawn.
 const TEXELS: u64 = 1 << 20;
 
-/// Returns the catalogue of cases. Those that the library does not hold have no template.
+/// Returns the catalogue of cases. Cases that are not in the library have no template.
 pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
     let mut catalogue = Catalogue::default();
     let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
@@ -29,7 +29,7 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
             files.insert(id, stem);
         }
     }
-    // Large pictures lie together, so each thread takes the next case and not a part of them.
+    // Cases with large pictures are neighbours, so each thread takes one case at a time instead of a range.
     catalogue.cases = each(processors(), cases, |case| entry(case, &files));
     for case in cases {
         for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
@@ -57,14 +57,14 @@ fn entry(case: &Case, files: &HashMap<String, String>) -> CatalogueCase {
     }
 }
 
-/// Returns what the rasterizer draws; `None` where the picture is large or cannot be drawn.
+/// Returns the rasterizer's picture; `None` if it is large or cannot be drawn.
 fn reference(case: &Case) -> Option<Frame> {
     let texels = |a: &etalon_scene::Attachment| u64::from(a.size[0]) * u64::from(a.size[1]);
     let large = case.scene.attachments.iter().any(|a| texels(a) > TEXELS);
     if large { None } else { drawn(case) }
 }
 
-/// Returns what the rasterizer draws; `None` where it cannot.
+/// Returns the rasterizer's picture; `None` if it cannot be drawn.
 pub(crate) fn drawn(case: &Case) -> Option<Frame> {
     let draw = || {
         let backend = CpuBackend::new("cpu");
@@ -72,6 +72,6 @@ pub(crate) fn drawn(case: &Case) -> Option<Frame> {
         prepared.submit().ok()?;
         prepared.read_back().ok()
     };
-    // A picture is no reason to lose a run.
+    // A panic while drawing a picture must not lose the run.
     catch_unwind(AssertUnwindSafe(draw)).ok().flatten()
 }

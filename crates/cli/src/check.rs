@@ -1,8 +1,9 @@
-//! What the judge says of cases that nobody drew: what they assert, how sharply, and where their inputs leave a
-//! driver a choice.
+//! Checks cases without drawing them: what they assert, how sharply, and where their inputs leave a driver a
+//! choice.
 //!
-//! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of the
-//! rasterizer with the coarsest vertex positions that an API allows: what is decided there is decided everywhere.
+//! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of
+//! the rasterizer with the coarsest vertex positions that an API allows: a value that they decide is decided
+//! on every driver.
 
 pub(crate) mod edges;
 
@@ -23,15 +24,16 @@ const SUB_PIXEL_BITS: u8 = 4;
 /// One case, checked.
 pub(crate) struct CheckedCase {
     pub(crate) id: String,
-    /// The assertions of the legal set and of the yardstick, per aspect; empty if the case is measured, not judged.
+    /// The assertions of the legal set and of the yardstick, per aspect; empty if the case is measured rather
+    /// than judged.
     pub(crate) assertions: Vec<Assertion>,
-    /// The channels that are read back and of which nothing is asserted, with all that are read back.
+    /// Every channel that is read back, with true if anything is asserted of it.
     pub(crate) channels: BTreeMap<AttachmentChannel, bool>,
-    /// True if anything is asserted: of a texel, of a counter, or by a relation.
+    /// True if a texel, a counter or a relation is asserted.
     pub(crate) asserts: bool,
-    /// The edge of a mesh that leaves it open which texels it covers.
+    /// The mesh edge that passes so near a texel's centre that coverage is open.
     pub(crate) near: Option<Near>,
-    /// True if points, lines or outlines are drawn, which begin at centres.
+    /// True if points, lines or outlines are drawn; their vertices are at texel centres.
     pub(crate) outlines: bool,
 }
 
@@ -48,13 +50,13 @@ pub(crate) struct CheckedFile {
     pub(crate) name: String,
     pub(crate) errors: Vec<CaseError>,
     pub(crate) warnings: Vec<CaseError>,
-    /// Those of the profile.
+    /// The cases of the profile.
     pub(crate) cases: Vec<CheckedCase>,
     /// The number of all cases of the file.
     pub(crate) all: usize,
 }
 
-/// Checks files: all of their cases are built, those of the profile are judged.
+/// Checks files: builds all of their cases, and judges those of the profile.
 pub(crate) fn check(files: &[CaseFile], profile: Profile) -> Vec<CheckedFile> {
     let mut checked: Vec<CheckedFile> = Vec::new();
     for (file, built) in files.iter().zip(each(processors(), files, build_all)) {
@@ -133,7 +135,7 @@ pub(crate) fn check_case(case: &Case) -> CheckedCase {
             .flat_map(|p| &p.draws)
             .any(edges::draws_outlines),
     };
-    // Their pictures are large, and what they assert is a distance.
+    // The pictures of measured cases are large, and they assert only a distance.
     if case.measured {
         return checked;
     }
@@ -183,7 +185,7 @@ fn assertions(judgement: &Judgement) -> Vec<Assertion> {
         .collect()
 }
 
-/// Notes of each channel that is read back if something is asserted of it.
+/// Records, for each channel that is read back, whether anything is asserted of it.
 fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<AttachmentChannel, bool>) {
     for image in &legal.images {
         let sets = legal.groups[image.group].distinct();
@@ -210,7 +212,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
         errors.push(file.warning(
             &[file.scene_key()],
             format!(
-                "{} of {} judged cases assert nothing and can be no more than open, {} for one: choose inputs that \
+                "{} of {} judged cases assert nothing and can only be Open, such as {}: choose inputs that \
                  the specifications pin down",
                 silent.len(),
                 cases.len(),
@@ -222,7 +224,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
     for (channel, asserted) in cases.iter().flat_map(|c| &c.channels) {
         *channels.entry(channel).or_default() |= asserted;
     }
-    // Where whole cases are silent, that is said already.
+    // If whole cases assert nothing, the warning above already says so.
     for (channel, _) in channels
         .iter()
         .filter(|(_, asserted)| !**asserted && silent.is_empty())
@@ -233,7 +235,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
         ));
     }
     let mut places: Vec<[usize; 2]> = Vec::new();
-    // What is drawn filled and as an outline has its vertices where outlines want them.
+    // A mesh that is also drawn as an outline has its vertices at texel centres, as outlines need.
     let filled = !cases.iter().any(|c| c.outlines);
     for case in cases.iter().filter(|_| filled) {
         let Some(near) = &case.near else {

@@ -27,7 +27,8 @@ pub(crate) enum Command {
     Adapters(adapters::Arguments),
     /// List case ids, one per line
     List(list::Arguments),
-    /// Check case files without a driver: errors, what nothing uses, what is not asserted, and how sharply
+    /// Check case files without a driver: report errors, unused parts, and what the cases assert and how
+    /// sharply
     Check(check::Arguments),
     /// Show a case: its purpose, scene, JSON, shaders and picture
     Show(show::Arguments),
@@ -37,9 +38,9 @@ pub(crate) enum Command {
     Run(run::Arguments),
     /// Rebuild the reports of run and bench folders
     Report(report::Arguments),
-    /// Put the pages of recorded folders into one static folder
+    /// Build a static site from the pages of recorded folders
     Site(site::Arguments),
-    /// Combine shards, or runs on several adapters, into one run and name what is missing
+    /// Combine shards, or runs on several adapters, into one run, and list what is missing
     Merge(merge::Arguments),
     /// Import and export expectations in the formats of deqp-runner
     #[command(subcommand)]
@@ -48,7 +49,7 @@ pub(crate) enum Command {
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
-    /// Keep runs, benches and releases over time in one file, and tell what changed and when
+    /// Keep runs, benches and releases over time in one file, and report what changed and when
     #[command(subcommand)]
     History(history::HistoryCommand),
     /// Find the releases of a driver that draw cases wrong
@@ -61,7 +62,7 @@ pub(crate) enum Command {
     Bundle(bundle::Arguments),
     /// Draw random scenes on adapters, and reduce those that fail
     Fuzz(fuzz::Arguments),
-    /// Plant bugs in the cpu rasterizer and report which of them the cases catch
+    /// Plant bugs in the cpu rasterizer and report which ones the cases catch
     Mutants(mutants::Arguments),
     /// Print a completion script for a shell
     Completions(completions::Arguments),

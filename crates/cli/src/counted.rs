@@ -1,4 +1,4 @@
-//! Numbers with their nouns.
+//! Numbers with a noun in the singular or plural.
 
 /// `1 run`, `2 runs`.
 pub(crate) fn counted(n: u64, noun: &str) -> String {

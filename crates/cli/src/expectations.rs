@@ -1,4 +1,4 @@
-//! Reading and writing of expectations.
+//! Reads and writes expectations.
 
 use crate::failure::Failure;
 use crate::provenance;
@@ -7,23 +7,23 @@ use etalon_record::{Entry, Expectations, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The files of `ci/findings`: paths and texts.
+/// The files of `ci/findings`: paths and contents.
 const FINDINGS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/findings.rs"));
 
-/// Expectations of a user's own.
+/// Flags for expectations of the user's own.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ExpectArguments {
     /// Add these expectations to the built-in findings: a list, a finding, or a folder of findings; may be repeated
     #[arg(long, value_name = "PATH")]
     pub(crate) expect: Vec<PathBuf>,
-    /// Leave the built-in findings out: only what --expect names is expected
+    /// Ignore the built-in findings; expect only what --expect names
     #[arg(long)]
     pub(crate) expect_only: bool,
 }
 
 impl ExpectArguments {
-    /// Returns the expectations as they count today, in a run with these labels on this machine. What a user names
-    /// goes before the findings.
+    /// Returns the expectations that apply today, to a run with these labels on this machine. The user's come
+    /// before the findings.
     pub(crate) fn read(&self, labels: &[String]) -> Result<Expectations, Failure> {
         let mut expectations = Expectations::default();
         for path in &self.expect {
@@ -37,7 +37,7 @@ impl ExpectArguments {
     }
 }
 
-/// Returns the built-in findings as they count today on this machine.
+/// Returns the built-in findings that apply today on this machine.
 pub(crate) fn built_in() -> Result<Expectations, Failure> {
     Ok(counting(findings()?, &[]))
 }
@@ -46,13 +46,13 @@ fn findings() -> Result<Expectations, Failure> {
     Expectations::of_findings(FINDINGS).map_err(Failure::usage)
 }
 
-/// Returns expectations as they count today, in a run with these labels on this machine.
+/// Returns the expectations that apply today, to a run with these labels on this machine.
 pub(crate) fn counting(expectations: Expectations, labels: &[String]) -> Expectations {
     let machine = provenance::machine();
     expectations.of_run(&machine.cpu, labels).on(&today())
 }
 
-/// True for the place of a built-in finding.
+/// Returns true if a place is that of a built-in finding.
 pub(crate) fn is_built_in(place: &str) -> bool {
     FINDINGS.iter().any(|(path, _)| *path == place)
 }
@@ -65,12 +65,12 @@ pub(crate) fn today() -> String {
 /// Writes entries to a file.
 pub(crate) fn write(path: &Path, entries: &[Entry]) -> Result<(), Failure> {
     let text = Expectations::to_text(entries).map_err(Failure::usage)?;
-    // A file that cannot be parsed must not replace one that can.
+    // An invalid file must not replace a valid one.
     Expectations::parse(&text, path).map_err(|error: RecordError| Failure::usage(error))?;
     replace(path, &text)
 }
 
-/// Replaces a file by renaming a complete new one.
+/// Replaces a file atomically: writes a new file next to it and renames it.
 pub(crate) fn replace(path: &Path, text: &str) -> Result<(), Failure> {
     let mut beside = path.as_os_str().to_owned();
     beside.push(format!(".{}", std::process::id()));

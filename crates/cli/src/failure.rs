@@ -14,7 +14,7 @@ pub(crate) const IMPROVED: u8 = 2;
 /// An unexpected bad result.
 pub(crate) const UNEXPECTED: u8 = 1;
 
-/// The error for which a command ended early.
+/// The error that ended a command early.
 #[derive(Debug)]
 pub(crate) struct Failure {
     /// The exit code.
@@ -47,7 +47,7 @@ impl Failure {
 }
 
 impl From<io::Error> for Failure {
-    /// Converts an error of reading or writing a pipe.
+    /// Converts an I/O error on a pipe.
     fn from(error: io::Error) -> Self {
         Self::incomplete(error)
     }

@@ -1,4 +1,4 @@
-//! The search's failing scenes: reduced on their driver, grouped, and written as case files.
+//! The failing scenes of a search: reduced on their driver, grouped, and written as case files.
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
@@ -27,10 +27,10 @@ pub(crate) struct Kept {
     pub(crate) sentence: String,
     pub(crate) clause: Option<String>,
     pub(crate) states: String,
-    /// The number of keys of the scene, and of what is left of it.
+    /// The number of keys of the scene, and of the reduced scene.
     pub(crate) keys: [usize; 2],
     pub(crate) file: PathBuf,
-    /// The case, until it is drawn in a new process.
+    /// The reduced case, until a new process has drawn it.
     unconfirmed: Option<Case>,
 }
 
@@ -44,16 +44,16 @@ pub(crate) struct FailingScenes<'a> {
 /// The folders of case files.
 #[derive(Clone, Debug)]
 pub(crate) struct Folders {
-    /// Of scenes that no finding explains.
+    /// The folder of scenes that no finding explains.
     pub(crate) found: PathBuf,
-    /// Of the others.
+    /// The folder of scenes that a finding explains.
     pub(crate) known: PathBuf,
 }
 
 impl Folders {
-    /// The name of the first.
+    /// The name of the folder `found`.
     pub(crate) const FOUND: &str = "found";
-    /// The name of the second.
+    /// The name of the folder `known`.
     pub(crate) const KNOWN: &str = "known";
 }
 
@@ -71,8 +71,8 @@ impl<'a> FailingScenes<'a> {
         self.groups.len()
     }
 
-    /// Draws what is left of each group in a process of its own, in `jobs` of them at the same time, and notes which groups
-    /// fail there. When the search is being stopped, groups are left as they are.
+    /// Draws the reduced case of each group in its own process, at most `jobs` at a time, and records which
+    /// groups fail there. Stops early if the search is being stopped.
     pub(crate) fn confirm(&mut self, jobs: usize) {
         let Self {
             groups, reducer, ..
@@ -99,7 +99,7 @@ impl<'a> FailingScenes<'a> {
         });
     }
 
-    /// Compares all groups with the known bugs. An error leaves groups that were not compared.
+    /// Compares all groups with the known bugs. After an error, the remaining groups are not compared.
     pub(crate) fn compare(&mut self, bugs: &mut KnownBugs<Reducer<'_>>) -> Result<(), Failure> {
         for group in self.groups.iter_mut().filter(|g| g.can_be_compared()) {
             group.known = bugs.matching(group.verdict, &group.traits, group.steady)?;
@@ -108,12 +108,12 @@ impl<'a> FailingScenes<'a> {
         Ok(())
     }
 
-    /// Returns the groups, the commonest first.
+    /// Returns the groups, the most frequent first.
     pub(crate) fn finish(self) -> Vec<Group> {
         self.groups.finish()
     }
 
-    /// Adds failing scenes. When the search is being stopped, scenes are kept as they are.
+    /// Adds failing scenes. If the search is being stopped, scenes are not reduced.
     pub(crate) fn add(&mut self, failing: Vec<(RandomScene, Record)>) -> Result<(), Failure> {
         let mut scenes = failing.into_iter();
         scenes.try_for_each(|(scene, record)| self.add_one(scene, record))
@@ -135,7 +135,7 @@ impl<'a> FailingScenes<'a> {
         self.keep(looked, index, keys)
     }
 
-    /// Makes a group of a scene of so many keys, and writes its case file.
+    /// Makes a group of a scene that had `all_keys` keys before its reduction, and writes its case file.
     fn keep(&mut self, seen: Looked, index: u64, all_keys: usize) -> Result<(), Failure> {
         let adapter = self.reducer.launch.adapter.clone();
         let document = &seen.scene.document;
@@ -170,7 +170,7 @@ impl<'a> FailingScenes<'a> {
     }
 }
 
-/// Says in a group's case file what is known, and moves one that is explained.
+/// Writes the matching finding into a group's case file, and moves the file to `known` if the match is exact.
 fn file_under(group: &mut Group, folders: &Folders) -> Result<(), Failure> {
     let Some(known) = &group.known else {
         return Ok(());

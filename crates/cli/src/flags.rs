@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// The form of the output.
+/// The format of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// Tables for people.
@@ -12,25 +12,25 @@ pub(crate) enum Format {
     Json,
 }
 
-/// A file of further adapters.
+/// The flag for a file of additional adapters.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct AdapterFileArguments {
-    /// Add the adapters described in this JSON file, which has the form of the built-in adapters.json
+    /// Add the adapters described in this JSON file, which has the format of the built-in adapters.json
     #[arg(long = "adapters", value_name = "FILE")]
     pub(crate) adapter_file: Option<PathBuf>,
 }
 
-/// The share of each family of cases that is selected.
+/// How many cases of each family are selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CaseProfile {
-    /// A covering array of each large family, in which every two values meet; all of the others.
+    /// A covering array of each large family, which combines every pair of values; all cases of the others.
     Quick,
     /// All cases.
     Full,
 }
 
 impl CaseProfile {
-    /// The name that the command line takes.
+    /// Returns the name on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Quick => "quick",

@@ -1,4 +1,4 @@
-//! Groups of failing scenes, for people and programs.
+//! Groups of failing scenes as text and as JSON.
 
 use crate::failure_groups::Group;
 use crate::match_text::why;
@@ -39,7 +39,7 @@ pub(crate) fn text(group: &Group) -> String {
     text
 }
 
-/// Returns the same in short, for a group below the finding that it is like.
+/// Returns a short form, for a group listed below the finding that it resembles.
 pub(crate) fn short(group: &Group) -> String {
     let scene = &group.scene;
     format!(

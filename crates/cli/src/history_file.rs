@@ -1,4 +1,4 @@
-//! The file of a history, labels, and what errors of the history mean for a command.
+//! The history's file, labels, and the exit codes for errors of the history.
 
 use crate::failure::Failure;
 use clap::Args;
@@ -7,13 +7,14 @@ use std::path::PathBuf;
 
 /// The variable that names the file.
 const VARIABLE: &str = "ETALON_HISTORY";
-/// The file where nothing else is named.
+/// The default file.
 const DEFAULT: &str = "reports/etalon.db";
 
-/// The file of a history.
+/// The flag for the file of a history.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct DatabaseArguments {
-    /// File of the history. Default: what the variable ETALON_HISTORY names, else reports/etalon.db
+    /// File of the history. Default: the file that the variable ETALON_HISTORY names, otherwise
+    /// reports/etalon.db
     #[arg(long = "db", value_name = "FILE")]
     file: Option<PathBuf>,
 }
@@ -27,7 +28,7 @@ impl DatabaseArguments {
     }
 }
 
-/// Labels, which are read as they are written: `key=value`.
+/// Labels of a run, each `key=value`.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LabelArguments {
     /// Label of the run, such as branch=main; may be repeated
@@ -39,27 +40,27 @@ impl LabelArguments {
     /// The labels.
     ///
     /// # Errors
-    /// When a text is no label.
+    /// If a text is not a label.
     pub(crate) fn labels(&self) -> Result<Labels, Failure> {
         parse_labels(&self.texts).map_err(Failure::usage)
     }
 
-    /// The labels as they were given, `key=value`.
+    /// Returns the labels as given, `key=value`.
     pub(crate) fn given(&self) -> &[String] {
         &self.texts
     }
 
-    /// The words that give the same labels again.
+    /// Returns the command-line words that give the same labels.
     pub(crate) fn words(&self) -> impl Iterator<Item = &str> {
         let each = self.texts.iter();
         each.flat_map(|text| ["--label", text.as_str()])
     }
 }
 
-/// Labels by which runs are chosen.
+/// Labels that select runs.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct OnlyArguments {
-    /// Look at runs with this label alone, such as branch=main; may be repeated
+    /// Use only runs with this label, such as branch=main; may be repeated
     #[arg(long = "label", value_name = "KEY=VALUE")]
     texts: Vec<String>,
 }
@@ -68,13 +69,14 @@ impl OnlyArguments {
     /// The labels.
     ///
     /// # Errors
-    /// When a text is no label.
+    /// If a text is not a label.
     pub(crate) fn labels(&self) -> Result<Labels, Failure> {
         parse_labels(&self.texts).map_err(Failure::usage)
     }
 }
 
-/// The failure for an error of the history: what may go well another time is incomplete, the rest is bad input.
+/// Converts an error of the history: errors that can disappear on a retry become "incomplete", the rest "bad
+/// input".
 pub(crate) fn failure(error: HistoryError) -> Failure {
     match error {
         HistoryError::Busy { .. } | HistoryError::Full { .. } | HistoryError::Database { .. } => {

@@ -23,7 +23,7 @@ pub(crate) fn how_to_resume() -> String {
     let command = provenance::command();
     let own = command.iter().map(String::as_str);
     let words = own.filter(|word| *word != "--force" && *word != "--resume");
-    // Quoting fails for a zero byte alone, which no argument contains.
+    // Quoting fails only on a zero byte, which no argument contains.
     let command = shlex::try_join(words.chain(["--resume"])).unwrap_or_default();
     format!("resume with: {command}")
 }

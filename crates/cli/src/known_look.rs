@@ -1,8 +1,8 @@
-//! Failures of a run that findings explain although they name other cases.
+//! Finds failures of a run that findings explain although the findings name other cases.
 //!
-//! Findings name the suite's cases; a case of one's own that meets a known bug is in none of them. So failing cases are
-//! reduced on their driver, and cases of the findings too: what leaves the same states and the same violation is known by its
-//! look.
+//! Findings name the suite's cases, so none of them names a user's own case that meets a known bug. Failing
+//! cases and the cases of findings are therefore reduced on the driver. If both reduce to the same states and
+//! the same violation, the failure is known by its look.
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
@@ -18,23 +18,24 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// The id of the cases that are built for a reduction.
+/// The id of a case that is built for a reduction.
 const NAME: &str = "found/look";
 
-/// What a comparison with findings needs.
+/// The inputs of a comparison with findings.
 pub(crate) struct Looks<'a> {
     /// The cases of the run.
     pub(crate) library: &'a Library,
     pub(crate) expectations: &'a Expectations,
     pub(crate) launches: &'a [Launch],
-    /// The time that a case may take.
+    /// The time limit of a case.
     pub(crate) timeout: Duration,
-    /// Set when the run is being stopped.
+    /// True once the run is being stopped.
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl Looks<'_> {
-    /// Marks the unexpected records of the run in a folder that findings explain. Returns the number of those that are left.
+    /// Marks the unexpected records of a folder's run that findings explain. Returns the number of records
+    /// that stay unexpected.
     pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {
         let mut run = Run::read(folder).map_err(Failure::incomplete)?;
         let unexpected = |run: &Run| run.records.iter().filter(|r| r.unexpected()).count() as u64;
@@ -65,7 +66,7 @@ impl Looks<'_> {
         Ok(unexpected(&run))
     }
 
-    /// Marks those of an adapter's failures that findings explain.
+    /// Marks an adapter's failures that findings explain.
     fn mark_all(
         &self,
         failing: Vec<&mut Record>,
@@ -119,7 +120,8 @@ impl Looks<'_> {
     }
 }
 
-/// Returns the number of the group that a failure of a document belongs to, which is a new one if it is like no other.
+/// Returns the number of the group that a failure of a document belongs to; adds a new group if no group
+/// matches.
 fn group(
     groups: &mut Groups<Option<Case>>,
     reducer: &mut Reducer<'_>,
@@ -142,7 +144,8 @@ fn group(
     Ok(groups.push(group))
 }
 
-/// Returns lines on the records that are known by their look, by finding; nothing where there are none.
+/// Returns lines about the records that are known by their look, grouped by finding; empty without such
+/// records.
 pub(crate) fn lines(run: &Run) -> String {
     let mut findings: BTreeMap<&str, (u64, &str)> = BTreeMap::new();
     for record in &run.records {

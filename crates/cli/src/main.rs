@@ -1,4 +1,4 @@
-//! The `etalon` binary. Each command is a file of `commands` that holds its flags and its steps; the files beside it
+//! The `etalon` binary. Each command is a file in `commands` with its flags and its steps; the other files
 //! hold what several commands share.
 
 #![deny(
@@ -91,7 +91,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints help, version or an error of usage. Returns the exit code.
+/// Prints help, the version or a usage error. Returns the exit code.
 fn answer(error: &clap::Error) -> u8 {
     match error.print() {
         _ if error.use_stderr() => USAGE,

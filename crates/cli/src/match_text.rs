@@ -2,13 +2,13 @@
 
 use etalon_diagnose::Match;
 
-/// Returns the reason for which a finding was named.
+/// Returns the reason why a failure matches a finding.
 pub(crate) fn why(found: &Match) -> String {
     let Match { case, states, .. } = found;
     let Some(beyond) = &found.beyond else {
-        return format!("{case}, reduced, leaves the same states and violation");
+        return format!("{case} reduces to the same states and violation");
     };
-    let mut text = format!("has what is left of {case} ({states})");
+    let mut text = format!("matches the reduced {case} ({states})");
     if let Some(violation) = &beyond.violation {
         text.push_str(&format!(", which violates {violation}"));
     }
@@ -20,7 +20,7 @@ pub(crate) fn why(found: &Match) -> String {
     text
 }
 
-/// Returns what the description of a case file says of a finding.
+/// Returns the sentence about a finding in a case file's description.
 pub(crate) fn match_sentence(found: &Match) -> String {
     let Match { finding, title, .. } = found;
     let word = if found.is_exact() {

@@ -1,9 +1,9 @@
-//! "Did you mean": the known words that are nearest to one that is not known.
+//! "Did you mean": the known words that are most similar to an unknown word.
 
-/// The most words that are proposed.
+/// The largest number of suggested words.
 const PROPOSED: usize = 3;
 
-/// Returns `; did you mean …?` with the nearest of the known words; nothing where none is near.
+/// Returns `; did you mean …?` with the nearest known words; empty if no word is near.
 pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let most = (word.chars().count() / 3).clamp(1, 8);
     let distances = known
@@ -14,7 +14,7 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a s
         .collect();
     near.sort_unstable();
     near.dedup();
-    // Beside a near one, those much farther only confuse.
+    // If one word is near, words that are much farther only confuse.
     let nearest = near.first().map_or(0, |(distance, _)| *distance);
     near.retain(|(distance, _)| *distance <= nearest + 1);
     let words: Vec<String> = near
@@ -29,8 +29,8 @@ pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a s
     }
 }
 
-/// The number of letters to insert, remove or replace, or of neighbours to exchange; a number above `most` where it
-/// is more than that.
+/// Returns the number of letters to insert, remove or replace, or of neighbours to exchange; a number above
+/// `most` if it exceeds `most`.
 fn distance(a: &str, b: &str, most: usize) -> usize {
     let [a, b] = [a, b].map(|text| text.to_lowercase().chars().collect::<Vec<char>>());
     if a.len().abs_diff(b.len()) > most {

@@ -1,4 +1,4 @@
-//! `--history`: a run is compared with the last run of each adapter.
+//! `--history`: compares a run with the previous run of each adapter.
 
 use crate::failure::Failure;
 use crate::history_file::{LabelArguments, failure};
@@ -12,8 +12,9 @@ use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, Args)]
 pub(crate) struct NewsArguments {
-    /// Compare with the last run of each adapter before this one in this history, and tell news first. Bad verdicts that `etalon history
-    /// triage` calls real or ignored do not count. A file that is not there is named, and changes nothing
+    /// Compare with the previous run of each adapter in this history, and report what is new first. Bad
+    /// verdicts that `etalon history triage` marks as real or ignored do not count. A missing file is
+    /// reported and otherwise ignored
     #[arg(long, value_name = "FILE")]
     pub(crate) history: Option<PathBuf>,
     #[command(flatten)]
@@ -21,7 +22,7 @@ pub(crate) struct NewsArguments {
 }
 
 impl NewsArguments {
-    /// Refuses labels and a file that cannot be used, before anything is drawn.
+    /// Refuses invalid labels and an unusable file, before anything is drawn.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         let labels = self.labels.labels()?;
         let Some(path) = &self.history else {
@@ -37,7 +38,7 @@ impl NewsArguments {
         }
     }
 
-    /// The news of a run; `None` without a history that can be read, which is told.
+    /// Returns the news of a run; `None` without a history, or if it cannot be read, which is printed.
     pub(crate) fn news(&self, run: &Run) -> Result<Option<News>, Failure> {
         let Some(path) = &self.history else {
             return Ok(None);
@@ -53,7 +54,7 @@ impl NewsArguments {
         })
     }
 
-    /// Tells how the run is added, where a history was named.
+    /// If a history was named, prints the command that adds the run to it.
     pub(crate) fn tell_how_to_add(&self, folder: &Path) {
         if let Some(path) = &self.history {
             let words = ["--db".to_owned(), path.display().to_string()].into_iter();
@@ -68,7 +69,7 @@ impl NewsArguments {
     }
 }
 
-/// The run as its reports show it.
+/// Returns the run as its reports show it.
 pub(crate) fn shown<'r>(run: &'r Run, news: Option<&News>) -> Cow<'r, Run> {
     news.map_or(Cow::Borrowed(run), |news| news.settle(run))
 }

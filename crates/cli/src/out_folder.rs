@@ -1,39 +1,39 @@
-//! The folder of `--out`: nothing that somebody recorded there is lost without `--force`, and nothing else at all.
+//! The folder of `--out`. Records in it are replaced only with `--force`, and other files never.
 
 use crate::failure::Failure;
 use crate::report_files;
 use etalon_record::{Bench, Content, FolderKind, FolderLock, RecordError, Run, clear, overlap};
 use std::path::Path;
 
-/// The treatment of the present content of a command's folder.
+/// How a command treats what its output folder already holds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Out<'a> {
     pub(crate) folder: &'a Path,
-    /// The kind that is to be written.
+    /// The kind of records that the command writes.
     pub(crate) kind: FolderKind,
-    /// The default folder if it is replaced by its own kind without being asked.
+    /// The default folder if records of the same kind in it are replaced without `--force`.
     pub(crate) latest: Option<&'a str>,
-    /// The folder of `--cases`, whose files must not be mixed with what is written.
+    /// The folder of `--cases`, whose files must stay separate from the output.
     pub(crate) cases: Option<&'a Path>,
-    /// True if what is missing is to be added; `None` where the command starts from its parts each time.
+    /// Whether to add only missing records; `None` if the command cannot resume.
     pub(crate) resume: Option<bool>,
     pub(crate) force: bool,
 }
 
-/// A folder that may be written.
+/// A folder that the command can write to.
 pub(crate) struct Claim<'a> {
     out: Out<'a>,
-    /// True if what the folder holds is continued.
+    /// True if the command continues the folder's records.
     pub(crate) resume: bool,
-    /// Of a folder that exists.
+    /// The lock of a folder that already exists.
     lock: Option<FolderLock>,
 }
 
 impl Claim<'_> {
-    /// Makes and locks the folder, and removes what it holds of another kind, and the reports of its own.
+    /// Makes and locks the folder, and removes records of another kind and reports of the same kind.
     ///
     /// # Errors
-    /// When a file cannot be removed, or another process has the folder.
+    /// If a file cannot be removed, or another process has locked the folder.
     pub(crate) fn take(self) -> Result<FolderLock, Failure> {
         let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
         let Out { folder, kind, .. } = self.out;
@@ -41,7 +41,7 @@ impl Claim<'_> {
             Content::Recorded(other) if other != kind => {
                 clear(folder, other, report_files::of(other)).map_err(Failure::usage)?;
             }
-            // A run or bench that goes on keeps its reports, and one that is replaced loses them with its records.
+            // A continued run or bench keeps its reports; a replaced one loses them with its records.
             Content::Recorded(FolderKind::Fuzz | FolderKind::Versions | FolderKind::Hunt) => {
                 report_files::of(kind)
                     .remove(folder)
@@ -53,11 +53,11 @@ impl Claim<'_> {
     }
 }
 
-/// Refuses a folder to write to in which `--cases` lies, or which lies in it.
+/// Refuses an output folder that contains the folder of `--cases`, or is inside it.
 pub(crate) fn apart(folder: &Path, cases: Option<&Path>) -> Result<(), Failure> {
     match cases {
         Some(cases) if overlap(folder, cases) => Err(Failure::usage(format!(
-            "--out {} and --cases {} must not lie one in the other; name another folder with --out",
+            "--out {} and --cases {} must not be inside each other; name another folder with --out",
             folder.display(),
             cases.display()
         ))),
@@ -66,10 +66,11 @@ pub(crate) fn apart(folder: &Path, cases: Option<&Path>) -> Result<(), Failure> 
 }
 
 impl<'a> Out<'a> {
-    /// Locks the folder if it exists. A new one is made by [`Claim::take`], once there is something to write.
+    /// Locks the folder if it exists. [`Claim::take`] makes a new one, once there is something to write.
     ///
     /// # Errors
-    /// When the folder holds what may not be replaced, or another process has it. Nothing has been changed then.
+    /// If the folder holds something that must not be replaced, or another process has locked it. Nothing has
+    /// changed then.
     pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
         apart(self.folder, self.cases)?;
         Content::writable(self.folder).map_err(Failure::usage)?;
@@ -85,7 +86,7 @@ impl<'a> Out<'a> {
         FolderLock::acquire(self.folder).map_err(Failure::usage)
     }
 
-    /// Returns true if what the folder holds is continued.
+    /// Returns true if the command continues the folder's records.
     fn resumes(self) -> Result<bool, Failure> {
         let path = self.folder.to_owned();
         match Content::writable(self.folder).map_err(Failure::usage)? {

@@ -1,9 +1,10 @@
 //! Standard output, standard error and the terminal.
 //!
-//! A reader that goes away, as `head` does, never changes an exit code: it has what it wanted. Nothing here panics, as
-//! `println!` and `eprintln!` do. [`print()`] is for commands whose product is what they print, so that any other failed
-//! write is an error; [`summarize`] for people, of those whose product is a folder, where none is. JSON is read by programs,
-//! which must not take a part for the whole.
+//! A reader that closes the pipe, as `head` does, never changes an exit code: it has what it wanted. Unlike
+//! `println!` and `eprintln!`, nothing here panics. [`print()`] is for commands that produce their output on
+//! standard output: any other failed write is an error. [`summarize`] is for commands that produce a folder:
+//! a failed write of the summary is no error. JSON goes through [`print()`], because a program must not take
+//! truncated output as complete.
 
 use crate::failure::Failure;
 use etalon_report::TableOptions;
@@ -13,10 +14,10 @@ use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::os::fd::AsFd;
 
-/// Writes text, the product of a command, to standard output.
+/// Writes a command's output to standard output.
 ///
 /// # Errors
-/// If a write fails for any other reason than that the reader closed the pipe.
+/// If a write fails, except because the reader closed the pipe.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     match write(text) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::incomplete(format!(
@@ -26,12 +27,13 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a value, the product of a command, as indented JSON.
+/// Writes a command's output as indented JSON.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     print(&json(value)?)
 }
 
-/// Writes a summary of what a folder holds to standard output. A failed write is told and changes nothing.
+/// Writes a summary of a folder to standard output. A failed write is reported on standard error and is no
+/// error.
 pub(crate) fn summarize(text: &str) {
     match write(text) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -50,19 +52,20 @@ fn json(value: &impl Serialize) -> Result<String, Failure> {
 
 fn write(text: &str) -> io::Result<()> {
     let out = io::stdout().lock();
-    // The standard library takes a write to a descriptor that is not open for writing for a success.
+    // The standard library reports success for writes to a closed standard output, so write to the
+    // descriptor.
     File::from(out.as_fd().try_clone_to_owned()?).write_all(text.as_bytes())
 }
 
 /// Writes a line to standard error; see [`say!`].
 pub(crate) fn write_error(line: Arguments<'_>) {
-    // Nobody is left to tell.
+    // If standard error fails, there is nowhere to report it.
     let _ = io::stderr()
         .lock()
         .write_all(format!("{line}\n").as_bytes());
 }
 
-/// Writes a line to standard error, if somebody reads it.
+/// Writes a line to standard error; ignores failures.
 macro_rules! say {
     ($($argument:tt)*) => {
         $crate::output::write_error(format_args!($($argument)*))
@@ -70,16 +73,16 @@ macro_rules! say {
 }
 pub(crate) use say;
 
-/// True if standard output takes colours (<https://no-color.org>).
+/// Returns true if output is coloured: on a terminal, unless `NO_COLOR` is set (<https://no-color.org>).
 pub(crate) fn color() -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
     !refused && io::stdout().is_terminal()
 }
 
-/// A width that nothing reaches: what is no terminal gets whole lines.
+/// A width that no line reaches: without a terminal, lines stay whole.
 const UNLIMITED: usize = 1 << 20;
 
-/// Returns the width of the terminal in columns; without a terminal nothing is wrapped or cut.
+/// Returns the width of the terminal in columns; without a terminal, lines are neither wrapped nor cut.
 pub(crate) fn width() -> usize {
     if !io::stdout().is_terminal() {
         return UNLIMITED;
@@ -91,7 +94,7 @@ pub(crate) fn width() -> usize {
     known.unwrap_or(120)
 }
 
-/// Returns the width and colours of tables on this terminal.
+/// Returns the width and colour options for tables on this terminal.
 pub(crate) fn table_options() -> TableOptions {
     TableOptions {
         width: width(),

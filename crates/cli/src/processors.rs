@@ -3,7 +3,7 @@
 use std::num::NonZero;
 use std::thread::available_parallelism;
 
-/// Returns the number of processors that this process may use; 1 where the system does not say.
+/// Returns the number of processors that this process can use; 1 if the system does not report it.
 pub(crate) fn processors() -> usize {
     available_parallelism().map_or(1, NonZero::get)
 }

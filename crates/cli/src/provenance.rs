@@ -17,7 +17,8 @@ pub(crate) fn now() -> String {
     written(SystemTime::now())
 }
 
-/// Writes a time; one before 1970, as a machine without a battery has it, is the beginning of that year.
+/// Formats a time. Times before 1970, which a machine without a clock battery can have, become the start of
+/// 1970.
 fn written(time: SystemTime) -> String {
     let time = time.max(SystemTime::UNIX_EPOCH);
     humantime::format_rfc3339_seconds(time).to_string()

@@ -31,7 +31,7 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     format!("{}.{}", word(case), word(adapter))
 }
 
-/// A case that fails on an adapter, as a user names both.
+/// Flags that name a failing case and its adapter.
 #[derive(Debug, Args)]
 pub(crate) struct FailingArguments {
     #[command(flatten)]
@@ -39,22 +39,22 @@ pub(crate) struct FailingArguments {
     /// Id of the case
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
-    /// The adapter on which it fails
+    /// Adapter on which the case fails
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: String,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
-    /// Seconds that a case may take
+    /// Time limit of a case in seconds
     #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
     timeout: f64,
-    /// Form of the summary
+    /// Format of the summary
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
 impl FailingArguments {
-    /// Returns the time that a case may take.
+    /// Returns the time limit of a case.
     pub(crate) fn timeout(&self) -> Duration {
         Duration::from_secs_f64(self.timeout)
     }
@@ -65,7 +65,7 @@ impl FailingArguments {
     }
 }
 
-/// A case that is to be reduced, and the adapter on which it fails.
+/// A case to reduce, and the adapter on which it fails.
 pub(crate) struct Failing {
     /// The name of its file, which is also its id.
     pub(crate) name: String,
@@ -110,7 +110,7 @@ pub(crate) fn start(adapter: &String, file: Option<&Path>) -> Result<(Launch, Wo
     })
 }
 
-/// Starts the worker of the adapter that a query names.
+/// Starts the worker of the first adapter that a query finds.
 pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
     let names = query.names;
     let adapters = discover(&query)?;

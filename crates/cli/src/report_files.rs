@@ -1,4 +1,5 @@
-//! The reports of a folder: removed with the records that they were made from.
+//! The report files of each kind of folder, which are removed together with the records that they were made
+//! from.
 
 use crate::failure_groups::Folders;
 use etalon_record::{FolderKind, ReportFiles};
@@ -15,7 +16,7 @@ pub(crate) const BENCH: ReportFiles = ReportFiles {
     folders: &[],
 };
 
-/// The case files of a search of random scenes.
+/// The case files of a search over random scenes.
 pub(crate) const FUZZ: ReportFiles = ReportFiles {
     files: &[],
     folders: &[(Folders::FOUND, "json"), (Folders::KNOWN, "json")],

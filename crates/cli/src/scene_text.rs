@@ -1,7 +1,7 @@
-//! A scene as a list that people read: attachments, passes, draws, and of their state what is not the default.
+//! A scene as a readable list: attachments, passes, and draws with their state that differs from the default.
 //!
-//! The state is compared with a plain draw's field by field in its serialized form, so that a state which is added to
-//! draws shows here without being named.
+//! A draw's serialized state is compared with a default draw's field by field, so that new states show
+//! without a change here.
 
 use etalon_scene::{
     Attachment, ColorTarget, Contents, Draw, Mesh, PassOperations, Path, QueryScope, Scene, Shader,
@@ -11,14 +11,14 @@ use serde::Serialize;
 use serde_json::Value;
 use std::sync::LazyLock;
 
-/// The most draws of a pass that are listed.
+/// The largest number of draws that are listed for a pass.
 const DRAWS: usize = 24;
-/// The most characters of a value.
+/// The largest number of characters of a value.
 const LONGEST: usize = 160;
-/// Fields that have lines of their own.
+/// Fields that are listed on their own lines.
 const LISTED_APART: [&str; 5] = ["mesh", "shader", "viewport", "params", "targets"];
 
-/// Returns the lines, indented by two spaces a level.
+/// Returns the lines, indented by two spaces per level.
 pub(crate) fn lines(scene: &Scene) -> Vec<String> {
     let mut lines = Vec::new();
     let name = |index: usize| scene.attachments[index].name.clone();
@@ -56,7 +56,7 @@ pub(crate) fn lines(scene: &Scene) -> Vec<String> {
             lines.extend(of_draw(scene, d, draw, scene.pass_size(pass)));
         }
         if pass.draws.len() > DRAWS {
-            lines.push(format!("  and {} more draws", pass.draws.len() - DRAWS));
+            lines.push(format!("  and {} further draws", pass.draws.len() - DRAWS));
         }
     }
     let path = changes(&scene.path, &Path::default());
@@ -169,7 +169,7 @@ static PLAIN: LazyLock<Value> = LazyLock::new(|| {
     serde_json::to_value(draw).unwrap_or_default()
 });
 
-/// The fields of a state that differ from the default's.
+/// Returns the fields of a state that differ from the default.
 fn changes<T: Serialize + PartialEq>(
     value: &T,
     plain: &T,
@@ -183,7 +183,7 @@ fn changes<T: Serialize + PartialEq>(
     differing.into_iter()
 }
 
-/// The fields of one value that differ from another's.
+/// Returns the fields of one value that differ from another's.
 fn differences(value: &Value, plain: &Value) -> Vec<String> {
     let Value::Object(members) = value else {
         return Vec::new();
@@ -203,7 +203,7 @@ fn differences(value: &Value, plain: &Value) -> Vec<String> {
         .collect()
 }
 
-/// A value without quotes and braces.
+/// Formats a value without quotes.
 fn short(value: &Value) -> String {
     match value {
         Value::Null => "off".to_owned(),

@@ -1,4 +1,4 @@
-//! The shard of this process: from the flag, or from the variables of systems that start many processes.
+//! The shard of this process: from the flag, or from the environment variables of CI and batch systems.
 
 use crate::failure::Failure;
 use crate::output::say;
@@ -22,7 +22,7 @@ pub(crate) fn parse(text: &str) -> Result<Shard, String> {
         .ok_or_else(wrong)
 }
 
-/// Returns the shard that the flag or the environment gives; none if it is everything.
+/// Returns the shard that the flag or the environment gives; `None` if it is all cases.
 fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
     if let Some(shard) = flag {
         return Ok((shard.count > 1).then_some(shard));
@@ -40,7 +40,7 @@ fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
     Ok(given.shard)
 }
 
-/// Keeps the cases of the shard that the flag or the environment gives, and says how many they are.
+/// Keeps the cases of the shard that the flag or the environment gives, and prints their number.
 pub(crate) fn keep(flag: Option<Shard>, cases: &mut Vec<Case>) -> Result<Option<Shard>, Failure> {
     let shard = chosen(flag)?;
     if let Some(shard) = shard {
@@ -54,13 +54,14 @@ pub(crate) fn keep(flag: Option<Shard>, cases: &mut Vec<Case>) -> Result<Option<
 /// The shard that the environment gives.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct FromEnvironment {
-    /// The shard, where there is more than one.
+    /// The shard, if there are several.
     pub(crate) shard: Option<Shard>,
     /// A file to create, which tells Bazel that the process supports sharding.
     pub(crate) status_file: Option<PathBuf>,
 }
 
-/// Reads the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs. `variable` looks one up.
+/// Reads the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs. `variable` looks up a
+/// variable.
 ///
 /// # Errors
 /// If the variables contradict each other.
@@ -95,7 +96,7 @@ pub(crate) fn from_environment(
         found.push((system, Shard { index, count }));
         Ok(())
     };
-    // GitLab sets the total of every job, the index only of parallel ones.
+    // GitLab sets the total for every job, but the index only for parallel jobs.
     if let Some(index) = number("CI_NODE_INDEX")? {
         add(
             "GitLab",
@@ -129,7 +130,7 @@ pub(crate) fn from_environment(
         )?;
     }
     if let Some(index) = number("JOB_COMPLETION_INDEX")? {
-        // Kubernetes sets the index alone; the job file sets the total.
+        // Kubernetes sets only the index; the job file sets the total.
         let index = index.checked_add(1);
         add(
             "Kubernetes",

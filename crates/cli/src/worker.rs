@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     /// List the devices of this backend as JSON
     #[arg(long)]
     pub(crate) enumerate: Option<String>,
-    /// Keep the browser that standard input names
+    /// Start the browser that standard input names, and keep it until the input ends
     #[arg(long)]
     pub(crate) keep: bool,
 }
@@ -51,14 +51,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
     match etalon_runner::serve(|| open(&what, pipe), input, &mut output) {
-        // The parent wants no more.
+        // The parent has closed the pipe.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
         served => Ok(served.map(|()| 0)?),
     }
 }
 
-/// Returns the request that a parent sends through a launcher. Where that lost variables of the environment,
-/// this process becomes one that has them.
+/// Returns the request that the parent sends through a launcher. If the launcher dropped environment
+/// variables, replaces this process by one that has them.
 fn set_up() -> Result<String, Failure> {
     let setup = Setup::receive(io::stdin().lock())
         .map_err(|e| Failure::usage(format!("--open - takes a request from etalon: {e}")))?;
@@ -88,11 +88,11 @@ fn become_other(mut command: Command, program: &Path) -> Failure {
     ))
 }
 
-/// Returns the reason for which no process can be replaced.
+/// Returns the error for systems that cannot replace a process.
 #[cfg(not(unix))]
 fn become_other(_: Command, program: &Path) -> Failure {
     Failure::usage(format!(
-        "{}: the launcher does not pass the environment on; put `env NAME=VALUE` behind it",
+        "{}: the launcher does not pass the environment on; put `env NAME=VALUE` after it",
         program.display()
     ))
 }
@@ -101,7 +101,7 @@ fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
     serde_json::from_str(text).map_err(|e| Failure::usage(format!("--open or --enumerate: {e}")))
 }
 
-/// Returns standard output for the protocol alone; output of the driver goes to standard error.
+/// Returns standard output for use by the protocol alone; the driver's own output goes to standard error.
 fn private_output() -> Result<File, Failure> {
     let private = rustix::io::dup(io::stdout()).map_err(io::Error::from)?;
     rustix::stdio::dup2_stdout(io::stderr()).map_err(io::Error::from)?;

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A backend; the profiles of OpenGL and the APIs of `wgpu` count separately. `webgpu` is a browser's.
+/// A backend, with the profiles of OpenGL and the APIs below `wgpu` as separate ones. `Webgpu` is a
+/// browser's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum BackendName {

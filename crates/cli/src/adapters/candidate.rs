@@ -1,4 +1,4 @@
-//! Starting the worker of an adapter that may be usable.
+//! Starts the worker of an adapter that might be usable.
 
 use super::backend_name::BackendName;
 use super::cache;
@@ -16,14 +16,14 @@ use etalon_runner::{Launch, Launcher, START_TIMEOUT, StartError, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// A driver that takes longer to fail is not started a second time.
+/// The longest failed start after which the driver gets a second attempt.
 const RETRY_LIMIT: Duration = Duration::from_secs(10);
 /// The folders that the system's loader searches first.
 const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
-/// The remedy if nobody knows another.
+/// The remedy if no other is known.
 const SEE_LOG: &str = "see the driver's own log";
 
-/// An adapter that may be usable.
+/// An adapter that might be usable.
 pub(super) enum Candidate {
     /// An entry of this file; `None` is the built-in one.
     Described(Box<Description>, Option<PathBuf>),
@@ -38,15 +38,15 @@ pub(super) struct Started {
     pub(super) origin: Origin,
 }
 
-/// The reason for which an adapter did not start.
+/// The reason why an adapter did not start.
 pub(super) enum NoStart {
     /// It cannot be used.
     Absent(AbsentAdapter),
-    /// Its driver is installed and ends or hangs while it starts.
+    /// Its driver is installed, but crashes or hangs while it starts.
     Failed(BackendName, AbsentAdapter),
     /// A built-in entry needs a variable that is not set.
     NotEnabled(AbsentAdapter),
-    /// The file of the user describes something that does not exist.
+    /// The user's file describes something that does not exist.
     Wrong(String),
 }
 
@@ -76,7 +76,8 @@ impl Candidate {
         })
     }
 
-    /// Returns the adapter with a planted fault, under another name; `None` if its backend has no place for the fault.
+    /// Returns the adapter with a planted fault, under the given name; `None` if its backend cannot have this
+    /// fault.
     pub(super) fn with_fault(&self, name: &str, fault: Fault) -> Option<Self> {
         match self {
             Self::Described(description, file) if fits(fault, description.backend) => {
@@ -128,7 +129,7 @@ impl Candidate {
         if let Some(listen) = &resolved.listen {
             say!("{}: {}", self.name(), listen.invitation());
         }
-        // A driver that fails to start gets a second attempt, one that hangs does not.
+        // A driver that fails quickly gets a second attempt; one that hangs does not.
         let begun = Instant::now();
         let started = match Worker::start(&launch) {
             Err(StartError::Broken(_)) if begun.elapsed() < RETRY_LIMIT => Worker::start(&launch),
@@ -136,7 +137,7 @@ impl Candidate {
         };
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
-                // The file names packages, but not those of validation layers.
+                // The file's remedy names the driver's packages, but not those of validation layers.
                 let starts_itself = query.validate || self.remedy().is_empty();
                 let remedy = if starts_itself {
                     &u.remedy
@@ -184,7 +185,7 @@ impl Candidate {
             .as_deref()
             .and_then(Path::parent)
             .unwrap_or(Path::new(""));
-        // Relative paths would depend on the folder that the worker starts in.
+        // A relative path would depend on the worker's current folder.
         let folder = std::path::absolute(folder.join(".")).unwrap_or_else(|_| folder.to_owned());
         let variable = |name: &str| std::env::var(name).ok();
         description.resolve(&folder, &variable).map_err(|why| {
@@ -233,7 +234,7 @@ impl Candidate {
         let mut environment = resolved.environment.clone();
         if let Some(manifest) = &resolved.manifest {
             let manifest = manifest.to_string_lossy().into_owned();
-            // Loaders before 1.3.207 know the second name only.
+            // Loaders before 1.3.207 know only the second name.
             for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
                 environment.push((name.to_owned(), Some(manifest.clone())));
             }
@@ -301,7 +302,7 @@ impl Candidate {
     }
 }
 
-/// True if a backend has a place for a fault.
+/// Returns true if a backend can have a fault.
 fn fits(fault: Fault, backend: BackendName) -> bool {
     match (fault, backend) {
         (Fault::Call(fault), BackendName::Vulkan) => fault.is_in(Api::Vulkan),
@@ -316,7 +317,7 @@ fn fits(fault: Fault, backend: BackendName) -> bool {
     }
 }
 
-/// True if the name of the device or driver contains the word, ignoring case.
+/// Returns true if the name of the device or driver contains the word, ignoring case.
 fn answers(info: &AdapterInfo, word: &str) -> bool {
     let word = word.to_lowercase();
     [&info.device, &info.driver, &info.driver_version]

@@ -22,7 +22,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// The maximum number of entries of a file; each starts a process.
 const MAX_ENTRIES: usize = 64;
 
-/// The folders of Vulkan driver manifests, besides those of the environment.
+/// The folders of Vulkan driver manifests, in addition to the user's data folder.
 const MANIFEST_FOLDERS: [&str; 6] = [
     "/etc/vulkan/icd.d",
     "/usr/local/etc/vulkan/icd.d",
@@ -32,8 +32,8 @@ const MANIFEST_FOLDERS: [&str; 6] = [
     "/usr/lib64/chromium",
 ];
 
-/// An entry of such a file. `${NAME}` in paths and in values of the environment is replaced by an environment variable; a
-/// relative path with a `/` starts at the folder of the file.
+/// An entry of a file that describes adapters. `${NAME}` in paths and in values of the environment is
+/// replaced by an environment variable; a relative path with a `/` is relative to the folder of the file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
@@ -43,8 +43,8 @@ pub(super) struct Description {
     /// Environment variables of the worker; `null` removes a variable.
     #[serde(default)]
     environment: BTreeMap<String, Option<String>>,
-    /// Vulkan driver manifests, of which the first one found is used: paths, or file names that are searched in
-    /// the folders of manifests.
+    /// Vulkan driver manifests; the first one found is used. Each is a path, or a file name that is searched
+    /// in the folders of manifests.
     #[serde(default)]
     manifests: Vec<String>,
     /// The EGL library to open instead of `libEGL.so.1`; for the backends `gl` and `gl-es`.
@@ -52,62 +52,63 @@ pub(super) struct Description {
     /// Folders searched for libraries before those of the system.
     #[serde(default)]
     library_path: Vec<String>,
-    /// The words of the command of a browser, for the backend `webgpu`. `{url}` and `{profile}` are replaced.
+    /// The words of a browser's command, for the backend `webgpu`. `{url}` and `{profile}` are replaced.
     #[serde(default)]
     browser: Vec<String>,
-    /// Files of the browser's profile: names and texts.
+    /// Files of the browser's profile: names and contents.
     #[serde(default)]
     profile: BTreeMap<String, String>,
-    /// The address at which a browser elsewhere opens the page of the worker, for the backend `webgpu`.
+    /// The address at which a browser, possibly on another machine, opens the worker's page, for the backend
+    /// `webgpu`.
     pub(super) listen: Option<SocketAddr>,
-    /// The index of the device in the order of the backend; by default the first one, and in OpenGL the one that the
-    /// environment selects.
+    /// The index of the device in the backend's order. By default the first device; in OpenGL the device that
+    /// the environment selects.
     pub(super) device: Option<usize>,
-    /// A word that the name of the device or driver must contain: if the driver that the environment selects is
-    /// missing, another one answers.
+    /// A word that the name of the device or driver must contain: if the driver that the environment selects
+    /// is missing, a different driver answers.
     pub(super) answers: Option<String>,
-    /// A planted fault; no file can name one.
+    /// A planted fault; files cannot set it.
     #[serde(skip)]
     pub(super) fault: Option<Fault>,
-    /// The words of a command behind which the worker runs elsewhere: another userland, a container, another
-    /// machine. Paths are then those of that place and not checked.
+    /// The words of a command that starts the worker elsewhere: in another userland, in a container, on
+    /// another machine. Paths then belong to that place and are not checked.
     #[serde(default)]
     launcher: Vec<String>,
-    /// The path of etalon behind the launcher; by default this program's own.
+    /// The path of etalon where the launcher starts it; by default this program's path.
     program: Option<String>,
-    /// The driver that it is a release of; with `version`.
+    /// The driver line that the adapter is a release of; requires `version`.
     line: Option<String>,
     /// The version of the release: numbers with dots.
     version: Option<String>,
-    /// The way to get the driver.
+    /// How to get the driver.
     #[serde(default)]
     pub(super) remedy: String,
 }
 
-/// An entry with the paths and variables of this machine.
+/// An entry with paths and variables resolved on this machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Resolved {
-    /// The words of the launcher; none if the worker runs here.
+    /// The words of the launcher; empty if the worker runs on this machine.
     pub(super) launcher: Vec<String>,
-    /// The path of etalon behind the launcher, if it is another.
+    /// The path of etalon where the launcher starts it, if it differs.
     pub(super) program: Option<PathBuf>,
     pub(super) environment: Vec<(String, Option<String>)>,
     pub(super) manifest: Option<PathBuf>,
     pub(super) egl: Option<PathBuf>,
     pub(super) library_path: Vec<PathBuf>,
     pub(super) browser: Option<Browser>,
-    /// The place of the page, with a token of this run.
+    /// The address of the page, with a token of this run.
     pub(super) listen: Option<Listen>,
 }
 
-/// The reason for which an entry cannot be used on this machine.
+/// The reason why an entry cannot be used on this machine.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum Unresolved {
     /// An environment variable is not set.
     #[error("the variable {0} is not set")]
     Variable(String),
-    /// `${` without a name and `}` behind it.
-    #[error("`{0}` holds `${{` without the name of a variable and `}}`")]
+    /// `${` without a name and `}` after it.
+    #[error("`{0}` has `${{` without a variable's name and `}}`")]
     Form(String),
     /// A file or folder does not exist.
     #[error("{0}")]
@@ -134,7 +135,7 @@ pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failur
 /// Returns the adapters of a line, oldest release first.
 ///
 /// # Errors
-/// If there are fewer than two, or two of one version.
+/// If there are fewer than two releases, or two have the same version.
 pub(crate) fn releases_of(
     file: Option<&Path>,
     line: &str,
@@ -178,7 +179,7 @@ pub(crate) fn releases_of(
     Ok(releases)
 }
 
-/// Returns the numbers of a version, by which it is ordered.
+/// Returns the numbers of a version as a sort key.
 fn version_key(version: &str) -> Vec<u64> {
     let parts = version.split('.').map(|part| part.parse().unwrap_or(0));
     parts.collect()
@@ -189,7 +190,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
     let what = path.display().to_string();
     let unreadable = |e: std::io::Error| {
         Failure::usage(format!(
-            "{what}: {e}; --adapters takes a JSON file in the form of crates/cli/adapters.json"
+            "{what}: {e}; --adapters takes a JSON file with the format of crates/cli/adapters.json"
         ))
     };
     let file = File::open(path).map_err(unreadable)?;
@@ -205,7 +206,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
     parse(&text, &what)
 }
 
-/// Parses the entries of a text; `what` is its name in messages.
+/// Parses entries from a text; `what` names the text in messages.
 fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
     let text = without_mark(text);
     let wrong = |e: serde_json::Error| {
@@ -214,7 +215,7 @@ fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
         ))
     };
     let entries: Vec<Description> = serde_json::from_str(text).map_err(wrong)?;
-    // A variable that stands twice would have its last value.
+    // serde would silently use the last value of a repeated key; this parser refuses it.
     parse_json(text).map_err(wrong)?;
     if entries.len() > MAX_ENTRIES {
         return Err(Failure::usage(format!(
@@ -238,7 +239,7 @@ fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
 }
 
 impl Description {
-    /// Checks what does not depend on the machine.
+    /// Checks everything that does not depend on the machine.
     fn check(&self) -> Result<(), String> {
         if !is_name(&self.name) {
             return Err(format!(
@@ -260,7 +261,7 @@ impl Description {
             .chain(&self.library_path)
             .any(|p| p.is_empty() || p.contains('\0'))
         {
-            return Err("a path is empty or holds a zero".to_owned());
+            return Err("a path is empty or contains a zero byte".to_owned());
         }
         self.check_launcher()?;
         self.check_browser()?;
@@ -286,7 +287,7 @@ impl Description {
         if words.any(|word| word.contains('\0'))
             || self.launcher.first().is_some_and(String::is_empty)
         {
-            return Err("`launcher` and `program` hold a zero, or no command".to_owned());
+            return Err("`launcher` or `program` contains a zero byte, or no command".to_owned());
         }
         if self.program.is_some() && self.launcher.is_empty() {
             return Err("`program` is for entries with a `launcher`; remove it".to_owned());
@@ -294,7 +295,7 @@ impl Description {
         let named = |text: &String| !text.contains('/');
         if !self.launcher.is_empty() && self.manifests.iter().any(named) {
             return Err(
-                "behind a `launcher` manifests are not searched; give the path there".to_owned(),
+                "with a `launcher`, manifests are not searched; give the path there".to_owned(),
             );
         }
         Ok(())
@@ -318,7 +319,7 @@ impl Description {
         fault.map_or(Ok(()), |fault| Err(fault.to_owned()))
     }
 
-    /// The browser, with its words as the file has them.
+    /// Returns the browser, with the words unresolved.
     fn browser(&self) -> Option<Browser> {
         (!self.browser.is_empty()).then(|| Browser {
             command: self.browser.clone(),
@@ -331,7 +332,7 @@ impl Description {
             (None, None) => Ok(()),
             (Some(line), Some(version)) => {
                 if !is_name(line) {
-                    return Err("a line is named as an adapter is".to_owned());
+                    return Err("the name of a line follows the rules of adapter names".to_owned());
                 }
                 let numbers = version.split('.').all(|part| part.parse::<u64>().is_ok());
                 if numbers {
@@ -347,7 +348,7 @@ impl Description {
         }
     }
 
-    /// The release of the driver that the entry speaks of.
+    /// Returns the driver release that the entry names.
     pub(super) fn release(&self) -> Option<Release> {
         let (Some(line), Some(version)) = (&self.line, &self.version) else {
             return None;
@@ -375,7 +376,7 @@ impl Description {
         let here = self.launcher.is_empty();
         let path = |text: &str| -> Result<PathBuf, Unresolved> {
             let text = expand(text, variable)?;
-            // A name without a folder is searched by the loader.
+            // The loader searches for a name without a folder.
             let is_path = text.contains('/');
             Ok(if is_path {
                 folder.join(text)
@@ -445,7 +446,8 @@ fn missing(what: String) -> Unresolved {
     Unresolved::Missing(what)
 }
 
-/// Returns the first manifest that exists: as a path, in the data folder of the user, then in those of the system.
+/// Returns the first manifest that exists: as a path, then in the user's data folder, then in those of the
+/// system.
 fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let home = variable("XDG_DATA_HOME")
         .map(PathBuf::from)
@@ -467,7 +469,7 @@ fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Op
         .find(|path| path.is_file())
 }
 
-/// True if a program exists: as a path, or in a folder of programs.
+/// Returns true if a program exists: as a path, or in a folder of `PATH`.
 fn is_program(program: &str, variable: &dyn Fn(&str) -> Option<String>) -> bool {
     if program.contains('/') {
         return Path::new(program).is_file();
@@ -606,7 +608,7 @@ mod tests {
             ),
             (
                 r#"[{"name":"a","backend":"gl","line":"me sa","version":"22"}]"#,
-                "named as an adapter",
+                "the rules of adapter names",
             ),
             (&long, "at most 64"),
         ] {

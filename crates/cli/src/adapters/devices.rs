@@ -1,4 +1,5 @@
-//! Enumeration of hardware devices. Each backend enumerates in a process of its own, since drivers crash and hang there.
+//! Enumeration of hardware devices. Each backend enumerates in its own process, since drivers can crash or
+//! hang.
 
 use super::backend_name::BackendName;
 use super::names::sanitized;
@@ -16,7 +17,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// The maximum size of a list of devices in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A device of an enumeration. Its name need not be unique.
+/// A device that a backend enumerated. Its name need not be unique.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HardwareDevice {
@@ -33,10 +34,10 @@ pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
     ("wgpu-gl", "wgpu:gl", BackendName::WgpuGl),
 ];
 
-/// Drivers of hardware that findings are about. A machine without the hardware does not make them dead.
+/// Hardware drivers that have findings. A machine without the hardware does not make these findings dead.
 const KNOWN_DRIVERS: [&str; 1] = ["nvidia"];
 
-/// Returns the names of the adapters of hardware that findings are about.
+/// Returns the names of the hardware adapters that have findings.
 pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
     BACKENDS.iter().flat_map(|(_, prefix, _)| {
         KNOWN_DRIVERS
@@ -48,7 +49,7 @@ pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
 /// Enumerates the devices of a backend in a new process.
 ///
 /// # Errors
-/// If the process fails, with the way it ended.
+/// If the process fails; the message says how it ended.
 pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let program = std::env::current_exe()
         .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
@@ -59,26 +60,26 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
-        .map_err(|e| format!("listing devices cannot be started: {e}"))?;
+        .map_err(|e| format!("cannot start the process that lists devices: {e}"))?;
     let mut pipe = child.stdout.take();
     let (sender, receiver) = channel();
     let reading = thread::Builder::new().spawn(move || {
         let mut bytes = Vec::new();
         if let Some(pipe) = &mut pipe {
-            // A broken pipe leaves a text that does not parse.
+            // After a broken pipe the text does not parse.
             let _ = pipe.take(MAX_BYTES).read_to_end(&mut bytes);
         }
         // After the time limit there is no receiver.
         let _ = sender.send(bytes);
     });
     let mut end = || {
-        // Fails if the process has ended by itself.
+        // Fails if the process has already ended.
         let _ = child.kill();
         let _ = child.wait();
     };
     if let Err(e) = reading {
         end();
-        return Err(format!("listing devices cannot be read: {e}"));
+        return Err(format!("cannot read the list of devices: {e}"));
     }
     let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
         end();
@@ -93,7 +94,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     if !status.success() {
         return Err(format!("listing devices ended with {status}"));
     }
-    serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave no list: {e}"))
+    serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave an invalid list: {e}"))
 }
 
 /// Makes the names of devices unique: the second of a name gets `-2`, the third `-3`. `taken` are the names of described
@@ -158,7 +159,7 @@ mod tests {
 
     #[test]
     fn no_two_names_are_the_same() {
-        // A driver may call itself by what another's second device would be called.
+        // A driver can have the name that another driver's second device would get.
         let found = ["gl:a", "gl:a-2", "gl:a", "gl:zink", "gl:a", "gl:a-2"];
         let names = named(&["gl:zink", "gl:a-3"], &found);
         assert_eq!(

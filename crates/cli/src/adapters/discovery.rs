@@ -1,5 +1,5 @@
-//! Discovery of adapters: software drivers from the built-in file, hardware by enumeration, further ones from the file
-//! of the user. The worker of each starts immediately, since a driver is known to work only when it answers.
+//! Discovers adapters: software drivers from the built-in file, hardware by enumeration, others from the
+//! user's file. Each worker starts immediately, since only an answer shows that a driver works.
 
 use super::backend_name::BackendName;
 use super::candidate::{Candidate, NoStart, Started};
@@ -23,9 +23,9 @@ pub(crate) struct Adapters {
     pub(crate) ready: Vec<(Launch, Worker)>,
     /// Adapters that cannot be used, with reasons.
     pub(crate) absent: Vec<AbsentAdapter>,
-    /// Those of them whose driver is installed and ends or hangs while it starts.
+    /// The absent adapters whose driver is installed, but crashes or hangs while it starts.
     pub(crate) dead: Vec<(BackendName, AbsentAdapter)>,
-    /// Adapters that a variable enables which is not set.
+    /// Adapters that need a variable that is not set.
     pub(crate) not_enabled: Vec<AbsentAdapter>,
     /// The origin of each usable adapter, by name.
     pub(crate) origins: BTreeMap<String, Origin>,
@@ -34,7 +34,7 @@ pub(crate) struct Adapters {
 /// Finds adapters and starts their workers.
 ///
 /// # Errors
-/// If a name is unknown, or the file of the user is wrong or describes something that does not exist.
+/// If a name is unknown, or the user's file is invalid or describes something that does not exist.
 pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     let mut adapters = Adapters {
         ready: Vec::new(),
@@ -59,7 +59,7 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
                 adapters.dead.push((backend, absent.clone()));
                 adapters.absent.push(absent);
             }
-            // An adapter that was asked for by name is reported with the reason.
+            // An adapter requested by name is reported with the reason.
             Err(NoStart::NotEnabled(absent)) if query.names.is_empty() => {
                 adapters.not_enabled.push(absent);
             }
@@ -70,7 +70,7 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     Ok(adapters)
 }
 
-/// Returns the adapters to start. Devices are enumerated only if no name is given or one is not described.
+/// Returns the adapters to start. Enumerates devices only if no name is given, or if a name is in no file.
 fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
     let mut candidates = described(query.file)?;
     let is_known =
@@ -111,7 +111,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
     Ok(candidates)
 }
 
-/// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.
+/// Returns the built-in descriptions and the user's, which replace built-in ones with the same name.
 fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
     let built_in = description::built_in()?;
     let mut candidates: Vec<Candidate> = built_in

@@ -1,5 +1,5 @@
-//! The rasterizer with a planted fault: `cpu:fault=abort` shows that a run survives everything that drivers do to their
-//! processes, `cpu:slower=5%` that `etalon diff` finds a slow-down.
+//! The rasterizer with a planted fault: `cpu:fault=abort` and its relatives show that a run survives
+//! everything that drivers do to their processes. `cpu:slower=5%` shows that `etalon diff` finds a slow-down.
 
 use crate::output::say;
 use etalon_backend::{
@@ -17,12 +17,12 @@ use std::io::Write;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// One scene out of this many fails, if a hash chooses.
+/// If a hash chooses the failing scenes, one in this many fails.
 const ONE_OF: u64 = 8;
-/// The format that a fault reads back wrong.
+/// The format that `misread` reads back wrong.
 const MISREAD: TextureFormat = TextureFormat::Rgb10a2Unorm;
 
-/// The rasterizer's span code with a fault, in frames or in its process.
+/// The rasterizer's span code with a fault in its frames or its process.
 pub(crate) struct Faulty {
     inner: CpuBackend,
     info: AdapterInfo,
@@ -30,9 +30,9 @@ pub(crate) struct Faulty {
     /// The pipe to the parent.
     pipe: RefCell<File>,
     messages: RefCell<Vec<String>>,
-    /// True if flaky pictures are wrong in this process.
+    /// True if this process draws flaky pictures wrong.
     unlucky: bool,
-    /// True once a scene was drawn that makes others fail.
+    /// True once a scene was drawn that makes later ones fail.
     spoilt: Cell<bool>,
 }
 
@@ -46,7 +46,7 @@ impl Faulty {
                 std::process::exit(9);
             }
             Fault::Process(ProcessFault::Mute, _) => sleep_endlessly(),
-            // The name is that of the rasterizer, so that `etalon diff` compares the two.
+            // Keeps the rasterizer's name, so that `etalon diff` compares the two.
             Fault::Slower(percent) => {
                 "cpu".clone_into(&mut info.name);
                 info.driver_version = format!("{}, slower by {percent} %", info.driver_version);
@@ -66,11 +66,11 @@ impl Faulty {
     }
 
     fn write(&self, bytes: &[u8]) {
-        // Without its parent this process ends soon.
+        // If the parent is gone, this process ends soon.
         let _ = self.pipe.borrow_mut().write_all(bytes);
     }
 
-    /// Fails, when a faulty scene is drawn.
+    /// Fails in the planted way.
     fn fail(&self, fault: ProcessFault) -> Result<(), BackendError> {
         let planted = || "planted".to_owned();
         match fault {
@@ -104,7 +104,7 @@ impl Faulty {
                 Ok(())
             }
             ProcessFault::Half => {
-                // A message of 16 bytes of which 2 come.
+                // Announces a message of 16 bytes and sends 2 of them.
                 self.write(&[16, 0, 0, 0, 1, 0]);
                 std::process::exit(0)
             }
@@ -141,8 +141,8 @@ fn sleep_endlessly() -> ! {
 
 /// Returns a hash of the scene.
 fn hash(scene: &Scene) -> u64 {
-    // Unseeded, so that each process marks the same scenes; over what a file of the case would hold, so that a new kind
-    // of state changes none of them.
+    // Unseeded, so that each process chooses the same scenes. Hashes the serialized scene, so that a new kind
+    // of state with its default changes no hash.
     let text = serde_json::to_string(scene).unwrap_or_default();
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -194,7 +194,7 @@ impl Backend for Faulty {
     }
 }
 
-/// Returns a number of a scene that depends on nothing else: 0 if it fails.
+/// Returns a number that depends only on the scene: 0 if the scene fails.
 fn number(scene: &Scene, scenes: FaultyScenes) -> u64 {
     let mut draws = scene.passes.iter().flat_map(|pass| &pass.draws);
     match scenes {
@@ -208,9 +208,9 @@ fn number(scene: &Scene, scenes: FaultyScenes) -> u64 {
 
 struct FaultyScene<'a> {
     inner: Box<dyn Prepared + 'a>,
-    /// The percentage by which the frame takes longer.
+    /// The slow-down of the frame in percent.
     slower: f64,
-    /// True if it is read back wrong.
+    /// True if the frame is read back wrong.
     wrong: bool,
     /// The attachments that are read back wrong.
     misread: Vec<String>,

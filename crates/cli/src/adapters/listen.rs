@@ -1,32 +1,33 @@
-//! The place at which a browser elsewhere opens the page of a worker.
+//! The address at which a browser on any machine opens a worker's page.
 
 use serde::{Deserialize, Serialize};
 use std::io::IsTerminal;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
 
-/// An address of the networks that documentation uses (RFC 5737). Nothing is sent there.
+/// An address reserved for documentation (RFC 5737). Nothing is sent there.
 const ELSEWHERE: (Ipv4Addr, u16) = (Ipv4Addr::new(192, 0, 2, 1), 9);
 
-/// The place of a page.
+/// The address of a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Listen {
     pub(crate) address: SocketAddr,
-    /// The first part of the page's path, which nobody guesses.
+    /// The first part of the page's path, a secret.
     pub(crate) token: String,
 }
 
 impl Listen {
-    /// A place with a new token. All workers of a run share it, so that a page finds the next one.
+    /// Makes an address with a new token. All workers of a run share it, so that a page finds the next
+    /// worker.
     pub(super) fn new(address: SocketAddr) -> Self {
         let token = etalon_browser::token();
         Self { address, token }
     }
 
-    /// Returns the page's address, and a code of it for cameras if standard error is a terminal.
+    /// Returns a text with the page's URL, and its QR code if standard error is a terminal.
     pub(super) fn invitation(&self) -> String {
         let host = SocketAddr::new(reached(self.address.ip()), self.address.port());
         let url = format!("http://{host}/{}/", self.token);
-        let text = format!("open {url} in the browser that is to be tested");
+        let text = format!("open {url} in the browser to test");
         let code = std::io::stderr()
             .is_terminal()
             .then(|| code(&url))
@@ -38,7 +39,7 @@ impl Listen {
     }
 }
 
-/// Returns the address by which others reach this machine, where it listens at all of them.
+/// Returns the address by which other machines reach this one; chooses one if it listens on all addresses.
 fn reached(listening: IpAddr) -> IpAddr {
     if !listening.is_unspecified() {
         return listening;
@@ -51,7 +52,7 @@ fn reached(listening: IpAddr) -> IpAddr {
     local().unwrap_or(Ipv4Addr::LOCALHOST.into())
 }
 
-/// Returns a QR code of two rows to a line.
+/// Returns a QR code with two rows per line of text.
 fn code(url: &str) -> Option<String> {
     let code = qrcode::QrCode::new(url).ok()?;
     let drawn = code.render::<qrcode::render::unicode::Dense1x2>();

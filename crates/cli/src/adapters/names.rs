@@ -3,7 +3,7 @@
 /// The maximum length of a name in characters.
 pub(super) const MAX_NAME: usize = 64;
 
-/// True if a text is a valid name.
+/// Returns true if a text is a valid name.
 pub(super) fn is_name(text: &str) -> bool {
     let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.', '@'].contains(&c);
     text.len() <= MAX_NAME
@@ -11,7 +11,7 @@ pub(super) fn is_name(text: &str) -> bool {
         && text.chars().all(inside)
 }
 
-/// Returns the words of a driver as a valid name, with space for a number.
+/// Returns a driver's own name as a valid name that leaves room for a number.
 pub(super) fn sanitized(name: &str) -> String {
     let plain: String = name
         .chars()

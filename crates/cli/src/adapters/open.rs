@@ -1,4 +1,5 @@
-//! The request that a worker process gets on its command line, or behind a launcher through its standard input.
+//! The request that a worker process gets on its command line, or through standard input if a launcher starts
+//! it.
 
 use super::backend_name::BackendName;
 use super::listen::Listen;
@@ -7,7 +8,7 @@ use etalon_browser::Browser;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The word in place of a request that comes through standard input.
+/// The argument that stands for a request on standard input.
 pub(crate) const FROM_INPUT: &str = "-";
 
 /// The adapter that a worker opens.
@@ -16,15 +17,15 @@ pub(crate) const FROM_INPUT: &str = "-";
 pub(crate) struct Open {
     pub(crate) name: String,
     pub(crate) backend: BackendName,
-    /// The index of the device in the order of the backend; by default, the default device.
+    /// The index of the device in the backend's order; `None` is the default device.
     pub(crate) device: Option<usize>,
-    /// The EGL library; by default, that of the system.
+    /// The EGL library; `None` is the system's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) egl: Option<PathBuf>,
     /// The browser that the worker starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) browser: Option<Browser>,
-    /// The place at which a browser opens the page of the worker.
+    /// The address at which a browser opens the worker's page.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) listen: Option<Listen>,
     /// True if validation layers and debug output are enabled.
@@ -33,7 +34,7 @@ pub(crate) struct Open {
     /// True if the calls of the first scene are recorded.
     #[serde(default, skip_serializing_if = "is_false")]
     pub(crate) record: bool,
-    /// The fault that the name ends in.
+    /// The fault at the end of the name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) fault: Option<Fault>,
 }

@@ -9,16 +9,16 @@ use std::path::PathBuf;
 pub(crate) struct Origin {
     /// `built-in`, `found` by enumeration, or the path of the user's file.
     pub(crate) described_in: String,
-    /// The words of the launcher; none if the worker runs here.
+    /// The words of the launcher; empty if the worker runs on this machine.
     pub(crate) launcher: Vec<String>,
-    /// Environment variables of the worker; `null` is one that is removed.
+    /// Environment variables of the worker; `null` removes a variable.
     pub(crate) environment: BTreeMap<String, Option<String>>,
     /// The manifest of the Vulkan driver, if one was chosen.
     pub(crate) manifest: Option<PathBuf>,
-    /// The EGL library, if it is not that of the system.
+    /// The EGL library, if it is not the system's.
     pub(crate) egl: Option<PathBuf>,
     /// Folders searched for libraries before those of the system.
     pub(crate) library_path: Vec<PathBuf>,
-    /// The index of the device in the order of the backend, if one was chosen.
+    /// The index of the device in the backend's order, if one was chosen.
     pub(crate) device_index: Option<usize>,
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 pub(crate) struct Query<'a> {
     /// The names to find; all if empty.
     pub(crate) names: &'a [String],
-    /// The file of the user with further descriptions.
+    /// The user's file with additional descriptions.
     pub(crate) file: Option<&'a Path>,
     /// True if validation layers and debug output are enabled.
     pub(crate) validate: bool,

@@ -1,4 +1,4 @@
-//! Drivers that are installed and do not start.
+//! Drivers that are installed but do not start.
 
 use super::backend_name::BackendName;
 use super::discovery::Adapters;
@@ -6,8 +6,8 @@ use etalon_frame::{Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Takes the adapters whose drivers do not start out of those that are absent. Returns each with the little that is
-/// known of it, and the reason.
+/// Removes the adapters whose drivers do not start from the absent ones. Returns each with a mostly empty
+/// record, and the reason.
 pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
     let record = |(backend, absent): (BackendName, AbsentAdapter)| {
         let (backend, api) = match backend {

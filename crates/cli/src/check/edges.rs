@@ -1,27 +1,27 @@
-//! Edges of meshes that pass so near to a sample that a driver may cover it or not.
+//! Mesh edges that pass so near a sample that a driver may cover it or not.
 //!
-//! Distance alone is no fault: an edge inside a mesh of one colour may lie anywhere. It is one where the sample has
-//! several legal outcomes for it. With several samples to a texel, an edge near one of them cannot be avoided, so only
-//! pictures of single samples are looked at.
+//! An edge inside a mesh of one colour can be anywhere; it is reported only if the sample has several legal
+//! outcomes because of it. In multisampled textures edges near samples cannot be avoided, so only
+//! single-sampled pictures are checked.
 
 use etalon_frame::LegalSet;
 use etalon_scene::{Draw, PolygonMode, PrimitiveTopology, PrimitiveVertices, Scene};
 
-/// The distance in texels below which an edge may pass on either side of a sample: two vertices that each move to
+/// The distance in texels below which an edge can pass on either side of a sample: both vertices can move to
 /// the nearest of the coarsest sub-pixel positions.
 const NEAR: f64 = 1.0 / 16.0;
-/// The largest pictures that are looked at, in texels a side.
+/// The largest side of a picture that is checked, in texels.
 const MAX_SIZE: u32 = 256;
-/// The most primitives of a draw that are looked at.
+/// The largest number of primitives of a draw that are checked.
 const MAX_PRIMITIVES: usize = 4096;
 
-/// An edge near a sample whose outcome it leaves open.
+/// An edge that leaves the outcome of a near sample open.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Near {
-    /// Pass and draw.
+    /// The indices of the pass and the draw.
     pub(crate) draw: [usize; 2],
     pub(crate) texel: [u32; 2],
-    /// In texels.
+    /// The distance between edge and centre in texels.
     pub(crate) distance: f64,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn nearest(scene: &Scene, legal: &LegalSet) -> Option<Near> {
     found
 }
 
-/// True if a draw rasterizes points, lines or outlines.
+/// Returns true if a draw rasterizes points, lines or outlines.
 pub(crate) fn draws_outlines(draw: &Draw) -> bool {
     let triangles = [
         PrimitiveTopology::TriangleList,
@@ -61,7 +61,7 @@ pub(crate) fn draws_outlines(draw: &Draw) -> bool {
     draw.polygon_mode != PolygonMode::Fill || !triangles.contains(&draw.topology)
 }
 
-/// The edges of a draw's filled triangles in texels; those of triangles behind the viewer are left out.
+/// Returns the edges of a draw's filled triangles in texels; skips triangles with a vertex behind the viewer.
 fn edges(draw: &Draw) -> Vec<[[f64; 2]; 2]> {
     if draws_outlines(draw) || draw.rasterizer_discard {
         return Vec::new();
@@ -88,7 +88,7 @@ fn edges(draw: &Draw) -> Vec<[[f64; 2]; 2]> {
     edges
 }
 
-/// Calls a function with each texel to whose centre an edge is near.
+/// Calls a function with each texel whose centre is near the edge, and the distance.
 fn each_near(a: [f64; 2], b: [f64; 2], size: [u32; 2], mut tell: impl FnMut([u32; 2], f64)) {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let length = dx * dx + dy * dy;
@@ -98,7 +98,7 @@ fn each_near(a: [f64; 2], b: [f64; 2], size: [u32; 2], mut tell: impl FnMut([u32
     let clamp = |v: f64, most: u32| v.clamp(0.0, f64::from(most)) as u32;
     let rows = clamp(a[1].min(b[1]) - 1.0, size[1])..clamp(a[1].max(b[1]) + 2.0, size[1]);
     for y in rows {
-        // The part of the edge inside the row and a margin.
+        // The part of the edge inside the row, with a margin.
         let channel = |row: f64| {
             if dy == 0.0 {
                 0.0
@@ -122,7 +122,7 @@ fn each_near(a: [f64; 2], b: [f64; 2], size: [u32; 2], mut tell: impl FnMut([u32
     }
 }
 
-/// True if a texel has several legal outcomes.
+/// Returns true if a texel has several legal outcomes.
 fn is_undecided(legal: &LegalSet, size: [u32; 2], [x, y]: [u32; 2]) -> bool {
     let mut groups = legal
         .groups

@@ -26,7 +26,7 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists the adapters that can be used, and the others with reason and remedy.
+/// Lists the usable adapters, and the others with reason and remedy.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),

@@ -43,20 +43,21 @@ pub(crate) struct Arguments {
     /// variables of GitLab, Bazel, Slurm or a Kubernetes indexed job
     #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
     pub(crate) shard: Option<Shard>,
-    /// Time limit in seconds of a picture, and of each answer of a driver in a round
+    /// Time limit in seconds for a picture, and for each answer of a driver in a round
     #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
     pub(crate) timeout: f64,
     /// Number of rounds, each in new processes; fewer than 7 cannot show a difference
     #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) rounds: u32,
-    /// Approximate time in seconds that the frames of a case take on an adapter in each round
+    /// Approximate time in seconds to spend on the frames of a case, per adapter and round
     #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
     pub(crate) seconds: f64,
-    /// Take no more rounds of a case, from the seventh on, when its interval lies within this share, such as 3%: that of
-    /// a cell's rate, else that of the time
+    /// Stop timing a case, after seven rounds or more, once its interval is within this share, such as 3%:
+    /// the interval of a cell's rate, otherwise of the time
     #[arg(long, value_name = "SHARE", value_parser = parse_share)]
     pub(crate) within: Option<f64>,
-    /// Time nothing more on an adapter when its rounds have taken this many seconds, but for the first round
+    /// Stop timing on an adapter once its rounds have taken this many seconds; the first round is always
+    /// completed
     #[arg(long, value_name = "S", value_parser = parse_timeout)]
     pub(crate) limit: Option<f64>,
     /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
@@ -70,10 +71,10 @@ pub(crate) struct Arguments {
 /// The folder that each bench without `--out` replaces.
 const LATEST: &str = "reports/bench-latest";
 
-/// The cases that are measured by default, all but those of [`MATRIX`].
+/// The cases that are measured by default, except those of [`MATRIX`].
 const DEFAULT: &str = "perf/*";
 
-/// The cells of the performance matrix, which are measured where they are named.
+/// The cells of the performance matrix, which are measured only if globs name them.
 const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
@@ -123,9 +124,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// The cases of a bench.
 struct Selected {
-    /// Those to measure, in their order.
+    /// The cases to measure, in order.
     cases: Vec<Case>,
-    /// The digest of all that were selected, of which a shard measures a part.
+    /// The digest of all selected cases; a shard measures a part of them.
     digest: String,
     shard: Option<Shard>,
 }
@@ -148,7 +149,7 @@ impl Selected {
     }
 }
 
-/// Returns the names that adapters report, which must differ.
+/// Returns the names that adapters report. Fails if two are equal.
 fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
     let mut names = BTreeSet::new();
     for (_, worker) in &adapters.ready {
@@ -265,7 +266,7 @@ fn print(
     Ok(())
 }
 
-/// Moves the cases of each cell of the matrix together, so that they are timed one right after the other.
+/// Moves the cases of each cell of the matrix together, so that they are timed directly after one another.
 fn beside_each_other(cases: &mut [Case]) {
     let mut places = HashMap::new();
     for (place, case) in cases.iter().enumerate() {
@@ -274,7 +275,7 @@ fn beside_each_other(cases: &mut [Case]) {
     cases.sort_by_key(|case| places.get(&group(case)).copied());
 }
 
-/// Returns the name of a case's cell, or its own.
+/// Returns the name of a case's cell, or the case's id.
 fn group(case: &Case) -> String {
     cell(&case.id).unwrap_or_else(|| case.id.clone())
 }

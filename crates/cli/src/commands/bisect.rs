@@ -27,18 +27,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The folder of the runs of a search, which is removed at its end.
+/// The folder of a search's runs, removed at the end.
 const WORK: &str = "work";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Case ids, globs over them, or run folders, of which the cases with a bad verdict are taken
+    /// Case ids, globs over them, or run folders, whose cases with a bad verdict are used
     #[arg(value_name = "CASE|GLOB|RUN", required = true)]
     pub(crate) inputs: Vec<String>,
-    /// The line: adapters described with this `line`, one per version
+    /// Line of the driver: the adapters described with this `line`, one per version
     #[arg(long, value_name = "NAME")]
     pub(crate) line: String,
-    /// The file that describes the adapters of the line, in the form of the built-in adapters.json
+    /// File that describes the adapters of the line, in the format of the built-in adapters.json
     #[arg(long = "adapters", value_name = "FILE")]
     pub(crate) adapter_file: Option<PathBuf>,
     /// Folder for versions.jsonl and its page
@@ -64,7 +64,7 @@ pub(crate) struct Arguments {
 /// One release that cases are drawn with.
 struct Drawn {
     launch: Launch,
-    /// The worker that discovery started; later ones are started when needed.
+    /// The worker that discovery started; later ones start on demand.
     worker: Option<Worker>,
     adapter: AdapterRecord,
 }
@@ -78,7 +78,7 @@ struct Search<'a> {
     stop: &'a AtomicBool,
 }
 
-/// Draws cases with releases of one driver until it is known which of them draw it wrong.
+/// Draws cases with releases of one driver until it is known which releases draw each case wrong.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut releases = releases_of(arguments.adapter_file.as_deref(), &arguments.line)?;
     let names: Vec<String> = releases.iter().map(|(name, _)| name.clone()).collect();
@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let findings = expectations::built_in()?;
     let outcome = search.run(&mut versions, &mut drawn, &findings, &arguments.out);
-    // What is left of an interrupted run says nothing that the file does not.
+    // The file already has everything that an interrupted run holds.
     let _ = clear(search.folder, FolderKind::Run, report_files::RUN);
     let _ = std::fs::remove_file(search.folder.join(".lock"));
     let _ = std::fs::remove_dir(search.folder);
@@ -136,7 +136,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// Prints what was found, and where its report is.
+/// Prints the result and the path of its report.
 fn print(
     format: Format,
     versions: &Versions,
@@ -160,7 +160,7 @@ fn print(
     Ok(())
 }
 
-/// Takes away the releases that cannot be used, and says why.
+/// Removes the releases that cannot be used, and prints the reasons.
 fn leave_out(
     releases: &mut Vec<(String, Release)>,
     absent: &[AbsentAdapter],
@@ -205,7 +205,7 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     globs.sort();
     globs.dedup();
     if globs.is_empty() {
-        return Err(Failure::nothing("the runs hold no case with a bad verdict"));
+        return Err(Failure::nothing("no case of these runs has a bad verdict"));
     }
     chosen(&CaseArguments {
         globs,
@@ -263,7 +263,7 @@ fn undrawn(case: &Case, releases: usize) -> CaseVersions {
 }
 
 impl Search<'_> {
-    /// Draws until every case is decided or the search is stopped. The file is written after each round.
+    /// Draws until every case is decided or the search is stopped. Writes the file after each round.
     fn run(
         &self,
         versions: &mut Versions,
@@ -315,7 +315,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Draws some cases with one release and returns their verdicts. A bad one is looked at again in another process.
+    /// Draws some cases with one release and returns their verdicts. Bad verdicts are checked again in
+    /// another process.
     fn draw(
         &self,
         drawn: &mut Drawn,
@@ -346,7 +347,7 @@ impl Search<'_> {
                 recheck: u32::MAX,
                 ..Options::default()
             },
-            // Without expectations, every bad verdict is looked at again.
+            // Without expectations, every bad verdict is checked again.
             expectations: &Expectations::default(),
             folder: self.folder,
             reports: report_files::RUN,

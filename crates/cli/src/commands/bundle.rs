@@ -28,21 +28,21 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The wrong samples that a program checks.
+/// The largest number of wrong samples that a program checks.
 const CHECKED: usize = 8;
 /// The exit status of a program that shows its bug.
 const BUG: i32 = 1;
-/// The processes that count how often the case fails.
+/// The number of processes that draw the case to count how often it fails.
 const RUNS: u32 = 20;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) failing: FailingArguments,
-    /// Line of drivers whose newest release draws the case too
+    /// Line of a driver; its newest release draws the case too
     #[arg(long, value_name = "LINE")]
     pub(crate) latest: Option<String>,
-    /// Folder for the bundle: a folder of the case's name, and the same as .tar.gz
+    /// Folder for the bundle, which is a folder with the case's name, and the same as .tar.gz
     #[arg(long, value_name = "DIR", default_value = "reports/bundles")]
     pub(crate) out: PathBuf,
     /// Replace the bundle of the same name
@@ -125,8 +125,8 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
     Ok(())
 }
 
-/// Returns the shortest program that shows the bug when it is built and run, with that run; the whole one if none does,
-/// or if none is run here.
+/// Returns the shortest program that shows the bug when it is built and run, with that run. Returns the whole
+/// program if no shorter one does, or if programs cannot run here.
 fn shortest(
     program: impl Fn(Trim) -> Result<Program, Failure>,
     run: impl Fn(&Program) -> Result<Option<ProgramRun>, Failure>,
@@ -194,7 +194,7 @@ impl Reduced<'_> {
 
     fn evidence(&self) -> Result<Evidence, Failure> {
         let (Subject::Picture(_) | Subject::Counter(_)) = self.symptom.subject else {
-            return Err(self.refused("it is no wrong value of one picture"));
+            return Err(self.refused("it is not a wrong value in one picture"));
         };
         let checks = self.checks()?;
         let recorded = self.recorded()?;
@@ -231,7 +231,7 @@ impl Reduced<'_> {
         }
     }
 
-    /// Returns the program with its run, if it is run here, in which it must show the bug.
+    /// Returns the program, and its run if it ran here. Fails if that run does not show the bug.
     fn program(&self, evidence: &Evidence) -> Result<(Program, Option<ProgramRun>), Failure> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
@@ -254,7 +254,7 @@ impl Reduced<'_> {
         Ok((program, ran))
     }
 
-    /// Returns the files beside the program: the case and the pictures.
+    /// Returns the files next to the program: the case and the pictures.
     fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
         let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let origin = format!("Reduced from {case} on {adapter}.");
@@ -267,7 +267,8 @@ impl Reduced<'_> {
         Ok(files)
     }
 
-    /// Returns the report. `built` is the last line of the program, if it was run here; `files` lie beside the report.
+    /// Returns the report. `built` is the program's last line of output, if it ran here; `files` are the
+    /// files next to the report.
     fn report(
         &self,
         evidence: &Evidence,
@@ -308,7 +309,7 @@ impl Reduced<'_> {
         }
     }
 
-    /// Draws the case where the API checks each call.
+    /// Draws the case with validation, to check that its calls are valid.
     fn checks(&self) -> Result<Checks, Failure> {
         let FailingArguments { adapter, file, .. } = &self.arguments.failing;
         let opened = started(Query {
@@ -326,7 +327,7 @@ impl Reduced<'_> {
             .map_err(Failure::incomplete)?;
         match recorded.messages.into_iter().next() {
             None => Ok(Checks::Clean),
-            // wgpu refuses what breaks its own rules; these are of the calls that it makes.
+            // wgpu itself refuses invalid calls, so the message is about the native calls that wgpu makes.
             Some(message) if self.device.backend == "wgpu" => Ok(Checks::Below(message)),
             Some(message) => Err(self.refused(&format!(
                 "the case does not keep to the rules of the API: {message}"
@@ -347,7 +348,7 @@ impl Reduced<'_> {
             .map_err(Failure::incomplete)
     }
 
-    /// Judges the recorded frame, which must fail as the case does.
+    /// Judges the recorded frame. Fails if the frame does not show the case's symptom.
     fn judged(&self, frame: &Frame) -> Result<Judged, Failure> {
         let frames = std::slice::from_ref(frame);
         let judged = Judge::default().judge(0, self.case, "", self.limits, frames);
@@ -364,7 +365,7 @@ impl Reduced<'_> {
         }
     }
 
-    /// Returns what the frame must hold where it is wrong.
+    /// Returns the required values at the places where the frame is wrong.
     fn due(&self, frame: &Frame, record: &Record) -> Result<Due, Failure> {
         let wrong = record
             .wrong
@@ -387,7 +388,7 @@ impl Reduced<'_> {
         Ok(demanded)
     }
 
-    /// Returns what a sample must hold in all attachments of its shape.
+    /// Returns the required values of a sample in all attachments of the same size and sample count.
     fn texel(&self, frame: &Frame, wrong: &WrongTexel) -> Result<Option<DueTexel>, Failure> {
         let WrongTexel { x, y, sample, .. } = *wrong;
         let judged = judge_texel(self.case, 0, self.limits, [x, y], Some(frame));
@@ -437,7 +438,8 @@ impl Reduced<'_> {
         }))
     }
 
-    /// Returns the processes in which the case fails in its way, and all.
+    /// Returns the number of processes in which the case fails with its symptom, and the number of all
+    /// processes.
     fn frequency(&self) -> Result<[u32; 2], Failure> {
         let mut failed = 0;
         for _ in 0..RUNS {
@@ -492,8 +494,7 @@ fn pictures(judged: &Judged) -> Vec<File> {
     } else {
         ""
     };
-    let allowed =
-        format!("the picture that is allowed; its least values, where several are{shown}");
+    let allowed = format!("the allowed picture; the lowest values if several are allowed{shown}");
     let back = format!("the picture that came back{shown}");
     let about = "wrong texels in orange, the first with a ring";
     vec![
@@ -570,7 +571,7 @@ fn expected(record: &Record) -> Vec<Expected> {
     lines
 }
 
-/// Returns words under which a tracker may know the bug.
+/// Returns search words under which a bug tracker might list the bug.
 fn search(adapter: &AdapterRecord, symptom: &Symptom) -> Vec<String> {
     let driver = adapter.device.split([' ', '(']).next().unwrap_or_default();
     let mut words = vec![driver.to_owned()];
@@ -600,7 +601,7 @@ fn run_command(launch: &Launch) -> String {
     format!("{before}./repro")
 }
 
-/// Returns a word in one line that a shell takes as it is.
+/// Returns a word quoted for a shell, without line breaks.
 fn quoted(word: &str) -> String {
     etalon_report::quoted(&word.replace(['\n', '\r', '\0'], " "))
 }

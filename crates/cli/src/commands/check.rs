@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     /// Case files, or folders of them. Default: the built-in cases
     #[arg(value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
-    /// Share of each family of cases that is judged; all are built
+    /// Share of each family of cases to judge; all cases are built
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
     /// Output format
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let report = Told {
         broken: &broken,
         files: &checked,
-        // One file's cases fit on a screen.
+        // The cases of a single file fit on a screen.
         each: arguments.paths.iter().any(|path| path.is_file()),
     };
     match arguments.format {
@@ -81,11 +81,11 @@ fn read(path: &Path) -> Result<Result<CaseFile, CaseError>, Failure> {
     Ok(CaseFile::parse(&parts[start..].join("/"), &text))
 }
 
-/// All that is told.
+/// The result of a check, for text and JSON.
 struct Told<'a> {
     broken: &'a [CaseError],
     files: &'a [CheckedFile],
-    /// True if each case is told.
+    /// True if the text lists each case.
     each: bool,
 }
 
@@ -181,7 +181,7 @@ impl Told<'_> {
     }
 }
 
-/// The share of the channels of some cases that is asserted, in percent, and the mean number of legal codes.
+/// Returns the share of asserted channels in percent, and the mean number of legal codes of these.
 fn figures<'c>(cases: impl IntoIterator<Item = &'c CheckedCase>) -> (f64, f64) {
     let (mut channels, mut asserted, mut codes) = (0_u64, 0_u64, 0_u64);
     for a in cases.into_iter().flat_map(|c| &c.assertions) {
@@ -199,7 +199,7 @@ fn figures<'c>(cases: impl IntoIterator<Item = &'c CheckedCase>) -> (f64, f64) {
     (100.0 * ratio(asserted, channels), ratio(codes, asserted))
 }
 
-/// The case with the most legal codes per channel, and their number.
+/// Returns the case with the most legal codes per channel, and their number.
 fn blurriest<'c>(cases: &[&'c CheckedCase]) -> Option<(&'c CheckedCase, f64)> {
     let shares = cases.iter().map(|case| (*case, figures([*case]).1));
     shares.reduce(|worst, share| if share.1 > worst.1 { share } else { worst })

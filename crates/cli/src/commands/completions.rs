@@ -12,9 +12,9 @@ pub(crate) struct Arguments {
     pub(crate) shell: Shell,
 }
 
-/// Prints a script that completes a command in a shell.
+/// Prints a completion script for a shell.
 pub(crate) fn run(arguments: &Arguments, command: &Command) -> Result<u8, Failure> {
-    // The generators do not leave hidden commands out.
+    // The generators would include hidden commands.
     let listed = command.get_subcommands().filter(|c| !c.is_hide_set());
     let mut command = Command::new("etalon")
         .version(env!("ETALON_VERSION"))

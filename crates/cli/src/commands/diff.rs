@@ -9,7 +9,7 @@ use etalon_report::runs::{self, RunDiff};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// The time of a bench that is compared.
+/// The time of a bench to compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum DiffTime {
     /// From the start of a frame until the device is done.
@@ -34,8 +34,8 @@ pub(crate) struct Arguments {
     /// The run or bench folder to judge
     #[arg(value_name = "AFTER")]
     pub(crate) after: PathBuf,
-    /// Runs only: the adapter of the first run. Default: adapters of equal names are compared, or the
-    /// only one of each run
+    /// Runs only: the adapter of the first run. Default: compare adapters with equal names, or the only one
+    /// of each run
     #[arg(long, value_name = "NAME", requires = "adapter_after")]
     pub(crate) adapter_before: Option<String>,
     /// Runs only: the adapter of the second run
@@ -82,7 +82,7 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
 fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
-            "--time is for two benches; the times of a run are single samples taken beside other work",
+            "--time is for two benches; the times of a run are single samples taken during other work",
         ));
     }
     let adapters = (&arguments.adapter_before, &arguments.adapter_after);
@@ -105,7 +105,7 @@ fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(code(&diff))
 }
 
-/// Returns 1 for anything worse, 2 for improvements alone, 0 otherwise.
+/// Returns 1 if anything is worse, 2 if there are only improvements, 0 otherwise.
 fn code(diff: &RunDiff) -> u8 {
     if diff.worse() {
         UNEXPECTED

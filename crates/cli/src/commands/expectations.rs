@@ -1,4 +1,4 @@
-//! `etalon expectations` and `etalon run --bless`.
+//! `etalon expectations`.
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::ids;
@@ -11,7 +11,7 @@ use etalon_record::{About, AdapterRecord, Entry, Expectations, Imported, ListKin
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Conversions from and to the lists of deqp-runner.
+/// Conversions between expectations and deqp-runner's lists.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Add the contents of deqp-runner's lists to an expectations file
@@ -43,7 +43,7 @@ pub(crate) struct ImportArguments {
     /// Range of driver versions, such as `>=22.3, <25.1`
     #[arg(long, value_name = "RANGE")]
     pub(crate) version: Option<String>,
-    /// Reason for which the verdicts are accepted
+    /// Reason why the verdicts are accepted
     #[arg(long, value_name = "TEXT")]
     pub(crate) reason: String,
     /// Evidence for the reason
@@ -80,10 +80,10 @@ pub(crate) struct ExportArguments {
     pub(crate) cases: Option<PathBuf>,
 }
 
-/// The number of unmatched lines that are printed.
+/// The largest number of unmatched lines that are printed.
 const PRINTED: usize = 20;
 
-/// Exchanges expectations with deqp-runner.
+/// Imports or exports deqp-runner's lists.
 pub(crate) fn run(command: &Command) -> Result<u8, Failure> {
     match command {
         Command::Import(arguments) => import(arguments),

@@ -27,13 +27,13 @@ pub(crate) struct Arguments {
     /// Column and row of the texel, counted from the top left corner
     #[arg(long, value_name = "X,Y", value_parser = parse_texel)]
     pub(crate) texel: [u32; 2],
-    /// Explain this sample only, counted from 0; without it, all samples of the texel
+    /// Explain only this sample, counted from 0. Default: all samples of the texel
     #[arg(long, value_name = "S")]
     pub(crate) sample: Option<u32>,
-    /// Draw the case on this adapter and judge its texel
+    /// Draw the case on this adapter and judge the texel
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
-    /// Also hold the texel against the yardstick, the band of good quality inside what is legal
+    /// Also compare the texel with the yardstick, the band of good quality within the legal values
     #[arg(long)]
     pub(crate) yardstick: bool,
     /// Read case files from this folder instead of the built-in ones
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })
 }
 
-/// Refuses a texel or a sample that no attachment has that the case reads back.
+/// Refuses a texel or a sample that is in no attachment that the case reads back.
 fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
     let [x, y] = arguments.texel;
     let read = || scene.read.iter().map(|i| &scene.attachments[*i]);
@@ -76,7 +76,7 @@ fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
     if inside().next().is_none() {
         let sizes = read().map(|a| format!("{} is {} by {}", a.name, a.size[0], a.size[1]));
         return Err(Failure::usage(format!(
-            "texel {x},{y} lies outside every attachment that the case reads back: {}",
+            "texel {x},{y} is outside every attachment that the case reads back: {}",
             sizes.collect::<Vec<_>>().join(", ")
         )));
     }
@@ -95,7 +95,7 @@ fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The texel that is asked for, and the frames of the case's scenes, if it was drawn.
+/// The texel to explain, and the frames of the case's scenes, if it was drawn.
 struct Asked<'a> {
     case: &'a Case,
     texel: [u32; 2],
@@ -103,7 +103,7 @@ struct Asked<'a> {
     frames: &'a [Frame],
 }
 
-/// The story of one or more samples, which all have the same.
+/// The common story of one or more samples.
 struct Told {
     story: Story,
     band: Option<Band>,
@@ -113,13 +113,13 @@ struct Told {
 struct Section {
     heading: Option<String>,
     told: Vec<Told>,
-    /// The lines on counters, and the band that a counter leaves.
+    /// The lines about counters, and the worst band of a counter.
     counters: (Vec<String>, Option<Band>),
-    /// True if it says how good a value is, not if it is legal.
+    /// True if the section judges the quality of a value, not its legality.
     yardstick: bool,
 }
 
-/// All that is told.
+/// The whole explanation.
 struct Explanation {
     sections: Vec<Section>,
 }
@@ -131,7 +131,7 @@ impl Asked<'_> {
             sections.push(self.yardstick(limits));
         }
         for index in 1..self.frames.len() {
-            // A variant is told where its own picture is wrong.
+            // A variant has a section only if its own picture is wrong.
             let scene = self.scene(index, limits)?;
             if scene.worst() > Some(Band::Imprecise) {
                 sections.push(scene);
@@ -151,7 +151,7 @@ impl Asked<'_> {
         Ok(Explanation { sections })
     }
 
-    /// Returns the stories in one of the case's scenes, by the encodings that fit the frame best.
+    /// Returns the stories of one of the case's scenes, with the encodings that fit the frame best.
     fn scene(&self, index: usize, limits: &Limits) -> Result<Section, Failure> {
         let scene = match index {
             0 => self.case.judged_scene(),
@@ -163,7 +163,7 @@ impl Asked<'_> {
         let rules = judgement.rules.clone();
         let band = |sample: &Sample| {
             let wrong = &comparison.as_ref()?.wrong;
-            // Attachments of several sizes have texels of the same place.
+            // Attachments of different sizes have texels with the same coordinates.
             let of_shape = |m: &ChannelMismatch| {
                 let mut attachments = scene.attachments.iter();
                 let attachment = attachments.find(|a| a.name == m.attachment);
@@ -173,7 +173,7 @@ impl Asked<'_> {
                 (w.x, w.y, w.sample) == (sample.x, sample.y, sample.sample)
                     && w.channels.iter().all(of_shape)
             };
-            // What the yardstick alone forbids is told only if it is asked for.
+            // Values that only the yardstick forbids are reported only with `--yardstick`.
             let found = wrong.iter().find(here)?;
             (found.band > Band::Imprecise).then_some(found.band)
         };
@@ -232,8 +232,8 @@ impl Asked<'_> {
         }
     }
 
-    /// Returns the stories of the samples that are asked for; those that differ in their number alone are
-    /// one.
+    /// Returns the stories of the requested samples. Samples whose stories differ only in the sample number
+    /// share one.
     fn samples(
         &self,
         index: usize,
@@ -284,7 +284,7 @@ impl Asked<'_> {
 }
 
 impl Told {
-    /// True if another sample has the same story.
+    /// Returns true if another sample's story is the same.
     fn is_alike(&self, story: &Story) -> bool {
         let ruling = story.ruling.as_ref().zip(self.story.ruling.as_ref());
         let same = ruling.is_some_and(|(ruling, mine)| {
@@ -310,7 +310,7 @@ impl Explanation {
         self.sections.iter().filter_map(Section::worst).max()
     }
 
-    /// Returns the text: the gravest verdict, the case, then all stories.
+    /// Returns the text: the worst verdict, the case, then all stories.
     fn text(&self, case: &Case) -> String {
         let texels = || {
             let sections = self.sections.iter().filter(|s| !s.yardstick);

@@ -1,6 +1,6 @@
 //! `etalon fuzz`.
 //!
-//! Scenes are made, drawn and judged in batches. What fails is looked at in the order of the scenes, so that the groups do
+//! Scenes are made, drawn and judged in batches. Failing scenes are reduced in order, so that the groups do
 //! not depend on the number of workers.
 
 use crate::adapters::{Query, discover, refuse_absent};
@@ -35,13 +35,13 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
-/// The scenes of a batch.
+/// The number of scenes of a batch.
 const BATCH: usize = 128;
-/// The most batches whose failing scenes wait to be reduced.
+/// The largest number of batches whose failing scenes wait for their reduction.
 const WAITING: usize = 8;
-/// The scenes of each adapter where neither their number nor a time is given.
+/// The number of scenes per adapter if neither their number nor a time is given.
 const COUNT: u64 = 1000;
-/// The most groups that the terminal tells: new ones, and those like one finding.
+/// The largest number of groups that are printed: new ones, and those like one finding.
 const MOST_NEW: usize = 20;
 const MOST_ALIKE: usize = 3;
 
@@ -49,7 +49,7 @@ const MOST_ALIKE: usize = 3;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Adapter to draw on; may be repeated. Default: all that can be used
+    /// Draw on this adapter; may be repeated. Default: all adapters found
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
     /// Seed of the scenes; the same seed gives the same scenes
@@ -58,11 +58,12 @@ pub(crate) struct Arguments {
     /// Number of scenes for each adapter [default: 1000, without --time]
     #[arg(long, value_name = "N", conflicts_with = "time", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
-    /// Time for each adapter, in seconds or as `10m` or `2h`; drawing what was found in processes of its own and comparing
-    /// it with the findings comes on top
+    /// Time for each adapter, in seconds or as `10m` or `2h`; confirming failures in new processes and
+    /// comparing them with the findings takes additional time
     #[arg(long, value_name = "T", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
-    /// Folder for fuzz.jsonl and the scenes that fail, in `found`, those of known bugs in `known`; `--cases` takes both
+    /// Folder for fuzz.jsonl and the failing scenes: new ones in `found`, those of known bugs in `known`;
+    /// `--cases` accepts both
     #[arg(long, value_name = "DIR", default_value = "reports/fuzz")]
     pub(crate) out: PathBuf,
     /// Replace the results in the folder
@@ -73,10 +74,10 @@ pub(crate) struct Arguments {
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
-    /// Seconds that a scene may take
+    /// Time limit of a scene in seconds
     #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
     pub(crate) timeout: f64,
-    /// Form of the summary
+    /// Format of the summary
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
@@ -96,11 +97,11 @@ fn parse_time(text: &str) -> Result<Duration, String> {
     if (number * seconds).is_finite() && (1.0..=1e7).contains(&(number * seconds)) {
         Ok(Duration::from_secs_f64(number * seconds))
     } else {
-        Err("expected a time from a second on, such as `90`, `10m` or `2h`".to_owned())
+        Err("expected a time of at least a second, such as `90`, `10m` or `2h`".to_owned())
     }
 }
 
-/// The scenes of one adapter.
+/// The results of the scenes of one adapter.
 struct Tally {
     adapter: String,
     scenes: u64,
@@ -109,19 +110,19 @@ struct Tally {
     pairs: usize,
     states: usize,
     seconds: f64,
-    /// The time of the drawings in processes of their own and of the comparison with findings, in seconds.
+    /// The time in seconds for confirming failures in new processes and for comparing them with findings.
     comparing: f64,
     groups: Vec<Group>,
 }
 
 impl Tally {
-    /// The groups that no finding explains.
+    /// Returns the groups that no finding explains.
     fn unexplained(&self) -> impl Iterator<Item = &Group> {
         self.groups.iter().filter(|g| !g.is_explained())
     }
 }
 
-/// Draws random scenes and keeps one of each way to fail.
+/// Draws random scenes and keeps one scene for each way to fail.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let expectations = arguments.expected.read(&[])?;
     let library = library(None)?;
@@ -144,7 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Err(Failure::nothing("no adapter can be used"));
     }
     let _lock = claim.take()?;
-    // The scenes that are found lie in a folder that is known to be ours.
+    // Marks the folder as a fuzz folder before scenes are written into it.
     write(arguments, &[], true)?;
     let search = Search {
         arguments,
@@ -160,7 +161,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             break;
         }
         tallies.push(search.on_adapter(launch, worker)?);
-        // What was found is kept, whatever happens to the next adapter.
+        // Results are written now, so that they survive a failure on the next adapter.
         write(arguments, &tallies, search.is_stopped())?;
     }
     let interrupted = search.is_stopped();
@@ -215,7 +216,7 @@ impl Search<'_> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Draws the scenes of one adapter, groups those that fail, and compares the groups with findings.
+    /// Draws the scenes of one adapter, groups the failing ones, and compares the groups with findings.
     fn on_adapter(&self, launch: Launch, worker: Worker) -> Result<Tally, Failure> {
         let Arguments { seed, out, .. } = self.arguments;
         let adapter = AdapterRecord::from(&worker);
@@ -254,7 +255,7 @@ impl Search<'_> {
         Ok(tally)
     }
 
-    /// Draws scenes in batches until the maker gives none.
+    /// Draws scenes in batches until the maker returns an empty batch.
     fn draw(
         &self,
         mut batches: Batches,
@@ -267,7 +268,7 @@ impl Search<'_> {
         let (sender, receiver) = mpsc::sync_channel::<Vec<(RandomScene, Record)>>(WAITING);
         let mut next = maker.batch();
         thread::scope(|scope| {
-            // What failed is reduced one after the other, in the order of the scenes, while others are drawn.
+            // Failing scenes are reduced in order, one after another, while other scenes are drawn.
             let added = thread::Builder::new().spawn_scoped(scope, || {
                 for scenes in receiver {
                     failing.add(scenes)?;
@@ -275,14 +276,14 @@ impl Search<'_> {
                 }
                 Ok::<_, Failure>(())
             });
-            let added = added
-                .map_err(|e| Failure::incomplete(format!("a thread cannot be started: {e}")))?;
+            let added =
+                added.map_err(|e| Failure::incomplete(format!("cannot start a thread: {e}")))?;
             let mut drawn = Ok(());
             while !next.is_empty() && !self.is_stopped() {
                 let scenes = std::mem::take(&mut next);
                 let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
                 (tally.pairs, tally.states) = (maker.fuzzer.pairs(), maker.fuzzer.states());
-                // While these are drawn, the next scenes are made.
+                // The next scenes are made while these are drawn.
                 let maker = Mutex::new(&mut *maker);
                 let make = || {
                     let mut maker = maker.lock().unwrap_or_else(PoisonError::into_inner);
@@ -297,7 +298,7 @@ impl Search<'_> {
                         break;
                     }
                 };
-                // Fails if the other thread ended with an error, which it returns.
+                // Fails if the other thread ended with an error; `joined` returns that error.
                 if sender.send(tally.count(scenes, records, bar)).is_err() {
                     break;
                 }
@@ -334,14 +335,14 @@ impl Search<'_> {
 struct Maker {
     fuzzer: Fuzzer,
     limits: Limits,
-    /// The number of scenes that are left to make.
+    /// The number of scenes still to make.
     left: u64,
-    /// The time from which no more are made.
+    /// The time after which no scenes are made.
     until: Option<Instant>,
 }
 
 impl Maker {
-    /// Makes the scenes of a batch; none at the end.
+    /// Makes the scenes of a batch; an empty one at the end.
     fn batch(&mut self) -> Vec<RandomScene> {
         if self.until.is_some_and(|until| Instant::now() >= until) {
             return Vec::new();
@@ -354,7 +355,7 @@ impl Maker {
     }
 }
 
-/// Returns the result of a thread, or passes its panic on.
+/// Returns the result of a thread, or resumes its panic.
 fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
     match thread.join() {
         Ok(result) => result,
@@ -362,7 +363,7 @@ fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
     }
 }
 
-/// Writes the groups, behind a line about the search and one about each adapter.
+/// Writes a line about the search, a line about each adapter, then the groups.
 fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
     let mut lines = vec![json!({
         "fuzz": 1,
@@ -439,7 +440,7 @@ impl Tally {
         })
     }
 
-    /// Returns the numbers of groups that are new, that look like a finding, and that a finding explains.
+    /// Returns the numbers of groups that are new, that resemble a finding, and that a finding explains.
     fn counts(&self) -> [usize; 3] {
         let alike = |g: &&Group| g.known.is_some();
         let unexplained = self.unexplained().count();
@@ -450,7 +451,7 @@ impl Tally {
     fn text(&self) -> String {
         let [new, alike, known] = self.counts();
         let mut text = format!(
-            "{}: {} scenes in {:.1} s ({:.0} a second), {} fail, in {} groups ({new} new, {alike} like a finding, {known} known); {} states and {} pairs of them met\n",
+            "{}: {} scenes in {:.1} s ({:.0} a second), {} fail, in {} groups ({new} new, {alike} like a finding, {known} known); {} states and {} pairs of states covered\n",
             self.adapter,
             self.scenes,
             self.seconds,
@@ -482,7 +483,8 @@ impl Tally {
         text
     }
 
-    /// Returns the groups of each finding, which explains them or not, those of most scenes first.
+    /// Returns the groups of each finding that explains them, or only resembles them; findings with the most
+    /// scenes first.
     fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
         let mut matches: Vec<(&Match, Vec<&Group>)> = Vec::new();
         for group in &self.groups {
@@ -499,7 +501,7 @@ impl Tally {
     }
 }
 
-/// Returns the line on groups that are not told.
+/// Returns the line about groups that are not printed.
 fn others(groups: &[&Group]) -> String {
     format!(
         "and {} of {}, in {FUZZ_FILE}",
@@ -513,7 +515,7 @@ fn scenes(groups: &[&Group]) -> u64 {
     groups.iter().map(|g| g.count).sum()
 }
 
-/// Returns the line on the groups of a finding.
+/// Returns the heading of a finding's groups.
 fn headed(word: &str, known: &Match, groups: &[&Group]) -> String {
     format!(
         "\n  {word}: {}: {}: {} in {}\n",

@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-/// Prints the ids of the cases that `run` would draw, and the numbers of those that it would leave out.
+/// Prints the ids of the cases that `run` would draw, and the numbers of cases that it would leave out.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Arguments { selection, format } = arguments;
     if *format == Format::Json {
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     tell_left_out(selection, measured, &ids)
 }
 
-/// Says how many cases are left out.
+/// Prints how many cases are left out.
 fn tell_left_out(
     selection: &CaseArguments,
     measured: usize,
@@ -52,7 +52,7 @@ fn tell_left_out(
     Ok(0)
 }
 
-/// Returns what is known of a case without drawing it.
+/// Returns the facts about a case that need no drawing.
 fn facts(case: &Case) -> Value {
     let parts = case.id.split('/').filter_map(|part| part.split_once('='));
     let axes: Map<String, Value> = parts

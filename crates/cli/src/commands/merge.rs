@@ -34,16 +34,16 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-/// The number of missing records that are printed.
+/// The largest number of missing records that are printed.
 const NAMED: usize = 20;
 
-/// Merges runs into one and names the records that are missing.
+/// Merges runs into one and lists the missing records.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let out = &arguments.out;
     refuse_part(arguments)?;
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
-    // What a folder of case files held is not at hand.
+    // The case files of a `--cases` folder are not available here.
     let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
     let built_in = !merge.header_mut().command.iter().any(of_folder);
     merge.header_mut().command = provenance::command();
@@ -93,7 +93,7 @@ fn refuse_part(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes the pages of a merged run, and prints it.
+/// Writes the pages of a merged run, and prints its summary.
 fn print(
     arguments: &Arguments,
     merged: &Merged,
@@ -135,7 +135,7 @@ fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
     etalon_report::write_catalogue(out, &catalogue(&library, &cases)).map_err(Failure::incomplete)
 }
 
-/// True if both paths name one folder.
+/// Returns true if both paths name the same folder.
 fn same(folder: &Path, other: &Path) -> bool {
     match (fs::canonicalize(folder), fs::canonicalize(other)) {
         (Ok(folder), Ok(other)) => folder == other,

@@ -29,10 +29,10 @@ pub(crate) struct Arguments {
     /// Globs over the names of planted bugs, such as `blend/*`. Default: all
     #[arg(value_name = "GLOB")]
     pub(crate) globs: Vec<String>,
-    /// Print names and descriptions only
+    /// Only print names and descriptions
     #[arg(long)]
     pub(crate) list: bool,
-    /// Hunt with the cases that match this glob only; may be repeated
+    /// Hunt only with the cases that match this glob; may be repeated
     #[arg(long = "case", value_name = "GLOB")]
     pub(crate) case_globs: Vec<String>,
     /// Share of each family of cases
@@ -41,10 +41,10 @@ pub(crate) struct Arguments {
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
-    /// Draw every case with every bug, instead of leaving an area after the first Fail of a bug
+    /// Draw every case with every bug, instead of skipping the rest of an area after a bug's first Fail
     #[arg(long)]
     pub(crate) full: bool,
-    /// Hunt with this many random scenes instead of cases, until each bug has failed once
+    /// Hunt with this many random scenes instead of cases; each bug is drawn until its first Fail
     #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full"])]
     pub(crate) fuzz: Option<u64>,
     /// Seed of the random scenes
@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         latest: None,
         cases: arguments.cases.as_deref(),
         resume: None,
-        // A hunt is made again in minutes.
+        // A hunt takes only minutes to repeat.
         force: true,
     }
     .claim()?;
@@ -185,11 +185,11 @@ fn hunted(
     }
 }
 
-/// The scenes that are held in memory at the same time.
+/// The number of scenes that are in memory at the same time.
 const CHUNK: u64 = 500;
 
-/// Hunts with random scenes. Exits with 1 if a legal bug fails, or the rasterizer without a bug; how many of the
-/// others are caught is what is measured.
+/// Hunts with random scenes, to measure how many bugs they catch. Exits with 1 if a bug that is marked legal
+/// fails, or the rasterizer fails without a bug.
 fn fuzz(
     arguments: &Arguments,
     scenes: u64,
@@ -222,8 +222,8 @@ fn fuzz(
     })
 }
 
-/// Draws random scenes with the bugs that are left, chunk by chunk. Returns the record of each bug, and the ids of the
-/// scenes that fail without a bug.
+/// Draws random scenes with the bugs that are not yet caught, chunk by chunk. Returns the record of each bug,
+/// and the ids of the scenes that fail without a bug.
 fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, Vec<String>) {
     let limits = CpuBackend::new("cpu").limits().clone();
     let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
@@ -266,8 +266,8 @@ fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, 
     (records.into_iter().flatten().collect(), failing)
 }
 
-/// Returns a record as if its bug had not panicked: one that panics in a scene, since it was not made for it, says nothing
-/// there.
+/// Returns a record as if its bug had not panicked. A bug that panics in a scene that it was not made for
+/// proves nothing.
 fn without_panics(mut record: MutantRecord) -> MutantRecord {
     if record.outcome == Catch::Broken {
         if record.areas.iter().any(|a| a.fail > 0) {
@@ -280,7 +280,7 @@ fn without_panics(mut record: MutantRecord) -> MutantRecord {
     record
 }
 
-/// Parts the cases that the rasterizer fails without a bug from the others: they would catch every bug.
+/// Separates the cases that the rasterizer fails without a bug: they would catch every bug.
 fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<String>) {
     let fails = |case: &Case| {
         let backend = CpuBackend::spans("cpu");
@@ -296,10 +296,10 @@ fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<St
     (kept, left.into_iter().map(|(case, _)| case.id).collect())
 }
 
-/// The class of bugs of large pictures, which random scenes leave to cases of their own.
+/// The class of bugs that need large pictures, which random scenes do not have.
 const LARGE: &str = "size";
 
-/// Returns the table of the bugs that random scenes caught, class by class, and the names of the others.
+/// Returns the table of the bugs that random scenes caught, by class, and the names of the others.
 fn recall(hunt: &Hunt) -> String {
     let class = |m: &MutantRecord| {
         m.mutant
@@ -336,7 +336,9 @@ fn recall(hunt: &Hunt) -> String {
     for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_some()) {
         if mutant.outcome == Catch::Caught {
             let name = &mutant.mutant.name;
-            text.push_str(&format!("\nWrong: {name} is held to be legal and failed\n"));
+            text.push_str(&format!(
+                "\nWrong: {name} is marked legal, but a scene failed\n"
+            ));
         }
     }
     text

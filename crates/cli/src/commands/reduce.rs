@@ -20,12 +20,12 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) failing: FailingArguments,
-    /// Folder into which the reduced case file is written; `--cases` takes it
+    /// Folder for the reduced case file; `--cases` accepts it
     #[arg(long, value_name = "DIR", default_value = "reports/reduced")]
     pub(crate) out: PathBuf,
 }
 
-/// Reduces a case that fails on an adapter, and writes what is left as a case file.
+/// Reduces a case that fails on an adapter, and writes the result as a case file.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let failing = &arguments.failing;
     apart(&arguments.out, failing.cases.as_deref())?;
@@ -68,20 +68,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// Refuses to replace a file that is no case file.
+/// Refuses to replace a file that is not a case file.
 fn refuse_foreign(path: &Path) -> Result<(), Failure> {
     let text = fs::read(path).unwrap_or_default();
     let document: Value = serde_json::from_slice(&text).unwrap_or_default();
     if path.exists() && !document["scene"].is_object() {
         return Err(Failure::usage(format!(
-            "{} exists and is no case file; name another folder with --out",
+            "{} exists and is not a case file; name another folder with --out",
             path.display()
         )));
     }
     Ok(())
 }
 
-/// A reduction, for people and programs.
+/// A reduction, for text and JSON.
 struct Told<'a> {
     arguments: &'a Arguments,
     before: &'a Value,
@@ -106,7 +106,7 @@ impl Told<'_> {
         }
     }
 
-    /// Returns the document with what it shows.
+    /// Returns the document with a description of what it shows.
     fn document(&self) -> Value {
         let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let about = self
@@ -134,7 +134,7 @@ impl Told<'_> {
             if self.reduction.finished {
                 ""
             } else {
-                ", a limit: more may be left to reduce"
+                ", stopped at a limit: it might be reducible further"
             },
             self.reduced().states(),
             if self.record.verdict.is_violation() {

@@ -18,8 +18,8 @@ pub(crate) struct Arguments {
     pub(crate) news: NewsArguments,
 }
 
-/// Rebuilds the reports of run and bench folders from the folders, and those of runs from a history where one is named.
-/// Returns what the runs and benches returned, by their records; of several the gravest.
+/// Rebuilds the reports of run and bench folders, for runs with the history if one is named. Returns the exit
+/// code that the runs and benches have by their records; of several the gravest.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let options = table_options();
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     for folder in &arguments.folders {
         codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
-            // A folder that is neither is reported as a missing run.
+            // A folder that is neither a run nor a bench is reported as a missing run.
             _ => of_run(folder, &arguments.news, options)?,
         });
     }
@@ -88,11 +88,11 @@ fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
         );
         return Ok(INCOMPLETE);
     }
-    // A bench knows the built-in findings and no others.
+    // A bench uses only the built-in findings.
     let expectations = expectations::built_in()?;
     let unexpected = bench.records.iter().any(|record| {
         let picture = &record.picture;
-        // The picture has its verdict alone: what the failure shows was looked at when it was drawn.
+        // The picture has only its verdict; the failure itself was compared when it was drawn.
         let known = bench
             .header
             .adapter(&picture.adapter)

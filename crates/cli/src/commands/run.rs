@@ -67,16 +67,16 @@ pub(crate) struct Arguments {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) expected: ExpectArguments,
-    /// Exit with 1 if expectations are dead: a glob matches no case or no adapter, another one covers them, or
-    /// all their cases were drawn and none had the verdict
+    /// Exit with 1 if expectations are dead: a glob matches no case or no adapter, another expectation covers
+    /// them, or all their cases were drawn and none had the verdict
     #[arg(long)]
     pub(crate) strict_expectations: bool,
-    /// Exit with 1 if less than this share of the records asserted something; records of methods and perf,
-    /// which are measured, do not count
+    /// Exit with 1 if less than this share of the records asserts something; measured records (methods and
+    /// perf) do not count
     #[arg(long, value_name = "PERCENT", value_parser = parse_percent)]
     pub(crate) min_asserted: Option<f64>,
-    /// Update the expectations (default: ci/findings) from this run: add unexpected verdicts, of grade unread,
-    /// and remove improved ones. Refused if the variable CI is set
+    /// Update the expectations (default: ci/findings) from this run: add unexpected verdicts, with the grade
+    /// unread, and remove improved ones. Refused if the variable CI is set
     #[arg(long)]
     pub(crate) bless: bool,
     #[command(flatten)]
@@ -94,24 +94,27 @@ pub(crate) struct Arguments {
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
-    /// Check again in a new process: unexpected bad verdicts, of each kind on each adapter until N are confirmed.
-    /// Kinds differ in verdict, aspect, operation and direction. `off`: none, so that nothing is found to be flaky
+    /// Check unexpected bad verdicts again in a new process, until N of each kind are confirmed on each
+    /// adapter. Kinds differ in verdict, aspect, operation and direction. `off` checks none, so that no case
+    /// is found to be flaky
     #[arg(long, value_name = "N|off", default_value = "4", value_parser = parse_recheck)]
     pub(crate) recheck: Recheck,
     /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
-    /// Draw the cases in a random order with this seed; a case that fails only after others names them
+    /// Draw the cases in a random order with this seed, to find cases that fail only after others; the record
+    /// of such a case names these
     #[arg(long, value_name = "SEED")]
     pub(crate) shuffle: Option<u64>,
     /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
-    /// Compare what is unexpected with the findings about its driver, by reducing both there: what leaves the same states
-    /// and the same violation as a finding's case is known by its look, and counts as expected. For cases of one's own
+    /// Compare unexpected failures with the findings about the driver, by reducing both on it. A failure that
+    /// reduces to the same states and violation as a finding's case is known by its look and counts as
+    /// expected. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
-    /// Failures whose whole frames are kept
+    /// Failures whose complete frames are kept
     #[arg(long, value_enum, default_value = "all")]
     pub(crate) keep_frames: KeepFrames,
     /// Enable validation layers and GL debug output; a case that causes messages is an error
@@ -127,13 +130,13 @@ pub(crate) struct Arguments {
 pub(crate) enum KeepFrames {
     /// All of them
     All,
-    /// Those that nothing expects
+    /// Only unexpected ones
     New,
     /// None
     None,
 }
 
-/// The number of records of each verdict on each adapter.
+/// Returns the number of records of each verdict on each adapter.
 fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
     let mut counts: BTreeMap<&str, BTreeMap<&str, u64>> = BTreeMap::new();
     for adapter in &run.header.adapters {
@@ -146,7 +149,7 @@ fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
     counts
 }
 
-/// The number of confirmations of each kind of bad verdict; 0 is off.
+/// How many bad verdicts of each kind must be confirmed; 0 is off.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recheck(u32);
 
@@ -180,7 +183,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let to_bless = file_to_bless(arguments)?;
     let expectations = expectations(arguments, to_bless.as_deref())?;
     let blessed = blessed(arguments, to_bless.as_deref())?;
-    // The records of a concurrent or an earlier run must not be lost.
+    // Claims the folder first, so that the records of a concurrent or an earlier run are not lost.
     let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Run,
@@ -230,7 +233,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(results.exit_code())
 }
 
-/// Returns the file whose expectations are to be updated, if one is.
+/// Returns the list or folder to update with `--bless`, if any.
 fn file_to_bless(arguments: &Arguments) -> Result<Option<PathBuf>, Failure> {
     let Arguments {
         bless, expected, ..
@@ -238,7 +241,7 @@ fn file_to_bless(arguments: &Arguments) -> Result<Option<PathBuf>, Failure> {
     bless.then(|| to_bless(&expected.expect)).transpose()
 }
 
-/// Compares what is unexpected with findings. Returns the number of records that stay so.
+/// Compares unexpected failures with findings. Returns the number of records that stay unexpected.
 fn known_by_look(
     arguments: &Arguments,
     expectations: &Expectations,
@@ -257,9 +260,9 @@ fn known_by_look(
 
 /// The cases of a run.
 struct Selected {
-    /// Those to draw, in their order.
+    /// The cases to draw, in order.
     cases: Vec<Case>,
-    /// The ids of all that were selected, of which a shard draws a part.
+    /// The ids of all selected cases; a shard draws a part of them.
     ids: Vec<String>,
     round_trips: Vec<Case>,
     shard: Option<Shard>,
@@ -292,7 +295,7 @@ impl Selected {
 fn expectations(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectations, Failure> {
     let mut expected = arguments.expected.clone();
     if let Some(path) = to_bless {
-        // The folder of findings itself is what the built-in ones were made of.
+        // The default folder is the source of the built-in findings, so these are not added again.
         expected.expect_only |= expected.expect.is_empty();
         expected.expect = if path.exists() {
             vec![path.to_owned()]
@@ -303,7 +306,7 @@ fn expectations(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expect
     expected.read(&labels(arguments))
 }
 
-/// Returns what a list that is updated expects of a run: the rest of what is expected is no part of it.
+/// Returns the expectations of the list to update only, without the other expectations of the run.
 fn blessed(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectations, Failure> {
     match to_bless {
         Some(path) if path.exists() => {
@@ -314,13 +317,13 @@ fn blessed(arguments: &Arguments, to_bless: Option<&Path>) -> Result<Expectation
     }
 }
 
-/// The labels of a run, as `key=value`.
+/// Returns the labels of a run, as `key=value`.
 fn labels(arguments: &Arguments) -> Vec<String> {
     arguments.news.labels.given().to_vec()
 }
 
-/// Starts the adapters. Returns those too that are installed and do not start, with the reason: each of their cases has a
-/// record like any other.
+/// Starts the adapters. Also returns the adapters that are installed but do not start, with the reason: their
+/// cases get records too.
 fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)>), Failure> {
     let mut adapters = discover(&Query {
         names: &arguments.adapters,
@@ -368,7 +371,7 @@ fn draw(plan: Plan<'_>) -> Result<RunSummary, Failure> {
     })
 }
 
-/// A run that was drawn, and what is written beside its records.
+/// A drawn run, and everything that is written next to its records.
 struct Results<'a> {
     arguments: &'a Arguments,
     summary: RunSummary,
@@ -380,7 +383,7 @@ struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// Reads the records back, and writes the pages and lists beside them.
+    /// Reads the records back, and writes pages and lists next to them.
     fn write(
         arguments: &'a Arguments,
         selected: &Selected,
@@ -441,7 +444,7 @@ impl<'a> Results<'a> {
         Ok(())
     }
 
-    /// Returns the exit code, and says what it is about besides the verdicts.
+    /// Returns the exit code, and prints its reasons other than verdicts.
     fn exit_code(&self) -> u8 {
         let strict = self.arguments.strict_expectations;
         if !self.dead.is_empty() {
@@ -469,7 +472,7 @@ impl<'a> Results<'a> {
     }
 }
 
-/// The error of a run that lacks records.
+/// Returns the error for a run that lacks records.
 fn incomplete(run: &Run, interrupted: bool) -> Failure {
     let interrupted = if interrupted { "interrupted: " } else { "" };
     let names = run.header.adapters.iter().map(|a| a.name.as_str());
@@ -485,8 +488,8 @@ fn incomplete(run: &Run, interrupted: bool) -> Failure {
     ))
 }
 
-/// Returns the dead expectations; none if the built-in findings meet cases of a folder, since they are about the built-in
-/// cases.
+/// Returns the dead expectations. With the cases of a folder, built-in findings are never dead, since they
+/// are about the built-in cases.
 fn dead_expectations(
     arguments: &Arguments,
     expectations: &Expectations,
@@ -500,7 +503,7 @@ fn dead_expectations(
     let mut described = described_names(arguments.file.adapter_file.as_deref())?;
     described.extend(hardware_names());
     let mut dead = expectations.dead(run, &ids, &described);
-    // A list of a user's own may cover a finding, and does not make it one to remove.
+    // A finding that the user's own list covers is not dead.
     dead.retain(|entry| {
         let covered = entry.kind == DeadKind::Covered && !is_built_in(&entry.about);
         !is_built_in(&entry.place) || cases.is_none() && !covered
@@ -508,7 +511,7 @@ fn dead_expectations(
     Ok(dead)
 }
 
-/// Returns a line on the bad verdicts that were checked again; nothing where there were none.
+/// Returns a line about the bad verdicts that were checked again; empty without bad verdicts.
 fn rechecked(recheck: Recheck, Rechecks { done, left }: Rechecks) -> String {
     match (recheck.0, done, left) {
         (_, 0, 0) => String::new(),
@@ -521,8 +524,8 @@ fn rechecked(recheck: Recheck, Rechecks { done, left }: Rechecks) -> String {
     }
 }
 
-/// Returns true if enough was asserted, and a line that says how much was: the share of the records of cases that
-/// are judged, not measured, whose frame was held against something.
+/// Returns true if enough records assert something, and a line with their share. Records of measured cases do
+/// not count.
 fn asserted(run: &Run, percent: f64) -> (bool, String) {
     let counted = run
         .records
@@ -538,12 +541,12 @@ fn asserted(run: &Run, percent: f64) -> (bool, String) {
     // Rounded down, so that too little never reads as enough.
     let shown = (share * 10.0).floor() / 10.0;
     let line = format!(
-        "{asserted} of {total} records asserted something: {shown} % where --min-asserted demands {percent} %"
+        "{asserted} of {total} records asserted something: {shown} %, but --min-asserted requires {percent} %"
     );
     (share >= percent, line)
 }
 
-/// Fisher and Yates' shuffle.
+/// Shuffles cases by the Fisher-Yates algorithm.
 fn shuffle(cases: &mut [Case], seed: u64) {
     let mut random = oorandom::Rand64::new(u128::from(seed));
     for last in (1..cases.len()).rev() {
@@ -594,7 +597,7 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     };
     bar.inc(before);
     bar.reset_eta();
-    // Each is told once, with its reason, when the run has ended; until then the bar counts them.
+    // Bad verdicts are printed with their reasons after the run; until then the bar counts them.
     let bad: Mutex<BTreeMap<Verdict, u64>> = Mutex::default();
     etalon_runner::run(plan, &|event| match event {
         Event::AdapterStarted { .. } => {}

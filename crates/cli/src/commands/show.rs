@@ -15,10 +15,10 @@ pub(crate) struct Arguments {
     /// Id of the case
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
-    /// Write the reference picture of what is read back first to this file
+    /// Write the reference picture of the first attachment that is read back to this file
     #[arg(long, value_name = "FILE")]
     pub(crate) png: Option<PathBuf>,
-    /// Print also how the adapter `cpu` draws it: the kernels of each draw, or why there are none
+    /// Also print how the adapter `cpu` draws the case: the kernels of each draw, or why it has no kernels
     #[arg(long)]
     pub(crate) kernels: bool,
     /// Read case files from this folder instead of the built-in ones
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     pub(crate) cases: Option<PathBuf>,
 }
 
-/// Prints a case as it is meant: purpose, scene, JSON, shaders.
+/// Prints a case: purpose, scene, JSON, shaders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let found = find(&library, &arguments.case)?;
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let frame = drawn(&case);
         let png = frame.as_ref().and_then(etalon_report::reference_png);
         let png = png.ok_or_else(|| {
-            Failure::usage(format!("{} has no picture of a size to show", case.id))
+            Failure::usage(format!("{} has no picture of a suitable size", case.id))
         })?;
         fs::write(path, png)
             .map_err(|e| Failure::usage(format!("cannot write {}: {e}", path.display())))?;

@@ -11,8 +11,8 @@ pub(crate) struct Arguments {
     /// Folder for the site
     #[arg(value_name = "DIR")]
     pub(crate) to: PathBuf,
-    /// Recorded folders whose pages become part of it: runs with their methods page and case catalogue, benches,
-    /// hunts, searches over releases
+    /// Recorded folders whose pages become part of the site: runs with their methods page and case catalogue,
+    /// benches, hunts, searches over releases
     #[arg(value_name = "FOLDER", required = true)]
     pub(crate) folders: Vec<PathBuf>,
     /// Replace the site in the folder
@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     pub(crate) force: bool,
 }
 
-/// Puts the pages of recorded folders into one static folder.
+/// Builds a static site from the pages of recorded folders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let site = write_site(&arguments.to, &arguments.folders, arguments.force);
     let site = site.map_err(|error| match error {

@@ -241,7 +241,7 @@ fn the_folder_of_cases_is_apart_from_what_is_written() {
                 .arg(work.path().join(out))
                 .assert()
                 .code(64)
-                .stderr(contains("must not lie one in the other"));
+                .stderr(contains("must not be inside each other"));
         }
         assert_eq!(files(work.path()), before, "{out}");
     }

@@ -552,7 +552,7 @@ fn releases_stand_at_their_dates() {
     fs::write(&dates, r#"{"a": {"1": "2022-01-01", "3": "2024-01-01"}}"#).unwrap();
     let [file, dates] = [&file, &dates].map(|path| path.display().to_string());
     let added = place.history(&["add", &file, "--dates", &dates]).code(0);
-    added.stderr(contains("no release date is known of a 2;"));
+    added.stderr(contains("no release date is known for a 2;"));
     place
         .history(&["show", CASE])
         .stdout(contains("✗✗✓").and(contains(

@@ -16,13 +16,13 @@ use std::path::{Path, PathBuf};
 
 /// The release dates that are compiled in.
 const DATES: &str = include_str!("../../../../../ci/history/releases.json");
-/// Its name in messages.
+/// The name of the built-in file of dates in messages.
 const DATES_NAME: &str = "ci/history/releases.json";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folders that `etalon run`, `bench` or `bisect` wrote, or their run.jsonl, bench.jsonl or versions.jsonl, packed by
-    /// gzip or not
+    /// Folders that `etalon run`, `bench` or `bisect` wrote, or their run.jsonl, bench.jsonl or
+    /// versions.jsonl, optionally compressed with gzip
     #[arg(value_name = "RUN", required = true)]
     pub(crate) runs: Vec<PathBuf>,
     #[command(flatten)]
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// Use these release dates instead of the built-in ones, a JSON file: {"line": {"version": "2026-01-31"}}
     #[arg(long, value_name = "FILE")]
     pub(crate) dates: Option<PathBuf>,
-    /// Add runs that lack records, too
+    /// Also add runs that lack records
     #[arg(long)]
     pub(crate) incomplete: bool,
     /// Output format
@@ -48,7 +48,7 @@ struct Told<'a> {
     is_new: bool,
 }
 
-/// Adds runs to a history. A run that cannot be added is named, and the others are added.
+/// Adds runs to a history. Reports a run that cannot be added, and adds the others.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let labels = arguments.labels.labels()?;
     let dates = dates(arguments.dates.as_deref())?;
@@ -108,7 +108,7 @@ fn dates(path: Option<&Path>) -> Result<ReleaseDates, Failure> {
     .map_err(Failure::usage)
 }
 
-/// Reads what is to be added, with its labels.
+/// Reads the runs to add, and sets their labels.
 fn ready(
     path: &Path,
     dates: &ReleaseDates,
@@ -127,8 +127,8 @@ fn ready(
     let undated = place_undated(&mut runs);
     if let (Some(run), false) = (runs.first(), undated.is_empty()) {
         say!(
-            "{}: no release date is known of {} {}; each stands behind the release before it, or where it was drawn if \
-             it is the last: --dates FILE gives dates",
+            "{}: no release date is known for {} {}; each comes after the release before it, or at its drawing time if \
+             it is the last; --dates FILE gives dates",
             path.display(),
             plain(&line(run), 60),
             plain(&undated.join(", "), 400),
@@ -158,8 +158,8 @@ fn lacks(path: &Path, run: &NewRun) -> String {
     )
 }
 
-/// Gives releases without a date that of a neighbour, so that they stand in the order of their line, and returns their
-/// versions. Those at the end keep none: they stand at the time at which they were drawn.
+/// Gives releases without a date the date of a neighbour, so that they are in the order of their line, and
+/// returns their versions. Releases at the end get no date; their place is the time at which they were drawn.
 fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
     let dates: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
     let mut undated = Vec::new();
@@ -170,7 +170,7 @@ fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
         undated.extend(run.adapters.first().map(|a| a.adapter.version.clone()));
         let later = dates[index..].iter().flatten().next();
         let earlier = dates[..index].iter().rev().flatten().next();
-        // Of equal times, the one that was added first stands first.
+        // Among equal times, the release that was added first comes first.
         run.released = later.map(|later| *earlier.unwrap_or(later));
     }
     undated

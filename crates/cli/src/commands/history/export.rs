@@ -30,10 +30,10 @@ pub(crate) struct Arguments {
     format: FormatName,
     #[command(flatten)]
     database: DatabaseArguments,
-    /// Leave out runs before this day or time, such as 2026-01-31
+    /// Ignore runs before this day or time, such as 2026-01-31
     #[arg(long, value_name = "DATE")]
     since: Option<String>,
-    /// Take this many of the latest runs
+    /// Use only this many of the latest runs
     #[arg(long, value_name = "N")]
     runs: Option<usize>,
     /// Folder for the files, new or empty

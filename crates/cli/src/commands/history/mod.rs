@@ -17,15 +17,16 @@ use clap::Subcommand;
 /// Runs over time, in one file.
 #[derive(Debug, Subcommand)]
 pub(crate) enum HistoryCommand {
-    /// Add runs, benches and the releases of `etalon bisect`; what is there already is not added again
+    /// Add runs, benches and the releases of `etalon bisect`; runs that are already there are not added again
     Add(add::Arguments),
     /// Write the history for other programs: tables, samples, series of frame times
     Export(export::Arguments),
     /// Write the pages of a history: what changed, scores over time, every case, frame times
     Report(report::Arguments),
-    /// Show one case over all runs: since when it is broken, fixed or flaky, and when its frame times changed
+    /// Show one case over all runs: when it broke, was fixed or became flaky, and when its frame times
+    /// changed
     Show(show::Arguments),
-    /// List what is open, or say of a case or of a change of its times what it is
+    /// List open cases and changes, or set the state of a case or of a change of its times
     Triage(triage::Arguments),
 }
 

@@ -1,4 +1,4 @@
-//! Everything that nobody has looked at: bad verdicts that nothing explains, and steps of frame times.
+//! What nobody has triaged yet: unexplained bad verdicts, and steps of frame times.
 
 use super::place::run_text;
 use super::series::{of_key, state_name, state_text};
@@ -15,11 +15,11 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// One thing that is open.
+/// An open verdict or step.
 pub(super) struct Open {
-    /// It in words.
+    /// The line for people.
     pub(super) line: String,
-    /// It for programs.
+    /// The JSON for programs.
     pub(super) json: Value,
 }
 
@@ -27,8 +27,8 @@ fn is_settled(entry: Option<&TriageEntry>) -> bool {
     entry.is_some_and(|entry| entry.state != TriageState::New)
 }
 
-/// The last record of each case on a timeline. A part of the cases may be drawn more often than others, so the last run
-/// of each kind, profile and set of labels is looked at, the newest first.
+/// Returns the last record of each case on a timeline. Some cases can be drawn more often than others, so
+/// this reads the last run of each kind, profile and set of labels, the newest first.
 fn last_records(
     history: &History,
     timeline: &str,
@@ -54,7 +54,7 @@ fn last_records(
     Ok(last)
 }
 
-/// Bad verdicts of the last records that no finding explains.
+/// Returns the bad verdicts of the last records that no finding explains.
 pub(super) fn open_verdicts(
     history: &History,
     timelines: &[Rc<str>],
@@ -109,7 +109,7 @@ pub(super) fn open_verdicts(
     Ok(found)
 }
 
-/// Steps of frame times that are not the machine's, the newest first.
+/// Returns the steps of frame times that the machine did not cause, the newest first.
 pub(super) fn open_steps(
     history: &History,
     timelines: &[Rc<str>],

@@ -1,13 +1,13 @@
-//! Where something stands in a history: its run, its driver and its commit, in words.
+//! A place in a history in words: run, driver and commit.
 
 use etalon_history::{History, RunId, RunInfo, format_time};
 use etalon_report::plain;
 use serde_json::{Value, json};
 
-/// The most characters of a version or a label.
+/// The largest number of characters of a version or a label.
 const LONGEST: usize = 80;
 
-/// A run in words: its number and day.
+/// Returns a run in words: its number and day.
 pub(super) fn run_text(history: &History, run: RunId) -> String {
     match history.run(run) {
         Some(info) => format!("run {run} ({})", info.day()),
@@ -15,7 +15,7 @@ pub(super) fn run_text(history: &History, run: RunId) -> String {
     }
 }
 
-/// The driver's version and the suite's commit in a run.
+/// Returns the driver's version and the suite's commit in a run.
 pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String; 2] {
     let driver = history
         .adapter(run, timeline)
@@ -28,7 +28,7 @@ pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String
     [driver, commit].map(|text| text.unwrap_or_else(|| "unknown".to_owned()))
 }
 
-/// Returns the drivers and the suites of two runs in words.
+/// Returns the versions of driver and suite in two runs, in words.
 pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId; 2]) -> String {
     let [before, now] = [after, at].map(|run| versions(history, run, timeline));
     let field = |what: &str, i: usize| {
@@ -41,7 +41,7 @@ pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId;
     format!("{}, {}", field("driver", 0), field("suite", 1))
 }
 
-/// A run for programs.
+/// Returns a run as JSON.
 pub(super) fn run_json(history: &History, run: RunId, timeline: &str) -> Value {
     let info = history.run(run);
     let part = history.adapter(run, timeline);

@@ -1,4 +1,4 @@
-//! Frame times of one case on one adapter and machine over runs, and when they changed.
+//! Frame times of one case on one adapter and machine over runs, and their changes.
 
 use super::place::{range_text, run_json, run_text};
 use super::sparkline;
@@ -14,10 +14,10 @@ use etalon_report::plain;
 use etalon_stats::{Cause, ChangePoint, Changes, Drift, Point, Ratio, change_points};
 use serde_json::{Value, json};
 
-/// The runs behind a change for which its smallest visible size is told.
+/// The number of runs after a change for which the smallest visible change is given.
 const AFTER: usize = 10;
 
-/// A time of which the history has series.
+/// A time that the history has series for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum SeriesTime {
     /// From the start of a frame until the device is done.
@@ -41,7 +41,7 @@ impl From<SeriesTime> for Time {
     }
 }
 
-/// Frame times over runs, all with the same ruler.
+/// Frame times over runs that have the same ruler.
 pub(super) struct Series {
     /// The case, the timeline and the machine.
     pub(super) key: SeriesKey,
@@ -57,7 +57,7 @@ pub(super) struct Series {
     changes: Changes,
 }
 
-/// The series of a case, one for each machine and ruler.
+/// Returns the series of a case, one for each machine and ruler.
 pub(super) fn series_of(
     history: &History,
     case: &str,
@@ -87,7 +87,7 @@ pub(super) fn series_of(
     Ok(found)
 }
 
-/// The series of a key, one for each ruler: times beside different ones do not compare.
+/// Returns the series of a key, one for each ruler: times with different rulers do not compare.
 pub(super) fn of_key(
     history: &History,
     key: &SeriesKey,
@@ -122,7 +122,7 @@ pub(super) fn of_key(
     Ok(found)
 }
 
-/// The change of a ratio in per cent, with its sign.
+/// Returns the change that a ratio means in percent, with its sign.
 fn percent(ratio: f64) -> String {
     format!("{:+.1} %", (ratio - 1.0) * 100.0)
 }
@@ -148,35 +148,35 @@ impl Series {
         &self.changes.points
     }
 
-    /// The first run behind a change.
+    /// Returns the first run after a change.
     pub(super) fn first_run(&self, change: &ChangePoint) -> RunId {
         self.runs[change.index]
     }
 
-    /// The first run behind the step that holds this run between its ends; `None` where none does.
+    /// Returns the first run after the step whose ends enclose this run; `None` if there is no such step.
     pub(super) fn step_at(&self, run: RunId) -> Option<RunId> {
         let holds = |change: &&ChangePoint| self.holds(change, run);
         let mut changes = self.changes.points.iter();
-        // Neighbours may share an end: the one that begins with the run is meant.
+        // Neighbouring steps can share an end; the step that begins with the run is preferred.
         let exact = changes.clone().find(|c| self.first_run(c) == run);
         exact
             .or_else(|| changes.find(holds))
             .map(|c| self.first_run(c))
     }
 
-    /// True if the change may lie right before this run.
+    /// Returns true if the change might be directly before this run.
     fn holds(&self, change: &ChangePoint, run: RunId) -> bool {
         let [after, first] = change.between;
         self.runs[after + 1..=first].contains(&run)
     }
 
-    /// The machine of the series.
+    /// Returns the machine of the series.
     pub(super) fn machine(&self) -> MachineId {
         self.key.machine
     }
 
-    /// Returns the last entry about a change. More runs may move a change within its ends, so that an entry about another
-    /// run between them is about it.
+    /// Returns the last entry about a change. Further runs can move a change within its ends, so an entry
+    /// about another run between them counts too.
     pub(super) fn state<'s>(
         &self,
         states: &'s TriageStates,
@@ -200,7 +200,7 @@ impl Series {
         })
     }
 
-    /// A change in words.
+    /// Returns a change in words.
     pub(super) fn change_line(
         &self,
         history: &History,
@@ -230,7 +230,7 @@ impl Series {
         )
     }
 
-    /// The series in words: lines of a terminal.
+    /// Returns the series in words, as lines for a terminal.
     pub(super) fn lines(&self, history: &History, states: &TriageStates) -> Vec<String> {
         let machine = history.machine(self.key.machine);
         let machine = machine.map_or(String::new(), |m| {
@@ -278,7 +278,7 @@ impl Series {
         lines
     }
 
-    /// Returns the size that a change from now on needs, in words.
+    /// Returns the smallest future change that would be visible, in words.
     fn outlook(&self) -> String {
         match self.changes.visible(AFTER) {
             Some(visible) => format!(
@@ -290,7 +290,7 @@ impl Series {
         }
     }
 
-    /// The series for programs.
+    /// Returns the series as JSON.
     pub(super) fn json(&self, history: &History, states: &TriageStates) -> Value {
         let points = self.runs.iter().zip(&self.points).map(|(run, point)| {
             json!({ "run": run.number(), "seconds": point.median, "ruler": point.ruler })
@@ -343,12 +343,12 @@ fn cause_name(cause: Cause) -> &'static str {
     }
 }
 
-/// The name of the state that an entry gives; new without one.
+/// Returns the name of an entry's state; new without an entry.
 pub(super) fn state_name(entry: Option<&TriageEntry>) -> &'static str {
     entry.map_or(TriageState::New, |entry| entry.state).name()
 }
 
-/// The state that an entry gives, with its reason.
+/// Returns an entry's state with its reason; new without an entry.
 pub(super) fn state_text(entry: Option<&TriageEntry>) -> String {
     let reason = entry.map_or("", |entry| entry.reason.as_str());
     match reason {

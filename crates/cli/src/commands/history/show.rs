@@ -21,14 +21,14 @@ use std::rc::Rc;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Id of the case; without one, the runs are listed
+    /// Id of the case. Default: list the runs
     #[arg(value_name = "CASE")]
     pub(crate) case: Option<String>,
-    /// Show this adapter; may be repeated. Default: all that have the case. Releases of a line are together under their
-    /// name before the `@`
+    /// Show this adapter; may be repeated. Default: all adapters that have the case. The releases of a line
+    /// share the name before the `@`
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
-    /// The time whose changes are shown
+    /// Time whose changes are shown
     #[arg(long, value_enum, default_value = "wall")]
     time: SeriesTime,
     #[command(flatten)]
@@ -141,7 +141,7 @@ fn list(
     Ok(0)
 }
 
-/// Refuses a case that the history does not know.
+/// Refuses a case that is not in the history.
 pub(super) fn known_case(history: &History, case: &str) -> Result<(), Failure> {
     if history.case_id(case).map_err(failure)?.is_some() {
         return Ok(());
@@ -155,7 +155,7 @@ pub(super) fn known_case(history: &History, case: &str) -> Result<(), Failure> {
     )))
 }
 
-/// The timelines of these names; all where none is named.
+/// Returns the timelines of these names; all if no name is given.
 pub(super) fn known_timelines(
     history: &History,
     names: &[String],
@@ -180,7 +180,7 @@ pub(super) fn known_timelines(
     Ok(found)
 }
 
-/// The verdict of a case on an adapter, as a subject of triage.
+/// Returns the verdict of a case on an adapter, as a subject of triage.
 pub(super) fn subject(case: &str, timeline: &str) -> Subject {
     Subject {
         case: case.to_owned(),
@@ -237,7 +237,7 @@ fn verdict_lines(
     if let Some(drawn) = of_adapter.last() {
         let mut now = format!("  now {}", drawn.outcome.verdict.name());
         if drawn.outcome.inferred {
-            now.push_str(" (not drawn: it lies between two releases of this standing)");
+            now.push_str(" (not drawn: the releases on both sides have this verdict)");
         }
         if let Some(reason) = &drawn.outcome.expected {
             now.push_str(&format!(", expected: {}", plain(reason, 300)));

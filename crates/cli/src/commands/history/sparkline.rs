@@ -1,24 +1,24 @@
-//! Lines of signs that show a development.
+//! Sparklines: lines of signs that show a development.
 
 use etalon_record::Standing;
 
-/// The most signs of a line.
+/// The largest number of signs of a line.
 const WIDTH: usize = 80;
 
-/// The signs of times, lowest first.
+/// The bars for times, lowest first.
 const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// Values in groups of equal size, at most [`WIDTH`] of them.
+/// Returns the values in groups of equal size, at most [`WIDTH`] groups.
 fn groups<T>(values: &[T]) -> impl Iterator<Item = &[T]> {
     values.chunks(size(values.len()))
 }
 
-/// The number of values that one sign stands for.
+/// Returns the number of values that one sign stands for.
 pub(super) fn size(values: usize) -> usize {
     values.div_ceil(WIDTH).max(1)
 }
 
-/// A sign for each run, or for the worst of several.
+/// Returns a sign for each run, or for the worst of several.
 pub(super) fn of_standings(standings: &[Standing]) -> String {
     let rank = |standing: &Standing| match standing {
         Standing::Unknown => 0,
@@ -38,7 +38,7 @@ pub(super) fn of_standings(standings: &[Standing]) -> String {
         .collect()
 }
 
-/// A bar for each time, or for the median of several, between the lowest and the highest.
+/// Returns a bar for each time, or for the median of several, scaled between the lowest and the highest.
 pub(super) fn of_times(times: &[f64]) -> String {
     let medians: Vec<f64> = groups(times)
         .filter_map(|group| {
@@ -51,7 +51,7 @@ pub(super) fn of_times(times: &[f64]) -> String {
     let high = medians.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let top = BARS.len() - 1;
     let bar = |time: &f64| {
-        // Of equal times, the bar is low.
+        // If all times are equal, the bars are low.
         let height = (time - low) / (high - low).max(f64::MIN_POSITIVE);
         BARS[((height * top as f64).round() as usize).min(top)]
     };

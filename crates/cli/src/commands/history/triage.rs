@@ -17,34 +17,34 @@ use etalon_report::plain;
 use serde_json::json;
 use std::time::SystemTime;
 
-/// The entries of each kind that are printed.
+/// The largest number of entries of each kind that are printed.
 const PRINTED: usize = 40;
 
-/// A person's word on a change.
+/// A person's judgement of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum State {
-    /// Nobody has looked yet.
+    /// Not looked at yet.
     New,
-    /// It is a change of the driver.
+    /// The driver changed.
     Real,
     /// It does not matter.
     Ignored,
-    /// It has been mended.
+    /// It has been fixed.
     Fixed,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Cases to speak of; without any, what is open is listed
+    /// Cases to set the state of. Default: list what is open
     #[arg(value_name = "CASE", requires_all = ["adapters", "state"])]
     pub(crate) cases: Vec<String>,
-    /// The adapter; may be repeated. Without a case, what is open on it is listed
+    /// Adapter of the cases; may be repeated. Without a case, list what is open on it
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
-    /// The state: a bad verdict that is real or ignored does not count in `etalon run --history`
+    /// State to set: a bad verdict that is real or ignored does not count in `etalon run --history`
     #[arg(long, value_enum, requires = "cases")]
     pub(crate) state: Option<State>,
-    /// Why; every state but new needs a reason
+    /// Reason for the state; only new needs none
     #[arg(
         long,
         value_name = "TEXT",
@@ -53,16 +53,16 @@ pub(crate) struct Arguments {
         requires = "state"
     )]
     pub(crate) reason: String,
-    /// Who says so. Default: the variable USER
+    /// Author of the entry. Default: the variable USER
     #[arg(long, value_name = "NAME", requires = "state")]
     pub(crate) author: Option<String>,
-    /// Speak of the change of frame times at this run, not of the verdict
+    /// Set the state of the change of frame times at this run, not of the verdict
     #[arg(long, value_name = "RUN", requires = "cases")]
     pub(crate) step: Option<u32>,
-    /// The time of the change, or whose open changes are listed
+    /// Time of the change, or time whose open changes are listed
     #[arg(long, value_enum, default_value = "wall")]
     time: SeriesTime,
-    /// Also list what is settled
+    /// Also list settled verdicts and changes
     #[arg(long, conflicts_with = "cases")]
     pub(crate) all: bool,
     #[command(flatten)]
@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ));
     }
     let subjects = subjects(arguments, &history, &labels)?;
-    // A reader holds no lock, but its file must not be replaced below it.
+    // A reader holds no lock, but its file must not be replaced while it reads.
     drop(history);
     let mut writer = Writer::open(&path).map_err(failure)?;
     let entries = subjects.into_iter().map(|subject| TriageEntry {
@@ -122,7 +122,7 @@ fn author(arguments: &Arguments) -> String {
     arguments.author.clone().unwrap_or_else(user)
 }
 
-/// Returns the subjects that the command line names. Everything is looked up before anything is written.
+/// Returns the subjects that the command line names. Looks up everything before anything is written.
 fn subjects(
     arguments: &Arguments,
     history: &History,
@@ -136,7 +136,7 @@ fn subjects(
         for timeline in &timelines {
             if !known.iter().any(|of| of.timeline == *timeline) {
                 return Err(Failure::usage(format!(
-                    "no run has `{}` on {}; `etalon history show` tells which adapters have it",
+                    "no run has `{}` on {}; `etalon history show` lists the adapters that have it",
                     plain(case, 300),
                     plain(timeline, 100)
                 )));
@@ -151,7 +151,7 @@ fn subjects(
     Ok(subjects)
 }
 
-/// The step at a run.
+/// Returns the step at a run.
 fn step(
     arguments: &Arguments,
     history: &History,
@@ -198,7 +198,7 @@ impl From<State> for TriageState {
     }
 }
 
-/// An entry in words.
+/// Returns an entry in words.
 fn line(entry: &TriageEntry) -> String {
     let Subject {
         case,

@@ -1,4 +1,4 @@
-//! One case on one adapter over runs: its verdicts, and what happened to it.
+//! One case on one adapter over runs: its verdicts and events.
 
 use super::place::{range_text, run_json, run_text};
 use etalon_history::{AdapterRun, CaseHistory, History, HistoryError, Labels, Outcome, RunId};
@@ -26,13 +26,13 @@ pub(super) struct Verdicts {
     pub(super) happenings: Vec<Happening<RunId>>,
 }
 
-/// True if a run has all of these labels and was not resumed later.
+/// Returns true if a run has all of these labels and was not resumed later.
 pub(super) fn is_meant(history: &History, run: RunId, labels: &Labels) -> bool {
     let info = history.run(run);
     info.is_some_and(|info| info.resumed.is_none() && info.has_labels(labels))
 }
 
-/// One case on all adapters, or on some, over the runs with these labels.
+/// Returns one case on these timelines, over the runs with these labels.
 pub(super) fn verdicts(
     history: &History,
     case: &str,
@@ -84,13 +84,13 @@ impl Verdicts {
         self.records.last()
     }
 
-    /// The verdict that a run has of the case.
+    /// Returns the verdict of the case in a run.
     fn verdict(&self, run: RunId) -> Option<&'static str> {
         let drawn = self.records.iter().find(|drawn| drawn.run == run)?;
         Some(drawn.outcome.verdict.name())
     }
 
-    /// Returns the events in words, a line each.
+    /// Returns the events in words, one line each.
     pub(super) fn lines(&self, history: &History) -> Vec<String> {
         let line = |happening: &Happening<RunId>| {
             let Happening { event, after, at } = happening;
@@ -109,7 +109,7 @@ impl Verdicts {
         self.happenings.iter().map(line).collect()
     }
 
-    /// The same for programs.
+    /// Returns records and events as JSON.
     pub(super) fn json(&self, history: &History) -> Value {
         let records = self.records.iter().map(|drawn| {
             let mut value = run_json(history, drawn.run, &self.timeline);
@@ -134,8 +134,9 @@ impl Verdicts {
     }
 }
 
-/// The class of a case in each run that says something of it. A run without a record says that the case is missing only
-/// if it is whole and about as large as the last one of its kind that has the case: others had not selected it.
+/// Returns the class of a case in each run that says something about it. A run without a record shows that
+/// the case is missing only if the run is complete and at least half as large as the last run of its kind
+/// that has the case: smaller runs had not selected it.
 fn classes<'h>(
     history: &History,
     parts: impl Iterator<Item = &'h AdapterRun>,
