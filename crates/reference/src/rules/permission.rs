@@ -137,8 +137,8 @@ pub enum Rounding {
 /// The precision of blending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendPrecision {
-    /// Every operand and result may be rounded to one of the destination's neighbouring codes, or to a
-    /// neighbouring float with as many significand bits, or less coarsely.
+    /// Every operand and result may be rounded to one of the destination's neighbouring codes, to a neighbouring
+    /// float with as many significand bits, or to a neighbouring binary fraction with as many bits.
     DestinationCodes,
     /// In 32-bit floating-point.
     Float32,
