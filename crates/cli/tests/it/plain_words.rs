@@ -11,7 +11,7 @@ const STUMBLES: [(&str, &str); 19] = [
     (r"\bso many\b", "the name of the number"),
     (r"\b(is|are) none\b", "what happens without it"),
     (r"\bas far as\b", "if, or when"),
-    (r"\b(a|an|one) \w+ more\b", "another"),
+    (r"\b(a|an|one) [a-z]{3,} more\b", "another"),
     (r"\b(is|are|was|were|be) told\b", "who says it"),
     (
         r"\bstands? (beside|there|here|once|in|behind|before)\b",

@@ -8,7 +8,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
         "The error of blending into 8 bits stays below half a code over alpha.",
-        "Closed form: half a code per layer, of which every later layer keeps 1 - alpha; a conversion within 0.6 codes",
+        "Closed form: half a code per layer, reduced by 1 - alpha in each later layer; a conversion within 0.6 codes",
         Test::HalfCodes {
             of: "ordered-8-bit",
             holds: Condition::AtMost(1.2),
@@ -18,7 +18,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
         "The error of blending into 8 bits grows with the layers.",
-        "Closed form: half a code per layer, of which every later layer keeps 1 - alpha",
+        "Closed form: half a code per layer, reduced by 1 - alpha in each later layer",
         Test::Trend {
             quantity: Quantity::Largest,
             of: "ordered-8-bit",

@@ -178,7 +178,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["thin-layers", "smoke"]),
     Claim::new(
         QUESTION,
-        "Alpha to coverage has one level more than it has samples.",
+        "Alpha to coverage has a level for each sample, and one for none.",
         "Akeley 1993, RealityEngine Graphics; Vulkan: Multisample Coverage",
         Test::Levels {
             of: "alpha-to-coverage",

@@ -1,4 +1,4 @@
-//! What nobody has triaged yet: unexplained bad verdicts, and steps of frame times.
+//! Results without a triage entry: unexplained bad verdicts, and steps of frame times.
 
 use super::place::run_text;
 use super::series::{of_key, state_name, state_text};
