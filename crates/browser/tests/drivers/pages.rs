@@ -1,4 +1,4 @@
-//! What a page can send, and what its server answers.
+//! What a page may send, and what its server answers.
 
 use etalon_backend::{Backend, BackendError};
 use etalon_browser::{BrowserBackend, Options, Source, open, token};
@@ -10,13 +10,13 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 use tungstenite::{Message, WebSocket};
 
-/// Returns an address that no program listens at.
+/// Returns an address that nobody listens at.
 fn free_address() -> SocketAddr {
     let listener = TcpListener::bind("127.0.0.1:0").expect("there is a port");
     listener.local_addr().expect("it has an address")
 }
 
-/// Returns the description of a device in a page's greeting.
+/// Returns the description of a device as a page greets with it.
 fn hello(vendor: &str) -> Value {
     json!({
         "protocol": 1,
@@ -31,7 +31,7 @@ fn hello(vendor: &str) -> Value {
     })
 }
 
-/// A page that the tests play.
+/// A page of the tests' own.
 struct Page {
     address: SocketAddr,
     token: String,
@@ -113,7 +113,7 @@ fn greet(socket: &mut WebSocket<TcpStream>, greeting: &Value) {
     sent.expect("the greeting is sent");
 }
 
-/// Draws a texel; the page answers the request with these bytes.
+/// Draws a texel, while the page answers the request with these bytes.
 fn drawn_with(answer: impl Fn(&Value) -> Message + Send + 'static) -> Result<(), BackendError> {
     let page = Page::new();
     let worker = page.worker();
@@ -126,7 +126,7 @@ fn drawn_with(answer: impl Fn(&Value) -> Message + Send + 'static) -> Result<(),
         let header = &request[4..4 + length as usize];
         let header = serde_json::from_slice(header).expect("a header");
         socket.send(answer(&header)).expect("the answer is sent");
-        // Keeps the connection until the worker has read the answer.
+        // The connection stays until the worker has looked at the answer.
         let _ = socket.read();
     });
     let drawn = draw(&backend);
@@ -173,7 +173,7 @@ fn a_page_draws() {
     assert_eq!(drawn, Ok(()));
 }
 
-/// Whatever a page sends, at most the scene fails.
+/// Nothing that a page sends does more than to fail the scene.
 #[test]
 fn garbage_of_a_page_fails_its_scene_alone() {
     type Garbage = fn(&Value) -> Message;
@@ -273,7 +273,7 @@ fn a_page_of_another_version_is_refused() {
     assert!(error.contains("another version"), "{error}");
 }
 
-/// A page that is opened again draws the scene again, but only on the same device.
+/// A page that is opened again draws the scene again, on the same device alone.
 #[test]
 fn a_page_that_comes_back_draws_again() {
     for (vendor, same) in [("a", true), ("b", false)] {

@@ -281,7 +281,7 @@ fn no_graphics_library_is_linked() {
     }
 }
 
-/// Returns the files that git tracks or would track.
+/// Files that git tracks or would track.
 fn files() -> Vec<String> {
     let output = Command::new("git")
         .args([

@@ -17,7 +17,7 @@ fn text(name: &str) -> String {
     fs::read_to_string(path.join(name)).unwrap()
 }
 
-/// The samples of a history of one run with a record, a time and a ruler.
+/// The samples of a history of one run with a record and a time beside a ruler.
 fn samples() -> String {
     let mut adapter = adapter("an adapter", "1.0");
     let pass = Outcome::new(Verdict::Pass);
@@ -33,8 +33,7 @@ fn samples() -> String {
     fs::read_to_string(out.join("history.om")).unwrap()
 }
 
-/// The words of a query: names, and every other character as a word. A text in quotes is one word with its
-/// quotes.
+/// The words of a query: names, and every other character for itself. A text in quotes is one word with its quotes.
 fn words(query: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut rest = query.trim_start();
@@ -74,7 +73,7 @@ fn named(query: &str) -> (Metrics, BTreeSet<String>) {
     (metrics, groups)
 }
 
-/// Every query of the dashboard, including those of its variables.
+/// Every query of the dashboard, those of its variables too.
 fn queries(value: &Value) -> Vec<&str> {
     match value {
         Value::Object(object) => {
@@ -145,7 +144,7 @@ fn the_queries_agree_with_the_suite_on_what_is_good() {
                 .map(|v| v.trim().trim_matches('\'').to_owned());
             all.push(named.collect());
         }
-        // The query about disagreement separates undrawn cases from good ones.
+        // The question about disagreement parts what was not drawn from what is good.
         let drawn: BTreeSet<String> = ["pass", "imprecise", "measured"].map(str::to_owned).into();
         let rest: BTreeSet<String> = good().difference(&drawn).cloned().collect();
         assert!(all.len() > 3, "{name}");

@@ -5,7 +5,7 @@ use etalon_conformance::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, know
 use etalon_frame::Api;
 use etalon_gl::{GlBackend, Options, Platform, Profile, open};
 
-/// Opens a context, and checks that the driver is the requested one.
+/// Opens a context, and holds that the driver is the one that was asked for.
 pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
     let options = Options {
         profile,

@@ -354,7 +354,7 @@ fn the_summary_holds_no_markup_of_others() {
         let summary = text(&write(folder.path()).unwrap().summary);
         let read = read_markdown(&summary);
         assert!(!summary.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{name}");
-        // A mention needs a letter after the `@`; code has no mentions.
+        // A mention needs a following letter; code has no mentions.
         let mentions = Parser::new(&summary).any(|e| match e {
             Event::Text(text) => text.contains("@me") || text.contains("#1"),
             _ => false,
