@@ -60,7 +60,7 @@ pub(crate) enum Command {
     Reduce(reduce::Arguments),
     /// Write a program that shows a bug without the suite, and a report
     Bundle(bundle::Arguments),
-    /// Draw random scenes on adapters, and reduce those that fail
+    /// Draw random scenes on adapters, and reduce the failing ones
     Fuzz(fuzz::Arguments),
     /// Plant bugs in the cpu rasterizer and report which ones the cases catch
     Mutants(mutants::Arguments),
