@@ -28,7 +28,7 @@ const JUDGED: usize = 64;
 const JUDGED_DRAWS: usize = 4096;
 
 /// Prints the warnings of `etalon check` for the files of these cases: all warnings if the cases are few,
-/// otherwise only the warnings that need no judge.
+/// otherwise only those that need no judge.
 fn warn(library: &Library, cases: &[Case]) {
     let ids: HashSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
     let files = library.files().iter();

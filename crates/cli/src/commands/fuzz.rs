@@ -400,7 +400,7 @@ impl Tally {
         }
     }
 
-    /// Counts the scenes of a batch. Returns the failing ones.
+    /// Counts the scenes of a batch. Returns those that fail.
     fn count(
         &mut self,
         scenes: Vec<RandomScene>,

@@ -1,4 +1,4 @@
-//! What is not triaged yet: unexplained bad verdicts, and steps of frame times.
+//! What nobody has triaged yet: unexplained bad verdicts, and steps of frame times.
 
 use super::place::run_text;
 use super::series::{of_key, state_name, state_text};
