@@ -13,7 +13,7 @@ const ADAPTERS: &str = include_str!("../../../cli/adapters.json");
 /// The software driver below Firefox.
 const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
 
-/// The process that keeps a browser; started by the tests alone.
+/// The process that keeps a browser; only the tests start it.
 #[test]
 #[ignore = "a process of the other tests"]
 fn keeper() {
@@ -97,7 +97,7 @@ pub(crate) fn firefox() -> Driver<'static> {
     }
 }
 
-/// What the drivers' descriptions do not hold.
+/// Facts that the drivers' descriptions do not give.
 pub(crate) fn offers(backend: &dyn Backend) {
     let limits = backend.limits();
     assert_eq!(limits.api, Api::WebGpu);

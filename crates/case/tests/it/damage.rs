@@ -1,6 +1,6 @@
-//! Whatever stands in a case file, reading it ends, with a message where it is wrong.
+//! Whatever a case file contains, reading it ends, with a message if it is wrong.
 //!
-//! `PROPTEST_CASES` says how many inputs are taken.
+//! `PROPTEST_CASES` sets the number of inputs.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 #[path = "../../../record/tests/spoil/mod.rs"]
@@ -13,10 +13,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// The most cases of a file that are built: what is common to all shows in a few.
+/// The largest number of a file's cases that are built: common errors show in a few.
 const BUILT: usize = 12;
 
-/// All case files of the repository that are no longer than a screenful or two.
+/// All case files of the repository that are at most a screen or two long.
 fn texts() -> &'static [String] {
     static TEXTS: OnceLock<Vec<String>> = OnceLock::new();
     fn below(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -41,7 +41,7 @@ fn texts() -> &'static [String] {
     })
 }
 
-/// Reads a folder of one file and builds some of its cases; whether that went well.
+/// Reads a folder of one file and builds some of its cases. Returns true on success.
 fn build(text: &[u8]) -> bool {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("area")).unwrap();
@@ -95,7 +95,7 @@ fn absurdities_are_refused() {
     ] {
         assert!(!build(with("{}", size).as_bytes()), "{size}");
     }
-    // A product of axes that nobody could ever draw.
+    // A product of axes that is far too large to draw.
     let values: Vec<String> = (0..100).map(|n| n.to_string()).collect();
     let axis = |n: usize| format!("\"a{n}\": [{}]", values.join(","));
     let axes: Vec<String> = (0..12).map(axis).collect();

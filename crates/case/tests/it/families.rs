@@ -20,8 +20,8 @@ use simulation::{
     triangles,
 };
 
-/// The built-in cases below a path that the simulation can follow, without those that are there to be
-/// measured: their meshes and pictures are too large for it.
+/// The built-in cases below a path that the simulation can draw, without measured cases, whose meshes and
+/// pictures are too large for it.
 fn cases(prefix: &str) -> Vec<Case> {
     let library = Library::built_in().expect("built-in files parse");
     library
@@ -69,7 +69,7 @@ fn every_area_holds_its_cases() {
     assert!(counts.values().sum::<i32>() >= 8900);
 }
 
-/// Of every file but one, whose cases SwiftShader draws for a minute each, until they are ended.
+/// For every file except one, whose cases hang on SwiftShader until the time limit of a minute.
 #[test]
 fn the_quick_profile_takes_some_of_every_file() {
     let library = Library::built_in().expect("built-in files parse");
@@ -80,8 +80,8 @@ fn the_quick_profile_takes_some_of_every_file() {
         let is_slow = file.name() == "sequence/spans-discarded.json";
         assert_eq!(quick.is_empty(), is_slow, "{}", file.name());
         assert!(quick.iter().all(|id| full.contains(id)), "{}", file.name());
-        // What is measured takes its time from the machine, not from the limit of what is judged; a
-        // benchmark's larger sizes are no other question, and methods have axes of numbers.
+        // Measured cases take as long as the machine needs, without the limit of judged ones; a benchmark's
+        // larger sizes ask no new question, and methods have numeric axes.
         let measures = ["methods/", "perf/"];
         if measures.iter().any(|area| file.name().starts_with(area)) {
             continue;
@@ -93,7 +93,7 @@ fn the_quick_profile_takes_some_of_every_file() {
             all += quick.len();
             continue;
         }
-        // Each value of each axis stands in one of them.
+        // Each value of each axis is in one of them.
         let parts = |id: &str| -> Vec<String> { id.split('/').map(str::to_owned).collect() };
         let due: BTreeSet<String> = full.iter().flat_map(|id| parts(id)).collect();
         let met: BTreeSet<String> = quick.iter().flat_map(|id| parts(id)).collect();
@@ -150,9 +150,9 @@ fn a_case_needs_few_pipelines() {
                 pipelines.push(state);
             }
         }
-        // Where the order of draws is the question, and where all state differs, a case has more.
+        // If the case tests the order of draws, or all state differs, it has more.
         let most = match case.area() {
-            // Passes that lean on one another are many draws by nature.
+            // Passes that depend on each other need many draws.
             "sequence" if !case.id.starts_with("sequence/state/") => continue,
             "early-z" | "order" | "combined" | "sequence" | "paths" => 5,
             _ => 2,
@@ -164,8 +164,8 @@ fn a_case_needs_few_pipelines() {
 #[test]
 fn no_edge_comes_near_a_texel_centre() {
     let mut seen = BTreeSet::new();
-    // Frames of the area `order` are held against each other: there edges may lie anywhere.
-    // So they may where indices, offsets, topology or polygon mode take turns: there other triangles are drawn.
+    // Frames of the area `order` are compared with each other, so their edges can be anywhere. The same holds
+    // if indices, offsets, topology or polygon mode alternate: other triangles are drawn then.
     let geometry = [
         "order/",
         "sequence/state/fetch/",
@@ -273,7 +273,7 @@ fn every_triple_takes_every_path(cases: &[Case], due: usize) {
                 let stored: BTreeSet<u8> = list.iter().map(|(stored, _)| *stored).collect();
                 let due = BTreeSet::from([0, 1, 90, 127, 128, 165, 254, 255]);
                 assert_eq!(stored, due, "{}: {is_front} {path:?}", case.id);
-                // Whichever two operations are confused, some texel tells them apart.
+                // Whichever two operations are confused, some texel distinguishes them.
                 for a in StencilOperation::ALL {
                     for b in StencilOperation::ALL.iter().filter(|b| *b != a) {
                         let told = list.iter().any(|(stored, reference)| {
@@ -448,8 +448,8 @@ fn textbook_values_are_what_the_equations_give() {
 
 #[test]
 fn culling_shows_each_face_alone() {
-    // Flat colours of provoking vertices show no face, patches and single triangles of one winding no two, and
-    // what asks for coverage none.
+    // Flat colours of provoking vertices show no face, patches and single triangles of one winding do not
+    // show both, and coverage cases show none.
     let other = [
         "cull/provoking/",
         "cull/tessellation/",
@@ -472,7 +472,7 @@ fn culling_shows_each_face_alone() {
             CullMode::Back => (true, false),
             CullMode::FrontAndBack => (false, false),
         };
-        // What has no area has no face to show.
+        // Triangles without an area show no face.
         let due = if case.id.starts_with("cull/slivers/") {
             (false, false)
         } else {

@@ -1,5 +1,5 @@
-//! The states that `cases/sequence/state` changes between draws: every state of a draw has a file, and a
-//! case changes one state. A state that the model gains does not compile here until it is named.
+//! The states that `cases/sequence/state` changes between draws: every state of a draw has a file, and a case
+//! changes one state. After a state is added to the model, this does not compile until the state is named.
 
 mod states;
 
@@ -8,15 +8,15 @@ use etalon_scene::Draw;
 use states::{every_state, states};
 use std::collections::BTreeSet;
 
-/// The draws that take turns: the last three.
+/// The draws that alternate: the last three.
 fn steps(case: &Case) -> [&Draw; 3] {
     let all: Vec<&Draw> = case.scene.passes.iter().flat_map(|p| &p.draws).collect();
     let last = all.last_chunk().expect("a sequence has three steps");
     *last
 }
 
-/// The state in which two draws differ: the part of their names that all that differs has in common. `None`
-/// where nothing differs.
+/// The state in which two draws differ: the common part of the names of all differences. `None` if nothing
+/// differs.
 fn differing(a: &Draw, b: &Draw) -> Option<String> {
     let (a, b) = (states(a), states(b));
     let names: BTreeSet<&String> = a.keys().chain(b.keys()).collect();
@@ -51,7 +51,7 @@ fn every_state_of_a_draw_has_its_file() {
             assert_ne!(state.as_deref(), Some(""), "{id} changes several states");
             own.extend(state);
         }
-        // A test that is off has no parts that could differ.
+        // A disabled test has no parts that could differ.
         let widest = own.iter().min_by_key(|name| name.len());
         let widest = widest.unwrap_or_else(|| panic!("{} changes nothing", file.name()));
         let is_part = |name: &String| name.starts_with(widest.as_str());
@@ -61,7 +61,7 @@ fn every_state_of_a_draw_has_its_file() {
     let every = every_state();
     let missing: Vec<_> = every.difference(&changed).collect();
     assert!(missing.is_empty(), "no file changes {missing:?}");
-    // What several targets have of their own shows where the first one's state stays.
+    // State of separate targets shows if the first one's state stays.
     for name in ["targets.1.blend", "targets.1.write_mask"] {
         assert!(changed.contains(name), "no file changes {name}");
     }

@@ -103,7 +103,7 @@ struct Asked<'a> {
     frames: &'a [Frame],
 }
 
-/// The common story of one or more samples.
+/// The story that one or several samples share.
 struct Told {
     story: Story,
     band: Option<Band>,

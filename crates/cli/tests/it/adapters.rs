@@ -1,4 +1,4 @@
-//! Adapters: built-in and own descriptions, enumeration, facts, validation, caches.
+//! Adapters: built-in and user descriptions, enumeration, facts, validation, caches.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command;
@@ -30,7 +30,7 @@ const DUE: [&str; 13] = [
     "wgpu:vulkan:swiftshader",
 ];
 
-/// The binary without variables that name drivers.
+/// Returns the binary without variables that select drivers.
 fn etalon(arguments: &[&str]) -> Command {
     let mut command = crate::etalon::etalon(arguments);
     for name in ["ETALON_ANGLE", "VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
@@ -39,7 +39,7 @@ fn etalon(arguments: &[&str]) -> Command {
     command
 }
 
-/// A file of adapters in a folder of its own.
+/// A file of adapters in its own folder.
 fn file(text: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.json");
@@ -47,7 +47,7 @@ fn file(text: &str) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-/// Runs the case by a user's file and reads the run.
+/// Runs the case with a user's file and reads the run.
 fn run(path: &Path, names: &[&str]) -> Run {
     let out = tempfile::tempdir().unwrap();
     let mut command = etalon(&["run", CASE, "--adapters"]);
@@ -59,7 +59,7 @@ fn run(path: &Path, names: &[&str]) -> Run {
     Run::read(&out.path().join("out")).unwrap()
 }
 
-/// The message by which a user's file is refused as bad input, before anything is written.
+/// Returns the message that refuses a user's file as bad input, before anything is written.
 fn refused(path: &Path, names: &[&str]) -> String {
     let out = tempfile::tempdir().unwrap();
     let out = out.path().join("out");
@@ -177,7 +177,7 @@ fn what_is_wrong_with_a_file_is_said() {
         r#"[{ "name": "a\u001b[31m", "backend": "cpu" }]"#,
     ] {
         let (_folder, path) = file(text);
-        // Without a name all are asked for.
+        // Without a name, all adapters are requested.
         said += &format!("A file of `{text}`:\n{}\n", refused(&path, &[]));
     }
     assert!(!said.contains('\u{1b}'));
@@ -296,7 +296,7 @@ fn the_facts_of_each_adapter_are_there_for_programs() {
 
 #[test]
 fn an_adapter_that_a_variable_names_is_told_with_its_remedy_or_in_one_quiet_line() {
-    // The lines below the table, which is the machine's.
+    // The lines below the table; the table depends on the machine.
     let below = |command: &mut Command| {
         let assert = command.assert().code(0);
         let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
@@ -313,7 +313,7 @@ fn an_adapter_that_a_variable_names_is_told_with_its_remedy_or_in_one_quiet_line
     insta::assert_snapshot!("adapters-not-enabled-run", stderr(&assert));
 }
 
-/// The files that Mesa's cache has in a folder, but for its own marks.
+/// Returns the files of Mesa's cache in a folder, without its marker files.
 fn cached(folder: &Path) -> usize {
     let Ok(entries) = fs::read_dir(folder) else {
         return 0;
@@ -349,7 +349,7 @@ fn a_cold_cache_is_neither_read_nor_written() {
     }
 }
 
-/// Correct calls cause no messages; tests of the backends show that wrong ones do.
+/// Correct calls cause no messages. The backends' tests show that wrong calls do.
 #[test]
 fn validation_says_nothing_of_what_is_right() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Benches. No time is asserted.
+//! Benches. The tests assert no times.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A folder of cases: one picture that comes out right, and one of which the judge believes otherwise.
+/// A folder of cases: one picture that is right, and one that the judge takes for wrong.
 fn cases() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let scene = json!({
@@ -40,7 +40,7 @@ fn bench(cases: &Path, out: &Path, arguments: &[&str]) -> assert_cmd::assert::As
 fn what_is_right_is_timed_and_what_is_wrong_is_not() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();
-    // A selftest's Fail is due, so nothing speaks against the bench.
+    // A selftest is due to fail, so the bench succeeds.
     bench(cases.path(), out.path(), &["--adapter", "cpu"])
         .code(0)
         .stdout(contains("perf/right").and(contains("index.html")))
@@ -216,7 +216,7 @@ fn a_bench_that_was_stopped_is_resumed() {
     let rounds = &done.record("perf/right", "cpu").unwrap().rounds;
     assert_eq!(rounds.len(), 2);
     assert!(rounds[1].at >= rounds[0].at, "{rounds:?}");
-    // What was measured stays.
+    // Measured rounds stay.
     let now = fs::read_to_string(&file).unwrap();
     assert!(now.starts_with(&lines[..4].join("\n")), "{now}");
 }
@@ -250,7 +250,7 @@ fn a_bench_waits_no_longer_than_its_time_limit() {
     file["scene"]["attachments"]["color"]["size"] = json!([8, "$n"]);
     fs::write(cases.path().join("perf/sizes.json"), file.to_string()).unwrap();
     let out = tempfile::tempdir().unwrap();
-    // One scene out of eight hangs.
+    // One scene in eight hangs.
     let hanging = [
         "perf/sizes",
         "--adapter",
@@ -311,7 +311,7 @@ fn cells_of_the_matrix_are_measured_where_they_are_named() {
     let bench = Bench::read(out.path()).unwrap();
     assert_eq!((bench.header.cases, bench.missing()), (4, 0));
     assert_eq!(bench.header.settings.within, Some(0.03));
-    // The two cases of a cell stand one after the other.
+    // The two cases of a cell come one after the other.
     let layers: Vec<&str> = bench
         .records
         .iter()
@@ -336,13 +336,13 @@ fn cells_of_the_matrix_are_measured_where_they_are_named() {
         .code(0)
         .stdout(contains("matrix.csv").and(contains("Gpix/s")));
     assert!(out.path().join("matrix.html").exists());
-    // Another bench in the folder leaves no report of this one.
+    // Another bench in the folder removes the reports of this one.
     let cases = cases();
     bench_of(cases.path(), out.path());
     assert!(!out.path().join("matrix.html").exists() && !out.path().join("matrix.csv").exists());
 }
 
-/// Replaces the bench in a folder by one of the cases in another, which has cells and does not name them.
+/// Replaces the bench in a folder by one of another folder's cases, which has cells without naming them.
 fn bench_of(cases: &Path, out: &Path) {
     let matrix = cases.join("perf/matrix");
     fs::create_dir(&matrix).unwrap();

@@ -1,4 +1,4 @@
-//! `etalon bisect`, with two drivers that stand for older and newer releases of one.
+//! `etalon bisect`, with two drivers in the roles of older and newer releases of one driver.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// softpipe fails it, llvmpipe does not.
+/// A case that softpipe fails and llvmpipe passes.
 const BROKEN: &str = "cull/points/cull=none/front_face=cw";
-/// Both pass it.
+/// A case that both pass.
 const SOUND: &str = "depth/clear/clear=1/format=depth32float";
 
 fn release(driver: &str, line: &str, version: &str) -> Value {
@@ -20,7 +20,7 @@ fn release(driver: &str, line: &str, version: &str) -> Value {
     })
 }
 
-/// A folder with a file of releases: up to version 22.10 softpipe, from 25 on llvmpipe.
+/// A folder with a file of releases: softpipe up to version 22.10, llvmpipe from 25 on.
 fn releases() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("lines.json");
@@ -73,7 +73,7 @@ fn the_release_that_mended_a_case_is_found() {
         "softpipe treats points as back-facing in the fragment shader"
     );
     assert!(sound.bad().is_empty());
-    // The ends and one between.
+    // The oldest, the newest and one release between them.
     let drawn = sound.verdicts.iter().flatten().count();
     assert_eq!((drawn, sound.verdicts[0]), (3, Some(Verdict::Pass)));
     let table = String::from_utf8(assert.get_output().stdout.clone()).unwrap();

@@ -1,4 +1,5 @@
-//! Browsers as adapters: what ends with a run, what a lost browser costs, and a page that somebody opens.
+//! Browsers as adapters: which processes end with a run, what a lost browser costs, and a page that a person
+//! opens.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::{BINARY, REMOVED, etalon};
@@ -11,7 +12,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The longest wait for what comes by itself.
+/// The longest wait for an event.
 const LIMIT: Duration = Duration::from_secs(60);
 
 fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
@@ -22,7 +23,7 @@ fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
     }
 }
 
-/// Starts a run on Chromium whose temporary folder is `folder`.
+/// Starts a run on Chromium with the temporary folder `folder`.
 fn started(folder: &Path, cases: &str) -> Child {
     let mut command = Command::new(BINARY);
     command
@@ -55,7 +56,7 @@ fn records(folder: &Path) -> usize {
         .saturating_sub(1)
 }
 
-/// Returns the processes whose command line or parent names the profile of a browser in `folder`.
+/// Returns the processes whose own or parent's command line names a browser profile in `folder`.
 fn browsers(folder: &Path) -> Vec<i32> {
     let profile = folder.join("etalon-browser-");
     let profile = profile.to_str().unwrap();
@@ -119,7 +120,7 @@ fn a_killed_run_leaves_no_browser() {
     }
 }
 
-/// The case that is drawn then, and no other: its recheck may find it right.
+/// Only the case that is being drawn is lost, and its recheck might find it right.
 #[test]
 fn a_lost_browser_costs_one_case() {
     let folder = tempfile::tempdir().unwrap();
@@ -150,7 +151,7 @@ fn whoever_opens_the_page_is_the_adapter() {
         format!(r#"[{{ "name": "webgpu:mine", "backend": "webgpu", "listen": "{address}" }}]"#);
     fs::write(&file, entry).unwrap();
     let mut command = Command::new(BINARY);
-    // What fails is drawn again by a second worker, which the first one must leave the page to.
+    // A second worker draws failures again; the first one must release the page to it.
     command
         .args([
             "run",
@@ -200,7 +201,7 @@ fn whoever_opens_the_page_is_the_adapter() {
     browser.wait().unwrap();
     let run = Run::read(&folder.path().join("out")).unwrap();
     assert_eq!(run.missing(), 0);
-    // No finding names this adapter: the bias of depth16unorm is new, and was drawn again by a worker of its own.
+    // No finding names this adapter, so the bias of depth16unorm is new, and a new worker drew it again.
     assert_eq!(ended.code(), Some(1));
     let (right, wrong): (Vec<_>, Vec<_>) = run
         .records

@@ -1,4 +1,5 @@
-//! `etalon bundle`: the programs that it writes are built and run as a maintainer would, and none shows what is not there.
+//! `etalon bundle`: its programs are built and run as a maintainer would, and show a bug only on drivers that
+//! have it.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::bundling::{bundle, last_line, run_as_told};
@@ -37,8 +38,8 @@ fn run_on(driver: &str, program: &Path) -> Output {
         .unwrap()
 }
 
-/// Cases that a driver fails, and a driver that passes them or lacks something of them. One for each finding that is the
-/// driver's own.
+/// Cases that a driver fails, with a driver that passes them or lacks a feature. One for each finding about
+/// the driver itself.
 const FAILING: [(&str, &str, &str); 30] = [
     (
         "cull/lines/cull=none/front_face=cw",
@@ -199,7 +200,7 @@ fn a_program_shows_the_bug_on_the_accused_driver_only() {
             line.contains("is wrong: ") || line.starts_with("counter"),
             "{line}"
         );
-        // Built and run by the tool too: the report has its last line.
+        // The tool builds and runs the program too: the report has its last line.
         assert!(
             report.contains(&format!("ends with 1: `{line}`")),
             "{report}"
@@ -246,13 +247,13 @@ fn the_case_file_of_a_bundle_fails_as_the_case_did() {
     .assert()
     .code(1);
 
-    // A bundle is not replaced but by its name and --force.
+    // A bundle is replaced only with --force.
     let (code, _, error) = bundle("combined/extended/seed=16", "gl:softpipe", out.path(), &[]);
     assert_eq!(code, 64, "{error}");
     assert!(error.contains("--force"), "{error}");
 }
 
-/// Cases that lavapipe fails. One for each finding.
+/// Cases that lavapipe fails, one for each finding.
 const FAILING_ON_LAVAPIPE: [&str; 8] = [
     "paths/resolve/pass=dynamic-rendering/start=transfer/target=array-layer",
     "capabilities/depth-resolve/format=depth16unorm/mode=average/samples=4",
@@ -283,7 +284,7 @@ fn a_program_of_vulkan_keeps_to_the_rules_and_accuses_one_driver() {
             last_line(&accused)
         );
 
-        // The layer writes what it objects to where the program writes.
+        // The validation layer writes its messages to the program's output.
         let mut lines = report.lines();
         let line = lines.find(|line| line.ends_with("./repro")).unwrap();
         let checked = Command::new("sh")
@@ -333,7 +334,7 @@ fn a_fault_of_the_suite_becomes_no_bundle() {
 fn a_case_that_the_layer_objects_to_has_no_bundle() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("adapters.json");
-    // The layer warns of an extension that the backend enables.
+    // The validation layer warns about an extension that the backend enables.
     let adapters = json!([{
         "name": "vulkan:strict", "backend": "vulkan", "answers": "llvmpipe",
         "environment": { "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT" },
@@ -349,7 +350,7 @@ fn a_case_that_the_layer_objects_to_has_no_bundle() {
     assert!(!out.exists());
 }
 
-/// Text that would leave a C string, a comment, a shell's word or Markdown.
+/// Text that would end a C string, a comment, a shell word or Markdown if it were not escaped.
 const HOSTILE: &str =
     "*/ \"; system(\"touch pwned\"); /* $(touch pwned) `touch pwned` '; touch pwned; ' ??/\\ <b>";
 

@@ -1,4 +1,4 @@
-//! `etalon bundle` on wgpu: the packages are built from what is on this machine and run, the pages run in Chromium.
+//! `etalon bundle` on wgpu: packages are built offline and run, pages run in Chromium.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::bundling::{PROGRAMS, bundle, last_line, run_as_told};
@@ -12,19 +12,20 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// The longest time that a page may take.
+/// The time limit of a page.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The answer of a page in Chromium over SwiftShader.
 #[derive(Clone, Copy, Debug)]
 enum Page {
-    /// WebGPU lacks something.
+    /// WebGPU lacks a feature.
     Absent,
     Right,
     Wrong,
 }
 
-/// Cases that an adapter fails, the other driver of Vulkan if the bug is the driver's own, and what the page shows.
+/// Cases that an adapter fails, with the other Vulkan driver if the bug is the driver's own, and the page's
+/// result.
 const FAILING: [(&str, &str, Option<&str>, Page); 16] = [
     (
         "scissor/clip-distances/samples/planes=row/samples=4",
@@ -79,7 +80,7 @@ const FAILING: [(&str, &str, Option<&str>, Page); 16] = [
         "depth/bias-linear/format=depth16unorm",
         "wgpu:vulkan:lavapipe",
         None,
-        // SwiftShader adds 258 units for 255.
+        // SwiftShader adds 258 units instead of 255.
         Page::Wrong,
     ),
     (
@@ -186,7 +187,7 @@ fn a_page_shows_the_bug_of_a_browser() {
     assert!(answer.contains("is wrong: "), "{answer}");
 }
 
-/// Builds the package in an empty folder, in the versions of its lock file.
+/// Builds the package in an empty folder, with the versions of its lock file.
 fn built(folder: &Path, empty: &Path) {
     for file in ["main.rs", "Cargo.toml", "Cargo.lock"] {
         fs::copy(folder.join(file), empty.join(file)).unwrap();
@@ -206,7 +207,7 @@ fn built(folder: &Path, empty: &Path) {
     fs::copy(target.join("debug/repro"), empty.join("repro")).unwrap();
 }
 
-/// The drivers of Vulkan: lavapipe and SwiftShader.
+/// The Vulkan drivers: lavapipe and SwiftShader.
 fn drivers() -> String {
     let folder = Path::new("/usr/share/vulkan/icd.d");
     let files = fs::read_dir(folder).unwrap();
@@ -219,7 +220,7 @@ fn drivers() -> String {
     )
 }
 
-/// Opens a page in Chromium. Returns what becomes its title.
+/// Opens a page in Chromium. Returns the title that the page sets.
 fn answer(page: &Path) -> String {
     let profile = TempDir::new().unwrap();
     let mut browser = Browser::start(page, profile.path());
@@ -242,7 +243,7 @@ fn answer(page: &Path) -> String {
 /// A headless Chromium with WebGPU over SwiftShader.
 struct Browser {
     process: Child,
-    /// The address at which it tells of its pages.
+    /// The address at which Chromium lists its pages.
     address: String,
 }
 
@@ -273,7 +274,7 @@ impl Browser {
             .map_while(Result::ok)
             .find_map(|line| Some(line.split_once("DevTools listening on ws://")?.1.to_owned()))
             .expect("Chromium says where it listens");
-        // A full pipe would stop the browser.
+        // Without a reader, a full pipe would block the browser.
         std::thread::spawn(move || lines.for_each(drop));
         let address = address.split_once('/').unwrap().0.to_owned();
         Self { process, address }
@@ -285,7 +286,7 @@ impl Browser {
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let request = format!("GET /json/list HTTP/1.1\r\nHost: {}\r\n\r\n", self.address);
         stream.write_all(request.as_bytes()).unwrap();
-        // The connection stays open.
+        // Chromium keeps the connection open, so reading to its end would block.
         let mut reader = BufReader::new(stream);
         let mut length = 0;
         loop {

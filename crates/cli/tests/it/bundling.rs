@@ -1,4 +1,4 @@
-//! Running `etalon bundle`, and the programs that it writes.
+//! Runs `etalon bundle`, and the programs that it writes.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -7,10 +7,10 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
 
-/// Where packages of Rust are compiled, so that their dependencies are compiled once.
+/// The folder in which Rust packages are compiled, so that their dependencies are compiled once.
 pub(crate) const PROGRAMS: &str = env!("CARGO_TARGET_TMPDIR");
 
-/// The longest time of a bundle: the first compiles wgpu.
+/// The time limit of a bundle; the first one compiles wgpu.
 const FIRST: Duration = Duration::from_secs(600);
 
 /// Bundles a case. Returns the exit code, the summary and the error output.
@@ -41,7 +41,7 @@ pub(crate) fn last_line(output: &Output) -> String {
     text.lines().last().unwrap_or_default().to_owned()
 }
 
-/// Runs the command that a report gives, in the folder of the program.
+/// Runs the command that a report gives, in the program's folder.
 pub(crate) fn run_as_told(report: &str, folder: &Path) -> Output {
     let mut lines = report.lines();
     let line = lines.find(|line| line.ends_with("./repro")).unwrap();

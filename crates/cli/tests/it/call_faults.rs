@@ -1,5 +1,5 @@
-//! Drivers that get a call wrong: the fault sits between the backend and the driver, where the suite cannot see it, and
-//! the cases of the area that the fault belongs to fail.
+//! Drivers that get a call wrong: the fault is between the backend and the driver, where the suite cannot see
+//! it. The cases of the fault's area must fail.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -8,14 +8,15 @@ use etalon_frame::Api;
 use etalon_record::{Run, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Runs cases on an adapter. Returns the names of those that fail, and whether a finding expects it.
+/// Runs cases on an adapter. Returns the names of the failing ones, and whether a finding expects the
+/// failure.
 fn failed<'a>(
     adapter: &str,
     cases: impl IntoIterator<Item = &'a str>,
     code: i32,
 ) -> BTreeMap<String, bool> {
     let out = tempfile::tempdir().unwrap();
-    // A planted fault is there each time.
+    // A planted fault occurs in every process.
     let mut command = etalon(&["run", "--recheck", "off", "--adapter", adapter]);
     command.args(cases).arg("--out").arg(out.path());
     command.assert().code(code);
@@ -24,7 +25,7 @@ fn failed<'a>(
     failed.map(|r| (r.case, r.expected.is_some())).collect()
 }
 
-/// Every fault turns the run of a driver red, by a case that the driver passes without it.
+/// Every fault turns the run of a driver red, by a case that passes without the fault.
 fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clone) {
     let cases: BTreeSet<&str> = faults.clone().map(CallFault::cases).collect();
     let without = failed(driver, cases, 0);
@@ -42,7 +43,7 @@ fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clon
 
 #[test]
 fn every_fault_of_vulkan_calls_fails() {
-    // lavapipe's multiview is wrong by itself.
+    // lavapipe's multiview is wrong even without a fault.
     let view_first = |fault: &CallFault| *fault == CallFault::ViewFirst;
     let all = CallFault::ALL.iter().copied();
     let vulkan = all.filter(|fault| fault.is_in(Api::Vulkan));
@@ -72,7 +73,7 @@ fn faults_of_calls_have_names() {
         "gl:llvmpipe:call-fault=load-clears",
         // Vulkan's clip volume has one origin.
         "vulkan:lavapipe:call-fault=clip-origin-kept",
-        // The rasterizer has no place for a fault, and a list of calls none for this one.
+        // The rasterizer cannot have a fault in a call, and a list of calls cannot have this one.
         "cpu:call-fault=last-row",
         "wgpu:vulkan:lavapipe:call-fault=last-row",
         "webgpu:chromium:call-fault=last-row",

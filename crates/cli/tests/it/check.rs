@@ -12,7 +12,7 @@ fn cases_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")
 }
 
-/// A file with an axis, a mesh, a format and what is read back.
+/// Returns a case file with an axis, a mesh, a format and a list of attachments to read back.
 fn file(axes: &str, positions: &str, format: &str) -> String {
     format!(
         r#"{{ "about": "t", "spec": ["t"],
@@ -62,7 +62,7 @@ fn the_repositorys_own_cases_have_no_warnings() {
             ));
         }
     }
-    // There, triangles of other indices are drawn over each other, whatever they cover.
+    // There, triangles with other indices overlap, whatever they cover.
     warnings.retain(|(file, message)| {
         !(*file == "sequence/state/indices.json" && message.contains("an edge passes"))
     });
@@ -107,7 +107,7 @@ fn each_kind_of_warning_is_told_with_its_line() {
 
 #[test]
 fn what_asserts_nothing_is_told() {
-    // A mask of no channel of a texture whose contents a store operation discarded.
+    // An empty write mask on a texture whose contents a store operation discarded.
     let text = file("", EXACT, "rgba8unorm").replace(
         r#""color": ["c"], "draws""#,
         r#""color": ["c"], "operations": { "color": [ { "store": "discard" } ] }, "draws""#,

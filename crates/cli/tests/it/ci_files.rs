@@ -1,5 +1,5 @@
-//! The files of `ci/` for CI systems and clusters: they satisfy the schemas of those systems, the scripts that they call
-//! exist, and their lines, run with the variables of those systems, draw every case once.
+//! The files of `ci/` for CI systems and clusters: they satisfy the systems' schemas, the scripts that they
+//! call exist, and their shell lines, run with the systems' variables, draw every case once.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ const JOB: &str = "ci/kubernetes/job.yaml";
 const MERGE: &str = "ci/kubernetes/merge.yaml";
 const CLAIM: &str = "ci/kubernetes/claim.yaml";
 
-/// The variables of systems that start many processes; the tests may run in one of them.
+/// The variables of systems that start many processes; the tests themselves can run in such a system.
 const VARIABLES: [&str; 17] = [
     "CI",
     "CI_NODE_INDEX",
@@ -38,7 +38,7 @@ const VARIABLES: [&str; 17] = [
     "ETALON_BRANCH",
 ];
 
-/// Cases enough that no shard is empty.
+/// Enough cases that no shard is empty.
 const GLOB: &str = "cull/*";
 
 fn root() -> PathBuf {
@@ -61,7 +61,7 @@ fn schema(name: &str) -> jsonschema::Validator {
 
 #[test]
 fn every_file_satisfies_the_schema_of_its_format() {
-    // Each file with a key and a value that its format refuses there.
+    // Each file, with a key and a value that its format refuses there.
     let all = [
         (
             WORKFLOW,
@@ -101,7 +101,7 @@ fn every_file_satisfies_the_schema_of_its_format() {
     }
 }
 
-/// The shell lines of a file: per job, in order.
+/// Returns the shell lines of a file: per job, in order.
 fn lines(name: &str) -> Vec<(String, Vec<String>)> {
     let value = yaml(name);
     let strings = |v: &Value| -> Vec<String> {
@@ -134,7 +134,7 @@ fn lines(name: &str) -> Vec<(String, Vec<String>)> {
         .collect()
 }
 
-/// The line of a job that calls this script.
+/// Returns the line of a job that calls this script.
 fn line(name: &str, job: &str, script: &str) -> String {
     let jobs = lines(name);
     let (_, lines) = jobs.iter().find(|(n, _)| n == job).unwrap();
@@ -143,7 +143,7 @@ fn line(name: &str, job: &str, script: &str) -> String {
     found[0].clone()
 }
 
-/// The flags that a command knows, from its help.
+/// Returns the flags in a command's help.
 fn flags(command: &str) -> BTreeSet<String> {
     let output = Command::new(BINARY)
         .args([command, "--help"])
@@ -233,7 +233,7 @@ fn actions_are_githubs_own_and_pinned() {
         let major = version.strip_prefix('v').unwrap();
         assert!(major.parse::<u32>().is_ok(), "{uses}");
         used.insert(action);
-        // The artifact of a shard must not overwrite another's.
+        // The artifacts of two shards must not overwrite each other.
         if action == "actions/upload-artifact" && step["if"] == "always()" {
             assert!(step["with"]["name"].is_string(), "{step}");
         }
@@ -250,7 +250,7 @@ fn actions_are_githubs_own_and_pinned() {
     assert_eq!(used, known.iter().map(String::as_str).collect());
 }
 
-/// A folder for what a test writes, with a stand-in for `etalon` and for other programs on its search path.
+/// A folder for a test's output, with stand-ins for `etalon` and other programs on its search path.
 struct Place {
     folder: tempfile::TempDir,
 }
@@ -266,7 +266,7 @@ impl Place {
         self.folder.path().join(name)
     }
 
-    /// A program of this text, first on the search path.
+    /// Adds a program with this text, first on the search path.
     fn program(&self, name: &str, text: &str) -> PathBuf {
         let path = self.path(name);
         fs::write(&path, format!("#!/usr/bin/env bash\n{text}\n")).unwrap();
@@ -274,7 +274,7 @@ impl Place {
         path
     }
 
-    /// `etalon`, but `run` takes a few cases on `cpu` alone.
+    /// Adds an `etalon` whose `run` draws a few cases on `cpu` alone.
     fn few_cases(&self) {
         self.program(
             "etalon",
@@ -284,7 +284,7 @@ impl Place {
         );
     }
 
-    /// A command in the repository, with the `etalon` of this place and without variables from outside.
+    /// Returns a command in the repository, with this folder's `etalon` and without outside variables.
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new(program);
         command.current_dir(root());
@@ -297,7 +297,7 @@ impl Place {
         command
     }
 
-    /// Runs a shell line with these variables; paths that begin with `runs` or `/runs` lead into this place.
+    /// Runs a shell line with these variables; paths that begin with `runs` or `/runs` lead into this folder.
     fn shell(&self, line: &str, variables: &[(&str, String)]) -> Output {
         let runs = self.path("runs");
         let line = line
@@ -309,7 +309,7 @@ impl Place {
         command.output().unwrap()
     }
 
-    /// The merged run has every case once, and the drawing was shared: each of `count` shards has some.
+    /// Asserts that the merged run has every case once, and that each of `count` shards drew some.
     fn is_whole(&self, count: usize, profile: &str) {
         let cases = |folder: &str| -> Vec<String> {
             let records = self.path(folder).join("run.jsonl");
@@ -443,7 +443,7 @@ fn merging_keeps_a_history_and_begins_one_when_it_is_lost() {
     assert!(!db.exists());
     assert!(merge("yes").contains("is run 1"));
     assert!(merge("yes").contains("run 1 already"));
-    // The next night.
+    // The next nightly run.
     fs::remove_dir_all(place.path("runs")).unwrap();
     std::thread::sleep(Duration::from_millis(1100));
     succeeds(&place.shell("ci/shard runs/shard-1", &shard));
@@ -452,7 +452,7 @@ fn merging_keeps_a_history_and_begins_one_when_it_is_lost() {
         next.contains("compared with run 1") && next.contains("is run 2"),
         "{next}"
     );
-    // Lost with the cache.
+    // The history is lost with the cache.
     fs::remove_file(&db).unwrap();
     let lost = merge("yes");
     assert!(
@@ -489,7 +489,7 @@ fn the_pods_of_kubernetes_draw_every_case_once() {
     place.is_whole(8, "full");
 }
 
-/// A replacement for Slurm's `sbatch`: tasks of an array run one after the other, and the merge after them.
+/// A replacement for Slurm's `sbatch`: runs the tasks of an array one after another, and then the merge.
 const SBATCH: &str = r#"
 echo "$*" >>"$PLACE/sbatch.txt"
 tasks=
@@ -538,11 +538,11 @@ fn a_drawn_shard_succeeds_whatever_its_verdicts_are() {
     assert_eq!(output.status.code(), Some(64), "a folder is wanted");
 }
 
-/// An `etalon` that draws until it gets a signal, for 20 s at most.
+/// An `etalon` that draws until it gets a signal, for at most 20 s.
 const PATIENT: &str = r#"trap 'exit 3' TERM; touch "$PLACE/ready"
 for _ in $(seq 400); do sleep 0.05; done; exit 9"#;
 
-/// Starts a script, sends it a signal once `etalon` draws, and hands back how it ended.
+/// Starts a script, sends it a signal once `etalon` draws, and returns how it ended.
 fn signalled(
     place: &Place,
     words: &[&str],
@@ -585,7 +585,7 @@ fn a_task_of_slurm_whose_time_is_up_queues_itself_again() {
     let output = signalled(&place, &words, usr1, 4);
     assert_eq!(output.status.code(), Some(3), "{}", printed(&output));
     assert_eq!(fs::read_to_string(&asked).unwrap(), "requeue 7_2\n");
-    // Five times at most.
+    // At most five times.
     fs::remove_file(&asked).unwrap();
     let output = signalled(&place, &words, usr1, 5);
     assert_eq!(output.status.code(), Some(3), "{}", printed(&output));
@@ -641,7 +641,7 @@ fn shell_scripts_are_free_of_known_mistakes() {
         let output = Command::new("bash").arg("-n").arg(script).output().unwrap();
         succeeds(&output);
     }
-    // Where it is installed; the shell's own look above is always had.
+    // Only if shellcheck is installed; the shell's own check above always runs.
     if let Ok(output) = Command::new("shellcheck").args(&scripts).output() {
         succeeds(&output);
     }

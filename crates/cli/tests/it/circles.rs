@@ -1,8 +1,8 @@
 //! No two files of a crate need each other, directly or through others: each can be read after those it uses.
 //!
-//! An edge leads from a file to the file that defines what it names, through any number of re-exports: a module that
-//! only declares its children and hands their items on takes no part. Items under `#[cfg(test)]` are left out. Uses that
-//! only types show, such as methods, are not seen.
+//! An edge leads from a file to the file that defines what it names, through any number of re-exports: a
+//! module that only declares its children and re-exports their items has no edges. Items under `#[cfg(test)]`
+//! are left out. Uses that only types show, such as methods, are not found.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ type Segments = Vec<String>;
 /// Returns the name and the text of a module's file.
 type Source<'a> = &'a dyn Fn(&[String]) -> Option<(String, String)>;
 
-/// A module, whether it is a file or stands inside one.
+/// A module: a file, or a part of one.
 #[derive(Default)]
 struct Module {
     file: String,
@@ -135,7 +135,7 @@ impl<'a> Crate<'a> {
 
     /// Returns the target of a path that a module names.
     fn find(&self, module: &[String], path: &[String], steps: usize) -> Option<Target> {
-        // Modules may re-export from each other.
+        // Modules can re-export from each other.
         let steps = steps.checked_sub(1)?;
         let here = self.modules.get(module)?;
         let Some((first, rest)) = path.split_first() else {
@@ -150,7 +150,7 @@ impl<'a> Crate<'a> {
             item if here.items.contains(item) => return Some(Target::File(here.file.clone())),
             _ => {}
         }
-        // A name that is imported as itself is that of a crate.
+        // A name imported as itself is a crate's name.
         let mut named = here
             .imported(first)
             .filter(|import| import.first() != Some(first));
@@ -174,7 +174,7 @@ impl<'a> Crate<'a> {
         })
     }
 
-    /// Returns pairs of files, of which the first uses the second, with a path by which it does.
+    /// Returns pairs of files in which the first uses the second, with the path of that use.
     fn edges(&self) -> BTreeMap<[String; 2], String> {
         let mut edges = BTreeMap::new();
         for (at, module) in &self.modules {
@@ -258,7 +258,7 @@ fn is_test(attribute: &Attribute) -> bool {
     attribute.path().is_ident("cfg") && word.is_ok_and(|word| word == "test")
 }
 
-/// Returns the attributes of an item, and the name that it declares beside modules and imports.
+/// Returns the attributes of an item, and the name that it declares, except for modules and imports.
 fn described(item: &Item) -> (&[Attribute], Option<&Ident>) {
     match item {
         Item::Const(item) => (&item.attrs, Some(&item.ident)),
@@ -301,7 +301,7 @@ fn the_files_of_each_crate_form_no_circle() {
                 files.iter().find(|file| file.is_file())?
             };
             let text = fs::read_to_string(file).unwrap();
-            // Tests may share a file with another crate's tests.
+            // Tests can share a file with another crate's tests.
             let shares = folder.ends_with("tests/it");
             assert!(
                 !text.contains("#[path") || shares,
@@ -375,7 +375,7 @@ fn circles_are_seen() {
             "fn f<'a>(x: &'a str) -> char { crate::A; '\\'' } pub struct B;",
         ),
     ]);
-    // Of an item that a macro makes.
+    // With an item that a macro makes.
     circle(&[
         ("", "mod a; mod b;"),
         ("a", "use crate::b::B; made! { A }"),

@@ -13,7 +13,7 @@ use std::process::Stdio;
 
 const CLEARED: &str = "depth/clear/clear=1/format=depth32float";
 
-/// True if a command says nothing else than what it leaves out.
+/// Returns true if a command's messages are only about left-out cases.
 fn tells_what_is_left_out(text: &str) -> bool {
     text.lines().all(|line| line.starts_with("left out: "))
 }
@@ -25,7 +25,8 @@ fn lines(arguments: &[&str]) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// Refused as bad usage with one message that holds these words, and nothing on standard output.
+/// Asserts that a command is refused as bad usage with one message that contains these words, and no standard
+/// output.
 fn refused(arguments: &[&str], words: &[&str]) {
     let assert = etalon(arguments).assert().code(64).stdout(is_empty());
     for word in words {
@@ -158,7 +159,7 @@ fn a_reader_that_leaves_early_is_no_error() {
     }
 }
 
-/// A whole case file, for breaking.
+/// A complete case file, for tests that break it.
 const FINE: &str = r#"{
   "about": "An attachment is filled.",
   "spec": ["none"],
@@ -620,7 +621,7 @@ fn show_tells_a_case_and_draws_it() {
     }
     assert!(!text.contains("\"$"), "{text}");
     assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
-    // Pictures too large for a page are drawn here.
+    // `show` also draws pictures that are too large for a page.
     let large = "size/spanning/samples=1/size=1023x769";
     etalon(&["show", large, "--png"]).arg(&png).assert().code(0);
     assert!(fs::metadata(&png).unwrap().len() > 1000);

@@ -25,7 +25,7 @@ fn adapter(name: &str) -> AdapterRecord {
     serde_json::from_value(adapter).unwrap()
 }
 
-/// A bench of one case on `cpu` with nine rounds of about so many seconds a frame.
+/// Writes a bench of one case on `cpu` with nine rounds of about `seconds` per frame.
 fn bench(folder: &Path, seconds: f64) {
     let header = BenchHeader {
         format: BENCH_FORMAT,
@@ -108,7 +108,7 @@ fn a_slower_bench_gives_one_and_any_other_nothing() {
         .stderr(contains("gpu time"));
 }
 
-/// A run of one adapter with a case per verdict.
+/// Writes a run of one adapter with one case per verdict.
 fn run(folder: &Path, name: &str, verdicts: &[Verdict]) {
     let header = Header {
         etalon: "0.1.0".to_owned(),
@@ -150,7 +150,7 @@ fn runs_that_are_worse_give_one_better_two_and_others_nothing() {
     insta::assert_snapshot!("diff-worse", printed(&good, &bad, 1));
     insta::assert_snapshot!("diff-better", printed(&bad, &good, 2));
     insta::assert_snapshot!("diff-other", printed(&good, &other, 0));
-    // Something worse outweighs what is better.
+    // One worse case outweighs improvements.
     let both = made("both", &[Fail, Pass, Pass]);
     diff(&bad, &both).assert().code(1);
 }

@@ -1,5 +1,5 @@
-//! The scripts of `ci/adapters/` that fetch releases of drivers, with stand-ins for `npm` and `apt-get`: no test reaches
-//! a registry.
+//! The scripts of `ci/adapters/` that fetch releases of drivers, tested with stand-ins for `npm` and
+//! `apt-get`, so that no test reaches a registry.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::fs;
@@ -9,8 +9,8 @@ use std::process::{Command, Output};
 
 const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 
-/// Packs a release of the version asked for: SwiftShader and ANGLE, of which `STUBS` and `BARE` have less. `brotli` is a
-/// copy here.
+/// Packs a release of the requested version with SwiftShader and ANGLE; `STUBS` and `BARE` leave parts out.
+/// `brotli` only copies here.
 const NPM: &str = r#"
 echo "$@" >>"$CALLS"
 version=${@: -1}
@@ -35,7 +35,7 @@ tar -czf "sparticuz-chromium-$version.tgz" -C "$work" package
 rm -r "$work"
 "#;
 
-/// A suite with two packages, of which one comes with the old names of the folders, as older suites do.
+/// A suite with two packages; one has the old folder names, as in older suites.
 const APT: &str = r#"
 for word in "$@"; do
     case $word in Dir::Cache=*) cache=${word#*=} ;; Dir::Etc::SourceList=*) list=${word#*=} ;; esac
@@ -64,7 +64,7 @@ fn script(name: &str) -> PathBuf {
     root.canonicalize().unwrap().join("ci/adapters").join(name)
 }
 
-/// A folder with the stand-ins first on the search path, and a list of what they were asked.
+/// A folder with the stand-ins first on the search path, and a log of their calls.
 struct Place {
     folder: tempfile::TempDir,
 }
@@ -132,7 +132,7 @@ impl Place {
     }
 }
 
-/// Asserts the exit code, and that all of these stand in the output.
+/// Asserts the exit code, and that the output contains all of these texts.
 fn says(output: &Output, code: i32, words: &[&str]) {
     let text = format!(
         "{}{}",
@@ -154,7 +154,7 @@ fn a_release_of_chromium_is_unpacked_once() {
         &["SwiftShader ANGLE of Chromium 123.0.1", "/new "],
     );
     let swiftshader = ["libvk_swiftshader.so", "version", "vk_swiftshader_icd.json"];
-    // ANGLE loads Vulkan from its own folder alone.
+    // ANGLE loads Vulkan only from its own folder.
     let angle = ["libEGL.so", "libGLESv2.so", "libvulkan.so.1"];
     let mut all = [angle, swiftshader].concat();
     all.sort_unstable();
@@ -163,7 +163,7 @@ fn a_release_of_chromium_is_unpacked_once() {
     says(&place.run("chromium", &["123.0.1", "new"]), 0, &["already"]);
     assert_eq!(place.calls(), 1);
 
-    // Another release leaves nothing of this one behind, and stubs are no ANGLE.
+    // Fetching another release removes everything of this one, and stubs do not count as ANGLE.
     says(
         &place.run_with("chromium", &["153.0.0", "new"], &["STUBS"]),
         0,
@@ -201,7 +201,7 @@ fn a_release_of_chromium_that_is_not_there_is_an_error() {
     says(&place.run("chromium", &["66", "new"]), 1, &words);
     assert!(!place.path("new").exists());
 
-    // What was there before stays as it is.
+    // Earlier files stay unchanged.
     says(&place.run("chromium", &["123", "new"]), 0, &[]);
     says(&place.run("chromium", &["66", "new"]), 1, &words);
     assert_eq!(place.version("new"), "123.0.1");
@@ -260,7 +260,7 @@ fn a_suite_of_debian_that_is_not_there_is_an_error() {
         &["no Release file", "suite nowhere does not exist"],
     );
     assert!(!place.path("new").exists());
-    // A folder of somebody else is not replaced.
+    // A foreign folder is not replaced.
     fs::create_dir(place.path("mine")).unwrap();
     fs::write(place.path("mine/notes"), "x").unwrap();
     says(&place.run("mesa", &["sid", "mine"]), 1, &["not empty"]);
@@ -285,7 +285,8 @@ fn a_command_runs_inside_a_folder_of_libraries() {
         &["no-such-command"],
     );
 
-    // A namespace may be refused, as in some containers: then nothing can run inside, and it must say so.
+    // The system can refuse a namespace, as in some containers. Then nothing can run inside, and the script
+    // must report that.
     let mut may = Command::new("unshare");
     may.args(["--mount", "--user", "--map-root-user", "true"]);
     let mut may_as_root = Command::new("unshare");
@@ -314,7 +315,7 @@ fn a_command_runs_inside_a_folder_of_libraries() {
     assert_eq!(inside.stdout, outside.stdout);
     assert!(outside.stdout.len() > 100, "no case is listed");
 
-    // What it writes lands outside, where it was started.
+    // Its output is written outside, to the folder where it was started.
     let run = ["run", "cull/points/*", "--adapter", "cpu", "--out", "runs"];
     says(
         &place.run("inside", &[&["mine", BINARY], &run[..]].concat()),

@@ -1,4 +1,4 @@
-//! Starting the binary under test.
+//! Starts the binary under test.
 
 use assert_cmd::Command;
 use std::time::Duration;
@@ -6,7 +6,7 @@ use std::time::Duration;
 /// The path of the binary.
 pub(crate) const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 
-/// Variables of CI and of systems that shard; the tests may run in one of them.
+/// Variables of CI and of systems that shard; the tests themselves can run in such a system.
 pub(crate) const REMOVED: [&str; 5] = [
     "CI",
     "CI_NODE_INDEX",

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// An adapter that crashes on some of these cases, always the same ones.
+/// An adapter that crashes on some of these cases, always on the same ones.
 const CRASHING: [&str; 4] = ["run", "cull/*", "--adapter", "cpu:fault=abort"];
 
 struct Work {
@@ -87,7 +87,7 @@ fn versions_and_days_bound_what_is_expected() {
         write(&file, &[entry("cull/*", "crash", more)]);
         work.run(&CRASHING, &file).code(code);
     };
-    // Cases that pass although a crash is expected of all are improvements.
+    // Cases that pass although all are expected to crash are improvements.
     with(json!({}), 2);
     with(json!({ "version": ">=0.1, <0.2" }), 2);
     with(json!({ "version": ">=7" }), 1);
@@ -134,11 +134,11 @@ fn blessing_expects_what_was_seen_and_takes_away_what_is_better() {
         assert!(entry.version.is_some());
     }
     work.run(&CRASHING, &file).code(0);
-    // The same cases on an adapter that draws them right: the entries are another's.
+    // The same cases on an adapter that draws them right: the entries are about another adapter.
     let before = fs::read(&file).unwrap();
     work.run(&["run", "cull/*", "--adapter", "cpu"], &file)
         .code(0);
-    // An entry whose cases are all better goes; one that names cases not drawn here stays.
+    // An entry whose cases all improved is removed; an entry with cases that were not drawn stays.
     let mut entries: Vec<Value> = serde_json::from_slice::<Value>(&before).unwrap()["entries"]
         .as_array()
         .unwrap()
@@ -242,7 +242,7 @@ fn lists_of_deqp_runner_go_in_and_out() {
         (1, 1, 1)
     );
     assert!(count(Verdict::Flaky) > 3 && count(Verdict::Skipped) > 10);
-    // The same again adds nothing.
+    // A second import adds nothing.
     import(&[]).code(0).stdout(contains("0 entries added"));
     let lists = work.path("lists");
     let mut export = etalon(&["expectations", "export", "--adapter", "cpu", "--out"]);
@@ -267,7 +267,7 @@ fn lists_of_deqp_runner_go_in_and_out() {
     assert_eq!(found, due);
     assert_eq!(lines("flakes.txt").len(), count(Verdict::Flaky));
     assert_eq!(lines("skips.txt").len(), count(Verdict::Skipped));
-    // What a run writes can be made the next run's expectations.
+    // The results of a run can become the expectations of the next.
     work.run(&CRASHING, &file).code(1);
     let mut results = fs::read_dir(work.out().join("results")).unwrap();
     let csv = results.next().unwrap().unwrap().path();
@@ -338,7 +338,7 @@ fn dead_entries_are_named_and_strictness_makes_them_count() {
     ] {
         let entries: Vec<Value> = alive.into_iter().chain([dead]).collect();
         write(&file, &entries);
-        // Those that never match expect what is not so: an improvement.
+        // Entries whose verdict never occurs are improvements.
         let code = if word == "never matched" { 2 } else { 0 };
         work.run(&cpu, &file)
             .code(code)
@@ -348,12 +348,12 @@ fn dead_entries_are_named_and_strictness_makes_them_count() {
         assert!(page.contains("Dead expectations"), "{word}");
         work.run(&strict, &file).code(1).stderr(contains(word));
     }
-    // Of what was not selected nothing is known.
+    // Nothing is known about cases that were not selected.
     write(&file, &[entry("cull/*", "crash", json!({}))]);
     work.run(&strict, &file)
         .code(2)
         .stderr(contains("dead").not());
-    // The list goes with its run.
+    // The list is replaced together with its run.
     write(&file, &[]);
     work.run(&cpu, &file).code(0);
     assert!(!work.out().join("dead-expectations.json").exists());
@@ -387,7 +387,7 @@ fn a_share_that_was_not_asserted_is_not_green() {
     run(&format!("{}", share - 0.1)).code(0);
     run(&format!("{}", share + 0.1)).code(1);
     run("101").code(64);
-    // What is measured does not count, and alone it is nothing.
+    // Measured cases do not count; a run of only these asserts nothing.
     etalon(&[
         "run",
         "methods/depth-precision/*",
@@ -426,11 +426,11 @@ fn a_folder_of_findings_is_read_and_blessed() {
     let named = expected.iter().filter_map(|r| r.expected.as_ref());
     assert!(named.clone().count() > 0);
     assert!(named.clone().all(|e| titles.contains(&e.reason.as_str())));
-    // One of them alone excuses its own cases.
+    // A single finding excuses only its own cases.
     let one = &read.all()[0].path;
     work.run(&CRASHING, one)
         .code(if titles.len() == 1 { 0 } else { 1 });
-    // A finding goes when all its cases are better.
+    // A finding is removed once all its cases improved.
     let text = fs::read_to_string(one).unwrap();
     fs::write(one, text.replace("fault=abort", "fault=lost")).unwrap();
     let cpu = ["run", "cull/triangle-list/*", "--adapter", "cpu"];
@@ -444,21 +444,21 @@ fn a_folder_of_findings_is_read_and_blessed() {
         .code(0)
         .stderr(contains("1 removed"));
     assert!(!folder.join("fixed.json").exists());
-    // What is no finding says where.
+    // An invalid finding is reported with its place.
     fs::write(folder.join("z.json"), "{\n\"titel\": 1 }").unwrap();
     work.run(&CRASHING, &folder)
         .code(64)
         .stderr(contains("z.json:2: ").and(contains("titel")));
 }
 
-/// softpipe does not clamp the second source and turns points over, among much else, so that whole values of axes
-/// fail.
+/// Among other bugs, softpipe does not clamp the second source and gives points the wrong facing, so whole
+/// axis values fail.
 #[test]
 fn what_fails_on_a_driver_is_blessed_by_globs_that_all_name_something() {
     let work = Work::new();
     let folder = work.path("findings");
     fs::create_dir(&folder).unwrap();
-    // Without the findings, of which most are about it.
+    // Without the built-in findings, since most of these are about softpipe.
     let alone = "--expect-only";
     let run = [
         "run",
@@ -478,7 +478,7 @@ fn what_fails_on_a_driver_is_blessed_by_globs_that_all_name_something() {
     assert!(read.all().len() < failing);
     let text = |known: &etalon_record::Known| fs::read_to_string(&known.path).unwrap();
     assert!(read.all().iter().any(|known| text(known).contains("/*")));
-    // The same run again: nothing is unexpected, and no glob is idle.
+    // In a second run nothing is unexpected, and every glob is used.
     work.run(&[&run[..], &["--strict-expectations"]].concat(), &folder)
         .code(0)
         .stderr(contains("dead").not());

@@ -1,4 +1,4 @@
-//! What a command finds where it is to write: a folder of somebody else is left as it is.
+//! What a command finds in its output folder: foreign files stay unchanged.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 const CASE: &str = "cull/points/cull=none/front_face=cw";
 
-/// Writes files of a project that nothing of ours made.
+/// Writes the files of a foreign project.
 fn project(folder: &Path) {
     for (name, text) in [
         ("index.html", "<p>mine"),
@@ -35,7 +35,7 @@ fn project(folder: &Path) {
     }
 }
 
-/// The files below a folder, with their texts.
+/// Returns the files below a folder, with their contents.
 fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -54,7 +54,7 @@ fn run_into(out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
     command.arg(out).args(more).assert()
 }
 
-/// The lines of a driver of two releases, for a search over them.
+/// A file with two releases of one driver line, for a search over them.
 fn lines(folder: &Path) -> PathBuf {
     let release = |version: &str| json!({ "name": format!("cpu@{version}"), "backend": "cpu", "line": "ours", "version": version });
     let file = folder.join("lines.json");
@@ -199,7 +199,7 @@ fn what_is_replaced_is_what_we_wrote() {
             "{name}"
         );
     }
-    // A file in what is replaced as a whole is named.
+    // A foreign file in a folder that would be replaced as a whole is named.
     let site = work.path().join("site");
     let run = work.path().join("other");
     run_into(&run, &[]).success();

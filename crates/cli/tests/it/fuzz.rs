@@ -1,5 +1,4 @@
-//! `etalon fuzz`: what random scenes find, in groups that do not depend on the number of workers, and `etalon mutants
-//! --fuzz`.
+//! `etalon fuzz`, whose groups do not depend on the number of workers, and `etalon mutants --fuzz`.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -41,7 +40,7 @@ fn found(out: &Path) -> BTreeMap<String, String> {
     each.collect()
 }
 
-/// The groups as the file tells them, without the folder.
+/// Returns the groups in the file, without the folder.
 fn groups(out: &Path) -> Vec<Value> {
     let text = fs::read_to_string(out.join("fuzz.jsonl")).unwrap();
     let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
@@ -117,7 +116,7 @@ fn known_bugs_are_named_by_their_findings() {
         let own = ["--seed", "604", "--count", count, "--force"];
         fuzz(adapter, &out, &[&own, more].concat())
     };
-    // The fifth scene shows that depths are clamped to another range, as cases of the finding do.
+    // The fifth scene shows that depths are clamped to the wrong range, as the finding's cases do.
     let (code, summary, error) = search("5", &[]);
     assert_eq!(code, 0, "{error}\n{summary}");
     let counts = |summary: &Value| {
@@ -138,7 +137,7 @@ fn known_bugs_are_named_by_their_findings() {
     let about = document["about"].as_str().unwrap();
     assert!(about.contains("Known: softpipe-depth-clamp ("), "{about}");
 
-    // Another one has a state more than a finding shows: it is not excused.
+    // Another scene needs one state in addition to the finding's: it is not excused.
     let (code, summary, error) = search("8", &[]);
     assert_eq!(
         (code, counts(&summary)),
@@ -151,7 +150,7 @@ fn known_bugs_are_named_by_their_findings() {
     assert!(file.contains("/found/"), "{file}");
     assert!(fs::read_to_string(file).unwrap().contains("Looks like: "));
 
-    // Without findings both are new, and with a finding on other cases too.
+    // Without findings both are new; with a finding about other cases they are new too.
     let finding = folder.path().join("other.json");
     let text = r#"{ "title": "t", "adapters": ["*"], "driver": "*", "cases": ["depth/compare/*"],
         "grade": "proven", "clause": "c", "evidence": "e" }"#;
@@ -262,7 +261,7 @@ fn a_scene_that_ends_its_worker_is_kept_and_the_search_goes_on() {
     );
     let sentence = group["sentence"].as_str().unwrap();
     assert!(sentence.contains("about to abort"), "{sentence}");
-    // What ends the process is all that is left.
+    // Only the state that ends the process is left.
     let files = found(folder.path());
     assert_eq!(files.len(), groups.len());
     let name = group["file"].as_str().unwrap().rsplit('/').next().unwrap();

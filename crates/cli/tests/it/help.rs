@@ -9,13 +9,13 @@ const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 
 fn stdout(arguments: &[&str]) -> String {
     let mut command = Command::new(BINARY);
-    // The width to which help is wrapped without a terminal.
+    // Without a terminal, help is wrapped at this width.
     command.args(arguments).env("COLUMNS", "100");
     let assert = command.assert().success().stderr("");
     String::from_utf8(assert.get_output().stdout.clone()).unwrap()
 }
 
-/// The commands that the help of a command lists.
+/// Returns the commands that a command's help lists.
 fn listed(help: &str) -> Vec<&str> {
     help.lines()
         .skip_while(|line| *line != "Commands:")

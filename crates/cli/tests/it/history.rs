@@ -1,4 +1,4 @@
-//! `etalon history`: runs over time, from outside.
+//! `etalon history`, tested through the binary.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::{BINARY, etalon};
@@ -41,7 +41,7 @@ impl Place {
         self.path("etalon.db")
     }
 
-    /// Runs a command of the history on the file of this place.
+    /// Runs a history command on this folder's file.
     pub(crate) fn history(&self, arguments: &[&str]) -> Assert {
         let mut command = etalon(&["history"]);
         command.args(arguments).arg("--db").arg(self.db()).assert()
@@ -66,7 +66,7 @@ impl Place {
         folder.display().to_string()
     }
 
-    /// Writes a bench of `cpu` with seven rounds of about so many seconds a frame beside so slow a ruler.
+    /// Writes a bench of `cpu` with seven rounds, with about this frame time and ruler time.
     fn bench(&self, night: u32, seconds: f64, ruler: f64) -> String {
         let folder = self.path(&format!("bench-{night}"));
         let header = BenchHeader {
@@ -118,7 +118,7 @@ impl Place {
         folder.display().to_string()
     }
 
-    /// All tables of the file, in text.
+    /// Returns all tables of the file as text.
     fn content(&self) -> String {
         let file = Connection::open(self.db()).unwrap();
         let count = |table: &str| -> i64 {
@@ -141,7 +141,7 @@ impl Place {
     }
 }
 
-/// The day so many days after the first one.
+/// Returns the day this many days after the first.
 fn started(day: u32) -> String {
     format!(
         "20{:02}-{:02}-{:02}T02:00:00Z",
@@ -346,7 +346,7 @@ fn a_run_that_lacks_records_is_refused_and_then_taken() {
         .history(&["add", &whole, "--incomplete"])
         .code(0)
         .stdout(contains("1 missing"));
-    // Resumed, it stands for what was there of it.
+    // The resumed run replaces the part that was already there.
     fs::write(&file, &text).unwrap();
     place.history(&["add", &whole]).code(0);
     place
@@ -503,7 +503,7 @@ fn a_writer_that_is_killed_loses_nothing() {
         if !place.db().exists() {
             continue;
         }
-        // Whole runs alone are there.
+        // Only complete runs are there.
         let runs = place.json(&["show"]);
         let last = runs.as_array().unwrap().len();
         let told = etalon(&[
@@ -624,7 +624,7 @@ fn steps_of_times_are_found_told_and_settled() {
     place
         .history(&["show", "perf/made"])
         .stdout(contains("real: a slower clear"));
-    // The last entry counts, and none is removed.
+    // The last entry counts, and no entry is removed.
     settle(&["--step", "21", "--state", "new"]).code(0);
     place
         .history(&["triage"])

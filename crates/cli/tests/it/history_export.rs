@@ -15,7 +15,7 @@ const FORMATS: [&str; 5] = [
     "github-action-benchmark",
 ];
 
-/// Exports and returns the line that is said.
+/// Exports, and returns the line that is printed.
 fn export(place: &Place, out: &str, arguments: &[&str], code: i32) -> String {
     let out = place.path(out).display().to_string();
     let assert: Assert = place.history(&[&["export", &out], arguments].concat());

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
-/// are not restricted.
+/// The folder of each crate, the workspace crates that it can use, and its graphics APIs. Development
+/// dependencies are not restricted.
 const TABLE: [(&str, &[&str], &[&str]); 28] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
@@ -145,7 +145,7 @@ fn metadata() -> Metadata {
         .unwrap()
 }
 
-/// The folder of a package of the workspace.
+/// Returns the folder of a workspace package.
 fn folder(package: &Package) -> &str {
     package.manifest_path.parent().unwrap().file_name().unwrap()
 }
@@ -157,7 +157,7 @@ fn package_name(folder: &str) -> String {
     }
 }
 
-/// The names of a package and of all that it links.
+/// Returns the names of a package and of everything that it links.
 fn closure<'m>(metadata: &'m Metadata, of: &'m PackageId) -> BTreeSet<&'m str> {
     let nodes: BTreeMap<&PackageId, &Node> = metadata
         .resolve
@@ -206,7 +206,7 @@ fn every_crate_uses_what_the_table_allows() {
                 assert!(allowed, "{folder} must not use {name}");
             }
         }
-        // Nor through a crate from elsewhere.
+        // Nor through an external crate.
         let all = closure(&metadata, &package.id);
         if graphics.is_empty() && folder != &"cli" {
             let found: Vec<_> = GRAPHICS.iter().filter(|g| all.contains(**g)).collect();
@@ -267,7 +267,7 @@ fn no_graphics_library_is_linked() {
             assert!(!links.contains(word), "{} links {links}", node.id);
         }
     }
-    // The libraries by the word of the loader.
+    // The libraries that the loader lists.
     let output = Command::new(env!("CARGO_BIN_EXE_etalon"))
         .env("LD_TRACE_LOADED_OBJECTS", "1")
         .output()
@@ -332,7 +332,8 @@ fn the_top_level_holds_what_belongs_there() {
     assert_eq!(found, due.map(str::to_owned).into());
 }
 
-/// Link targets of a Markdown text, and the code in it that begins with a folder of the repository.
+/// Returns the link targets of a Markdown text, and the code in it that begins with a folder of the
+/// repository.
 fn targets(text: &str) -> (Vec<&str>, Vec<&str>) {
     let (mut links, mut code) = (Vec::new(), Vec::new());
     let mut fenced = false;
@@ -347,7 +348,7 @@ fn targets(text: &str) -> (Vec<&str>, Vec<&str>) {
                 let path = span.split_whitespace().next()?;
                 let (top, below) = path.split_once('/')?;
                 let ours = ["cases", "ci", "crates", "reports", "shaders"].contains(&top);
-                // New runs and patterns are no files.
+                // New runs and patterns are not files.
                 let named = !below.contains("latest") && !path.contains(['<', '*', '{', '…']);
                 (ours && named).then_some(path)
             }));
@@ -356,7 +357,7 @@ fn targets(text: &str) -> (Vec<&str>, Vec<&str>) {
     (links, code)
 }
 
-/// The anchors of a page's headings, as GitHub and GitLab make them.
+/// Returns the anchors of a page's headings, as GitHub and GitLab make them.
 fn anchors(text: &str) -> BTreeSet<String> {
     let headings = text.lines().filter(|line| line.starts_with('#'));
     let titles = headings.map(|line| line.trim_start_matches('#').trim().to_lowercase());
@@ -425,7 +426,7 @@ fn every_shader_has_its_twin() {
     };
     let shaders = stems("shaders", ".wgsl");
     let mut twins = stems("crates/pipeline/src/shader", ".rs");
-    // What all twins share.
+    // Helpers that all twins share.
     for shared in ["mod", "interface", "arithmetic"] {
         assert!(twins.remove(shared), "{shared}");
     }

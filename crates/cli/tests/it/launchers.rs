@@ -14,7 +14,7 @@ use tempfile::TempDir;
 const CASE: &str = "depth/clear/clear=1/format=depth32float";
 const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 
-/// Writes a file of one adapter, `there`, with some keys besides its name.
+/// Writes a file with one adapter, `there`, with some additional keys.
 fn described(folder: &Path, entry: &Value) -> PathBuf {
     let mut entry = entry.clone();
     entry["name"] = json!("there");
@@ -23,7 +23,7 @@ fn described(folder: &Path, entry: &Value) -> PathBuf {
     path
 }
 
-/// Runs the case behind a launcher and reads the run.
+/// Runs the case through a launcher and reads the run.
 fn run(entry: &Value) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = described(folder.path(), entry);
@@ -37,7 +37,7 @@ fn run(entry: &Value) -> Run {
     run
 }
 
-/// The message by which a launcher is refused, before anything is written.
+/// Returns the message that refuses a launcher, before anything is written.
 fn refused(entry: &Value) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = described(folder.path(), entry);
@@ -50,7 +50,7 @@ fn refused(entry: &Value) -> String {
     text.replace(folder.path().to_str().unwrap(), "[folder]")
 }
 
-/// The words that make a process root of its own user namespace, where it is not root.
+/// The command that makes a process root of its own user namespace, if it is not root already.
 fn as_root() -> Vec<&'static str> {
     if rustix::process::geteuid().is_root() {
         vec!["unshare", "--mount"]
@@ -59,7 +59,7 @@ fn as_root() -> Vec<&'static str> {
     }
 }
 
-/// A folder with this program and all libraries that it needs, and nothing else.
+/// A folder with only this program and all libraries that it needs.
 fn root() -> TempDir {
     let root = tempfile::tempdir().unwrap();
     let output = Command::new("ldd").arg(BINARY).output().unwrap();
@@ -113,14 +113,14 @@ fn a_worker_runs_by_another_loader() {
 
 #[test]
 fn a_worker_gets_its_environment_where_the_launcher_drops_it() {
-    // Without its variables the driver that answers would be another one.
+    // Without its variables, a different driver would answer.
     run(&json!({
         "backend": "gl", "launcher": ["env", "-i"], "answers": "softpipe",
         "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe" },
     }));
 }
 
-/// A server that ssh starts itself, without a port, and the words that reach it.
+/// A server that ssh itself starts, without a port, and the command that reaches it.
 fn ssh(folder: &Path) -> Vec<String> {
     let key = |name: &str| {
         let path = folder.join(name);
@@ -160,7 +160,7 @@ fn ssh(folder: &Path) -> Vec<String> {
 #[test]
 fn a_worker_runs_behind_a_remote_shell() {
     let folder = tempfile::tempdir().unwrap();
-    // A daemon of the system would have made it.
+    // Normally the system's daemon makes it.
     let _ = fs::create_dir("/run/sshd");
     let run = run(&json!({
         "backend": "gl", "launcher": ssh(folder.path()), "answers": "softpipe",

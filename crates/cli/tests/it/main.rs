@@ -1,5 +1,5 @@
-//! The binary as a user meets it, and the rules of the workspace. One test binary: each one links the
-//! whole suite.
+//! The binary as a user meets it, and the rules of the workspace. They share one test binary, since each test
+//! binary links the whole suite.
 
 mod adapters;
 mod bench;

@@ -24,7 +24,7 @@ fn measured(record: &Record) -> &Measured {
         .unwrap_or_else(|| panic!("{record:?}"))
 }
 
-/// The records of a method in a scene.
+/// Returns the records of a method in a scene.
 fn of<'r>(run: &'r Run, question: &str, scene: &str, method: &str) -> Vec<&'r Record> {
     let prefix = format!("methods/{question}/{scene}/method={method}");
     let found: Vec<&Record> = run
@@ -68,14 +68,14 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
         assert!(distance.rmse <= distance.max + 1e-12, "{name}");
         assert!((0.0..=1.0).contains(&distance.flip), "{name}");
         assert!((0.0..=1.0).contains(&distance.wrong), "{name}");
-        // The truth must be far better than what is measured against it.
+        // The truth must be far more precise than the methods that are measured against it.
         assert!(distance.truth_error <= 0.002, "{name}: {distance:?}");
         assert!(measured.passes > 0 && measured.bytes > 0, "{name}");
         if record.verdict != Verdict::Fail {
             assert!(measured.time.unwrap().wall > 0.0, "{name}");
         }
         if record.adapter == "cpu" {
-            // None at all where everything is culled.
+            // There are no fragments if everything is culled.
             assert!(measured.fragments.is_some(), "{name}");
         }
     }
@@ -93,7 +93,7 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
     }
 }
 
-/// The picture of an exact method differs from the truth by the rounding of each blend only.
+/// The picture of an exact method differs from the truth only by the rounding of each blend.
 #[test]
 fn exact_methods_agree_with_the_truth() {
     let out = tempfile::tempdir().unwrap();
@@ -105,7 +105,7 @@ fn exact_methods_agree_with_the_truth() {
     let run = run(out.path(), &[&globs[..], &others].concat());
     for scene in ["windows", "nested-glass"] {
         let exact: &[&str] = match scene {
-            // Of glass in glass both faces of a box are one object.
+            // In nested glass, both faces of a box belong to one object.
             "windows" => &[
                 "sorted",
                 "front-to-back",

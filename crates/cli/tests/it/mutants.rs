@@ -1,4 +1,4 @@
-//! `etalon mutants`, and the hunt that it runs. `mutants/tests/hunt` hunts the whole library.
+//! `etalon mutants`, and its hunt. `mutants/tests/hunt` hunts with the whole library.
 
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
@@ -9,7 +9,7 @@ use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
 use etalon_runner::{HuntPlan, hunt, select};
 
-/// Caught and legal ones, in scenes, steps and frames, and two with state that persists.
+/// Caught and legal mutants, in scenes, steps and frames, and two with state that persists.
 const FEW: [&str; 10] = [
     "bias/d24-step-of-23-bits",
     "blend/constant-plus-1-lsb",

@@ -1,4 +1,4 @@
-//! `etalon run --history`: what is new, what counts, and a history that is lost.
+//! `etalon run --history`: what is new, what counts, and what happens without the history.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -9,7 +9,7 @@ use predicates::str::contains;
 use serde_json::{Value, json};
 use std::fs;
 
-/// An adapter of which some scenes crash.
+/// An adapter on which some scenes crash.
 const ADAPTER: &str = "cpu:fault=abort";
 
 fn run(place: &Place, out: &str, arguments: &[&str]) -> Assert {
@@ -17,7 +17,7 @@ fn run(place: &Place, out: &str, arguments: &[&str]) -> Assert {
     command.arg(place.path(out)).args(arguments).assert()
 }
 
-/// The same with the history of this place, on branch main.
+/// The same with this folder's history, on branch main.
 fn compared(place: &Place, out: &str, arguments: &[&str]) -> Assert {
     let db = place.db().display().to_string();
     let flags = ["--history", &db, "--label", "branch=main"];
@@ -30,12 +30,12 @@ fn add(place: &Place, out: &str, branch: &str) {
     place.history(&["add", &folder, "--label", &label]).code(0);
 }
 
-/// Copies a run as one of an earlier day in which all was well, and returns the cases that were not.
+/// Copies a run to an earlier day with a pass for the cases that crashed. Returns these cases.
 fn well_before(place: &Place, from: &str, to: &str) -> Vec<String> {
     before(place, from, to, "2025-01-01T00:00:00Z", "pass")
 }
 
-/// Copies a run as one of another day in which what crashed had this verdict, and returns the cases that crashed.
+/// Copies a run to another day with this verdict for the cases that crashed. Returns these cases.
 fn before(place: &Place, from: &str, to: &str, day: &str, verdict: &str) -> Vec<String> {
     let text = fs::read_to_string(place.path(from).join("run.jsonl")).unwrap();
     let mut bad = Vec::new();
@@ -65,7 +65,7 @@ fn news_come_first_and_what_is_settled_does_not_count() {
     let n = bad.len();
     assert!(n > 1, "{bad:?}");
 
-    // Another branch is not compared with.
+    // A run of another branch is not compared.
     add(&place, "well", "other");
     compared(&place, "alone", &[])
         .code(1)
@@ -81,9 +81,9 @@ fn news_come_first_and_what_is_settled_does_not_count() {
     let new = summary.find("broken since the last run").unwrap();
     assert!(new < summary.find("## Adapters").unwrap(), "{summary}");
 
-    // What was broken before is old, and counts until somebody says what it is.
+    // Cases that were broken before are not new, but count until they are triaged.
     add(&place, "second", "main");
-    // Runs are told apart by the second in which they began.
+    // Runs are distinguished by the second in which they began.
     std::thread::sleep(std::time::Duration::from_millis(1100));
     let output = compared(&place, "third", &["--format", "json"]).code(1);
     let told: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
@@ -106,10 +106,10 @@ fn news_come_first_and_what_is_settled_does_not_count() {
         .stdout(contains(format!("{n} settled by triage, not counted")));
     let summary = fs::read_to_string(place.path("fifth").join("summary.md")).unwrap();
     assert!(summary.contains("Nothing unexpected"), "{summary}");
-    // What is said to be fixed and is not, counts.
+    // A case that is triaged as fixed but is not, counts.
     settle(&bad[0], "fixed");
     compared(&place, "sixth", &[]).code(1);
-    // A merge judges in the same way.
+    // A merge gives the same verdict.
     let merge = |branch: &str| {
         let mut command = etalon(&["merge", "--force", "--label", branch, "--history"]);
         command
@@ -130,7 +130,7 @@ fn what_is_mended_is_news() {
     let place = Place::new();
     run(&place, "bad", &[]).code(1);
     let bad = well_before(&place, "bad", "well");
-    // The run that failed comes first, and one in which all is well is merged after it. A later one changes nothing.
+    // The failing run comes first, and a good one is merged after it. A later run changes nothing.
     before(&place, "bad", "older", "2024-01-01T00:00:00Z", "crash");
     add(&place, "older", "main");
     add(&place, "bad", "main");
@@ -165,7 +165,7 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
     let told = read("summary.md");
     assert!(told.contains("broken since the last run"), "{told}");
 
-    // The history has the run by now, and a later one.
+    // The history now has the run, and a later one.
     add(&place, "second", "main");
     compared(&place, "third", &[]).code(1);
     add(&place, "third", "main");
@@ -187,7 +187,7 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
     };
     assert_eq!(failed("second"), bad.len());
 
-    // What somebody says of it, the files for other programs say, too.
+    // The triage state is also in the files for other programs.
     for (case, state) in bad.iter().zip(["real", "ignored"].into_iter().cycle()) {
         let said = ["triage", case, "--adapter", ADAPTER, "--state", state];
         let reason = ["--reason", "looked <at> it"];
@@ -213,7 +213,7 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
         assert!(read("ctrf.json").contains("triage ignored: looked <at> it"));
         assert!(read("index.html").contains("Nothing unexpected."));
         assert!(read("summary.md").contains("Nothing unexpected."));
-        // The record itself stays as it is.
+        // The record itself stays unchanged.
         assert!(!read("run.jsonl").contains("looked"));
     }
     report(&[]).code(1);
@@ -262,7 +262,7 @@ fn a_file_that_is_no_history_is_refused_before_anything_is_drawn() {
         .code(64)
         .stderr(contains("is no history of etalon"));
     assert!(!place.path("run").exists());
-    // Without a history, labels limit expectations, and must be labels all the same.
+    // Without a history, labels limit expectations, but must still be valid.
     run(&place, "run", &["--label", "branch"])
         .code(64)
         .stderr(contains("branch"));

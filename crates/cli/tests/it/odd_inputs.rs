@@ -1,5 +1,5 @@
-//! Inputs that no program writes and people have: marks of editors, links, pipes, keys that stand twice, huge scenes; and
-//! machines that refuse what a run needs.
+//! Inputs that people have but no program writes: byte-order marks, links, pipes, repeated keys, huge scenes;
+//! and machines that refuse what a run needs.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::{BINARY, REMOVED, etalon};
@@ -76,7 +76,7 @@ fn links_and_pipes_among_case_files_are_named() {
         .code(64)
         .stderr(contains("again").and(contains("link")));
     fs::remove_file(folder.join("again")).unwrap();
-    // A link to another folder is as good as the folder.
+    // A link to a folder works like the folder.
     let other = cases(POINTS);
     symlink(&other.1, folder.join("other")).unwrap();
     assert_eq!(lines(&list(&folder).success()), 2 * listed);
@@ -183,7 +183,8 @@ fn json_that_is_not_written_is_no_success() {
     }
 }
 
-/// Runs on `cpu` as a user with no more than this many processes and threads; `None` if the machine cannot limit them.
+/// Runs on `cpu` as a user with at most this many processes and threads; `None` if the machine cannot limit
+/// them.
 fn limited(processes: u32, out: &Path) -> Option<(Option<i32>, String)> {
     let mut command = Command::new("setpriv");
     let limit = format!("--nproc={processes}");
@@ -237,7 +238,7 @@ fn without_processes_nothing_is_drawn_and_nothing_passes() {
     }
 }
 
-/// A case whose picture comes back wrong with each fault, by other values.
+/// A case whose picture is wrong with each fault, with different values.
 const TRIP: &str = "capabilities/round-trip/format=rgba8unorm";
 
 fn with_fault(fault: &str, more: &[&str], out: &Path, code: i32) -> Record {
@@ -286,10 +287,10 @@ fn another_wrong_value_of_an_expected_case_is_news() {
         "{}",
         other.message
     );
-    // Without a symptom the entry is about the verdict alone.
+    // Without a symptom, the entry is only about the verdict.
     write(json!({}));
     with_fault("off-by-one", &expect, &out, 0);
-    // A processor and labels limit an entry, too.
+    // A processor and labels also limit an entry.
     write(json!({ "labels": ["branch=main"] }));
     with_fault("off-by-one", &expect, &out, 1);
     let labelled = [&expect[..], &["--label", "branch=main", "--label", "x=y"]].concat();

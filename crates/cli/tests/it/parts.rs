@@ -27,7 +27,7 @@ fn merge(parts: &[PathBuf], out: &Path) -> Command {
     command
 }
 
-/// A message without the paths below a folder.
+/// Returns a message without the paths below a folder.
 fn said(assert: &Assert, folder: &Path) -> String {
     let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
     text.replace(&format!("{}/", folder.display()), "")
@@ -76,7 +76,7 @@ fn shards_merge_into_the_undivided_run() {
     let count = whole.records.len().to_string();
     insta::assert_snapshot!("merge-again", again.replace(&count, "[count]"));
     merge(&parts, &out).arg("--force").assert().code(0);
-    // What was merged can be merged again.
+    // A merged run can be merged again.
     let again = work.path().join("again");
     merge(&[out], &again).assert().code(0);
 }
@@ -141,7 +141,7 @@ fn parts_of_other_runs_are_refused() {
     let out = work.path().join("merged");
     let assert = merge(&[one.clone(), other], &out).assert().code(64);
     let mut messages = said(&assert, work.path());
-    // The globs in which they differ, not a digest of them.
+    // The message has the globs that differ, not their digest.
     assert!(
         messages.contains("only shard-1 has selftest/*"),
         "{messages}"
@@ -149,7 +149,7 @@ fn parts_of_other_runs_are_refused() {
     let two = shard(work.path(), 2, 2);
     let path = two.join("run.jsonl");
     let text = fs::read_to_string(&path).unwrap();
-    // Records stand in the order in which cases ended.
+    // Records are in the order in which cases ended.
     let (_, first) = text.split_once("\"case\":\"cull/").unwrap();
     let (first, _) = first.split_once('"').unwrap();
     for (from, to) in [
@@ -201,7 +201,7 @@ fn a_record_of_which_parts_disagree_is_flaky() {
         .filter(|r| r.verdict == Verdict::Flaky)
         .collect();
     assert_eq!(flaky.len(), 1);
-    // Which case passes first is no part of the message.
+    // The message does not depend on which case passes first.
     insta::assert_snapshot!("merge-flaky", stderr.replacen(&flaky[0].case, "[case]", 1));
     assert!(
         flaky[0]
@@ -239,7 +239,7 @@ fn the_variables_of_four_systems_choose_the_same_shard() {
         command.assert().code(0).stderr(contains("shard 2/3"));
         let run = Run::read(out.path()).unwrap();
         assert_eq!(keys(&run.records), keys(&due.records), "{variables:?}");
-        // A flag counts more.
+        // A flag overrides the variables.
         let mut all = etalon(&["run", "cull/lines", "--adapter", "cpu", "--shard", "1/1"]);
         all.envs(variables.iter().copied())
             .arg("--out")
@@ -261,7 +261,7 @@ fn the_variables_of_four_systems_choose_the_same_shard() {
         .code(64);
     insta::assert_snapshot!("shard-variable-unset", said(&assert, work.path()));
     assert!(!out.exists());
-    // A part without cases is no failure: other parts have them.
+    // A part without cases is not a failure: other parts have them.
     let empty = work.path().join("empty");
     etalon(&[
         "run",

@@ -1,4 +1,4 @@
-//! Standard output and standard error that nobody reads: they change no exit code, no record and no report.
+//! Standard output and standard error without a reader: they change no exit code, no record and no report.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::{BINARY, REMOVED};
@@ -12,7 +12,7 @@ use std::process::{Command, Output, Stdio};
 /// An adapter that refuses some of these cases, always the same ones.
 const RED: &str = "cull/* --adapter cpu:fault=refused --adapter cpu";
 
-/// The places that nobody reads from, as redirections of a shell. A pipe without a reader is there from the start;
+/// Places without a reader, as redirections of a shell. A pipe without a reader is there from the start;
 /// `head` goes away in the middle.
 const SINKS: [&str; 10] = [
     ">/dev/full",

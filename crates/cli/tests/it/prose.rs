@@ -1,4 +1,4 @@
-//! Decisions read facts. Sentences are made last, by `report`, and no source searches one.
+//! Decisions read facts. `report` makes sentences last, and no source searches in one.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::fs;
@@ -8,7 +8,7 @@ use syn::{
     Arm, Attribute, BinOp, Expr, ExprBinary, ExprMethodCall, ItemFn, ItemMod, Lit, Member, Pat,
 };
 
-/// Methods that look for a text in another one.
+/// Methods that search a text for another.
 const SEARCHES: [&str; 17] = [
     "contains",
     "starts_with",
@@ -40,7 +40,7 @@ const WRITTEN: [&str; 7] = [
     "sentence",
 ];
 
-/// Searches of texts that others wrote, with their files.
+/// Allowed searches, in texts that other programs wrote, with their files.
 const FOREIGN: [(&str, &str, &str); 10] = [
     ("gl/src/context.rs", "OpenGL ES ", "GL_VERSION"),
     ("gl/src/context.rs", "(Core Profile) ", "GL_VERSION"),
@@ -62,7 +62,7 @@ const FOREIGN: [(&str, &str, &str); 10] = [
     ("runner/src/bench/clock.rs", "cpu MHz", "/proc/cpuinfo"),
 ];
 
-/// Looks for searches of prose in one file, outside of its tests.
+/// Finds searches of prose in one file, outside its tests.
 struct Finder<'a> {
     path: &'a str,
     found: Vec<String>,
@@ -142,7 +142,7 @@ fn texts(pattern: &Pat) -> Vec<String> {
 }
 
 impl Finder<'_> {
-    /// Notes a comparison with a text that is more than a name, or of something that was written for people.
+    /// Records a comparison with a text that is more than a name, or of a value that was written for people.
     fn compare(&mut self, sides: [&Expr; 2]) {
         for (text, other) in [(sides[0], sides[1]), (sides[1], sides[0])] {
             let Some(text) = text_of(text).filter(|text| !text.is_empty()) else {
@@ -156,12 +156,12 @@ impl Finder<'_> {
     }
 }
 
-/// True if a text is more than a name: letters, and a space beside them.
+/// Returns true if a text is more than a name: it has letters and a space.
 fn is_prose(text: &str) -> bool {
     text.contains(' ') && text.chars().any(char::is_alphabetic)
 }
 
-/// True if an argument can be a text: closures look for something else.
+/// Returns true if an argument can be a text; a closure searches for something else.
 fn is_text(argument: &Expr) -> bool {
     !matches!(argument, Expr::Closure(_))
 }

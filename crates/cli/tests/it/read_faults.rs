@@ -1,23 +1,23 @@
-//! Drivers whose read-back is broken: the fault sits inside the backend, where a probe would see it too, and the run over
-//! such a driver is red.
+//! Drivers whose read-back is broken: the fault is inside the backend, where a probe would see it too, and
+//! the run must be red.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
 use etalon_record::{Run, Verdict};
 use std::collections::BTreeSet;
 
-/// Formats with one sample and with several, and nothing that this driver is known to do wrong.
+/// Single-sampled and multisampled formats, without cases that this driver is known to draw wrong.
 const CASES: [&str; 3] = [
     "capabilities/draw/format={rgba8unorm,rgb10a2unorm,rgba16float}/samples={1,4}",
     "capabilities/draw-depth-stencil/format=depth32float-stencil8/samples={1,4}",
     "capabilities/clear/format=rgba8unorm/samples={1,4}",
 ];
 
-/// Runs the cases, and returns the names of those that were not supported, and of those that failed or were not drawn
-/// since their round trip failed.
+/// Runs the cases. Returns the names of the unsupported ones, and of the ones that failed or were not drawn
+/// because their round trip failed.
 fn run(adapter: &str, code: i32) -> (BTreeSet<String>, BTreeSet<String>) {
     let out = tempfile::tempdir().unwrap();
-    // A planted fault is there each time.
+    // A planted fault occurs in every process.
     let mut command = etalon(&["run", "--recheck", "off"]);
     command.args(CASES);
     command.args(["--profile", "full", "--adapter", adapter, "--out"]);
@@ -33,7 +33,7 @@ fn run(adapter: &str, code: i32) -> (BTreeSet<String>, BTreeSet<String>) {
     (of(&[Verdict::NotSupported]), of(&wrong))
 }
 
-/// Every fault turns the run of a driver red, and makes nothing unsupported that is supported without it.
+/// Every fault turns the run of a driver red, and makes no supported case unsupported.
 fn faults_are_found(driver: &str) {
     let (lacking, failed) = run(driver, 0);
     assert!(failed.is_empty(), "{driver}: {failed:?}");
@@ -81,7 +81,7 @@ fn faults_have_names() {
     etalon(&["run", "--adapter", "gl:llvmpipe:read-fault=none"])
         .assert()
         .code(64);
-    // The rasterizer's read path is not a driver's.
+    // The rasterizer has no driver's read path.
     etalon(&["run", "--adapter", "cpu:read-fault=off-by-one"])
         .assert()
         .code(64);

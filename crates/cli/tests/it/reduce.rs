@@ -1,4 +1,4 @@
-//! `etalon reduce`: what is left of failing cases, and what it says of those that cannot be reduced.
+//! `etalon reduce`: reduced cases, and messages about cases that cannot be reduced.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -33,7 +33,7 @@ fn reduce_with(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Va
     (output.status.code().unwrap(), summary, error)
 }
 
-/// Reduces a case that must reduce, and checks that the case file that comes out fails in the same way.
+/// Reduces a case, and checks that the reduced case file fails in the same way.
 fn reduced(case: &str, adapter: &str) -> (Value, Value) {
     let folder = TempDir::new().unwrap();
     let cases = folder.path().join("cases");
@@ -52,7 +52,7 @@ fn reduced(case: &str, adapter: &str) -> (Value, Value) {
         "{about}"
     );
 
-    // The same attachment and aspect, and no operation that was not there.
+    // The same attachment and aspect, and no new operation.
     let parts = |key: &str| {
         let text = summary[key].as_str().unwrap();
         let (place, operations) = text.split_once(" (").unwrap_or((text, ""));
@@ -90,7 +90,7 @@ fn reduced(case: &str, adapter: &str) -> (Value, Value) {
     (summary, document)
 }
 
-/// The draws of a document.
+/// Returns the draws of a document.
 fn draws(document: &Value) -> Vec<&Value> {
     let passes = document["scene"]["passes"].as_array().unwrap();
     let all = passes.iter().map(|p| p["draws"].as_array().unwrap());
@@ -243,7 +243,7 @@ fn a_flaky_failure_is_told_from_a_steady_one() {
         let case = format!("combined/common/seed={seed}");
         let (code, _, error) = reduce(&case, "cpu:fault=flaky", folder.path());
         if code == 1 {
-            // Four processes in a row may fail, and the one behind them not.
+            // Four processes in a row can fail, and the next one pass.
             let flaky = error.contains("is flaky on cpu:fault=flaky");
             assert!(flaky || error.contains("drawn alone it is pass"), "{error}");
             return flaky;

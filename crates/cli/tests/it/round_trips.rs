@@ -1,4 +1,5 @@
-//! A driver whose read-back is wrong: nothing that came through it is green, and the rest is drawn.
+//! A driver whose read-back of a format is wrong: no case that depends on it is green, and all others are
+//! drawn.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -6,10 +7,10 @@ use etalon_record::{Record, Run, Verdict};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads codes of rgb10a2unorm one too high.
+/// An adapter that reads codes of rgb10a2unorm one too high.
 const ADAPTER: &str = "cpu:fault=misread";
 const TRIP: &str = "capabilities/round-trip/format=rgb10a2unorm";
-/// Cases on that format and on others, without the round trips.
+/// Cases with that format and with others, without the round trips.
 const DEPENDENTS: [&str; 5] = [
     "blend/factors-formats",
     "blend/formats-clear",
@@ -35,7 +36,7 @@ fn leans(record: &Record) -> bool {
     record.case.contains("formats-low-bits") || record.case.contains("format=rgb10a2unorm")
 }
 
-/// The records without what differs from run to run, in order.
+/// Returns the records in order, without what differs between runs.
 fn plain(run: &Run) -> Vec<String> {
     let records = run.records.iter().cloned();
     let mut all: Vec<String> = records
@@ -65,7 +66,7 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
     for record in alone.records.iter().chain(&whole.records) {
         if record.case == TRIP {
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
-            // A second look that confirms it leaves nothing in the record.
+            // A recheck that confirms the verdict leaves no trace in the record.
             assert!(record.repeats.is_empty(), "{record:?}");
         } else if leans(record) {
             assert_eq!(record.verdict, Verdict::Blocked, "{record:?}");
@@ -79,7 +80,7 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
             assert!(record.texels.total > 0, "{record:?}");
         }
     }
-    // A round trip that is selected gives one record, one that is not gives none.
+    // A selected round trip has one record, an unselected one has none.
     let trips = |run: &Run| {
         run.records
             .iter()
@@ -123,7 +124,7 @@ fn a_run_that_was_stopped_goes_on_with_the_same_records() {
     let due = plain(&run(&out, &with_trips(), &[], 1));
     let text = fs::read_to_string(out.join("run.jsonl")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    // Before the round trips, between them, behind them, and with nothing left to draw.
+    // Before, between and after the round trips, and with nothing left to draw.
     for kept in [0, 1, 6, 14, 15, 40, lines.len() - 1] {
         fs::write(out.join("run.jsonl"), lines[..=kept].join("\n") + "\n").unwrap();
         let resumed = run(&out, &with_trips(), &["--resume"], 1);
@@ -158,7 +159,7 @@ fn what_a_known_failure_blocks_is_expected_too() {
             }
         }
     }
-    // A round trip that is skipped was not checked: its cases are drawn, and say so.
+    // A skipped round trip was not checked: its cases are drawn, and say so.
     let skipped = expect("skipped");
     let skipped: Vec<&str> = skipped.iter().map(String::as_str).collect();
     let run = run(&work.path().join("skipped"), &with_trips(), &skipped, 1);

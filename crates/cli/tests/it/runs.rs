@@ -17,7 +17,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// The software drivers that Debian has; the test script installs them.
+/// Debian's software drivers; the test script installs them.
 const DUE: [&str; 7] = [
     "cpu",
     "gl:es:softpipe",
@@ -50,7 +50,7 @@ fn pairs(records: &[Record]) -> BTreeSet<(&str, &str)> {
         .collect()
 }
 
-/// The run in a folder, with exactly one record per case and adapter.
+/// Reads the run in a folder. It must have exactly one record per case and adapter.
 fn whole(folder: &Path) -> Run {
     let run = Run::read(folder).unwrap();
     assert!(!run.truncated);
@@ -127,7 +127,7 @@ fn one_record_per_case_and_adapter() {
     let out = out.path().join("new/deep/folder");
     let adapters = ["cpu", "gl:softpipe", "vulkan:lavapipe"];
     let mut arguments = vec!["depth/*"];
-    // A name given twice is one adapter.
+    // A repeated name is one adapter.
     for adapter in adapters.iter().chain(&["cpu"]) {
         arguments.extend(["--adapter", adapter]);
     }
@@ -222,7 +222,7 @@ fn an_old_run_is_replaced_and_other_files_stay() {
     run(out.path(), &["selftest/*", "--adapter", "cpu"]).code(0);
     assert!(out.path().join("frames").is_dir());
     fs::write(out.path().join("notes"), "precious").unwrap();
-    // What is refused or empty leaves the old run alone.
+    // A refused or empty run leaves the old run alone.
     run(out.path(), &["nothing/*"]).code(4);
     run(out.path(), &["depth", "--adapter", "nobody"]).code(64);
     assert_eq!(whole(out.path()).records.len(), count(&["selftest"]));
@@ -290,7 +290,7 @@ fn expectations_are_held_against_verdicts() {
     assert!(!better.is_empty() && better.iter().all(|r| r.case.contains("depth16unorm")));
     assert_eq!(output["improvements"], better.len());
     assert_eq!(output["unexpected"], 0);
-    // As expected, and about others.
+    // As expected; the other entries are about other cases.
     with(json!([expectation("pass", "*")])).code(0);
     assert!(whole(&out).records.iter().all(|r| r.expected.is_some()));
     with(json!([expectation("fail", "stencil/*")])).code(0);
@@ -333,7 +333,7 @@ fn damaged_expectations_name_file_and_line() {
 fn a_full_disk_leaves_an_incomplete_run_that_can_be_read() {
     let folder = folder();
     let out = folder.path().join("out");
-    // Files may not grow past this many blocks; where the signal is ignored, writing fails.
+    // Files cannot grow beyond this many blocks; if the signal is ignored, writing fails.
     let script = r#"trap '' XFSZ; ulimit -f 40; exec "$0" "$@""#;
     Command::new("/bin/sh")
         .args([
@@ -391,7 +391,7 @@ fn started(out: &Path, adapter: &str) -> Child {
     }
 }
 
-/// The processes whose parent is this one.
+/// Returns the child processes of this process.
 fn children(parent: u32) -> Vec<Pid> {
     let mut found = Vec::new();
     for entry in fs::read_dir("/proc").unwrap() {
@@ -400,7 +400,7 @@ fn children(parent: u32) -> Vec<Pid> {
             continue;
         };
         let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-        // The name in parentheses may hold anything; state and parent come after it.
+        // The name in parentheses can contain anything; state and parent follow it.
         let Some((_, rest)) = stat.rsplit_once(')') else {
             continue;
         };
@@ -483,7 +483,7 @@ fn reports_need_a_run() {
 
 #[test]
 fn a_machine_without_drivers_still_has_the_cpu() {
-    // Files that are no libraries stand before the real ones.
+    // Files that are not libraries come before the real ones on the path.
     let libraries = folder();
     for name in [
         "libvulkan.so.1",
@@ -500,7 +500,7 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     let bare = |arguments: &[&str]| {
         let mut command = etalon(arguments);
         command.env("LD_LIBRARY_PATH", libraries.path());
-        // No browser either.
+        // There is no browser either.
         command.env("PATH", libraries.path());
         command
     };

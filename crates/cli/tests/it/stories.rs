@@ -1,4 +1,4 @@
-//! Stories as records keep them: each of a small scene that a planted bug, or a driver, got wrong.
+//! Stories as records keep them, each of a small scene that a planted bug or a driver draws wrong.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_backend::Backend;
@@ -41,7 +41,7 @@ fn record(mutant: &str, case: &Case) -> Record {
         .record
 }
 
-/// Returns the story of a bug, which must be a Fail.
+/// Returns the story of a bug. Its verdict must be Fail.
 fn story(mutant: &str, case: &Case) -> Story {
     let record = record(mutant, case);
     assert_eq!(record.verdict, Verdict::Fail, "{mutant}: {record:?}");
@@ -55,7 +55,7 @@ const STENCIL: &str =
     r#","depth":{"format":"depth24plus-stencil8","size":[4,4],"clear":{"depth":0.5,"stencil":3}}"#;
 const WITH_DEPTH: &str = r#","depth_stencil":"depth""#;
 
-/// A draw of everything in red, with a state.
+/// A draw that covers everything in red, with a state.
 fn red(state: &str) -> String {
     format!("{{{COVER},{RED},{state}}}")
 }

@@ -20,7 +20,7 @@ fn folder() -> tempfile::TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// Runs cases on one adapter with a planted fault; some came out as they must, all others pass.
+/// Runs cases on one adapter with a planted fault. Some must have this verdict, all others pass.
 fn with_fault(fault: &str, due: Verdict, more: &[&str]) -> Vec<Record> {
     let out = folder();
     let adapter = format!("cpu:fault={fault}");
@@ -44,7 +44,7 @@ fn with_fault(fault: &str, due: Verdict, more: &[&str]) -> Vec<Record> {
     bad
 }
 
-/// The same of processes that are lost, with the way they were.
+/// The same for processes that are lost, with the way in which they ended.
 fn lost(fault: &str, due: Verdict, kind: LossKind, more: &[&str]) -> Vec<Record> {
     let records = with_fault(fault, due, more);
     for record in &records {
@@ -156,8 +156,8 @@ fn a_driver_that_does_not_start_has_a_record_for_every_case() {
 #[test]
 fn a_verdict_that_changes_is_flaky_and_never_a_pass() {
     let out = folder();
-    // Each process is wrong by chance; of many repetitions some differ from the first, or chance is
-    // 1 to 10^11 against it.
+    // Each process is wrong at random. Of many repetitions some differ from the first; the odds against this
+    // are 1 to 10^11.
     etalon(&[
         "run",
         "cull/*",
@@ -195,7 +195,7 @@ fn a_verdict_that_changes_is_flaky_and_never_a_pass() {
 #[test]
 fn a_case_that_fails_only_after_another_names_it() {
     let mut culprits: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    // With these seeds no more cases go wrong than are searched.
+    // With these seeds at most as many cases go wrong as are searched.
     for seed in ["1", "9"] {
         let out = folder();
         etalon(&[
@@ -237,7 +237,7 @@ fn a_case_that_fails_only_after_another_names_it() {
             by.push(record.case.clone());
         }
     }
-    // Those that spoil are drawn alone without harm; that they spoil is shown by drawing just the two.
+    // Cases that spoil others pass when drawn alone; drawing just the pair shows that they spoil.
     let (culprit, spoilt) = culprits.first_key_value().unwrap();
     let both = folder();
     etalon(&[
@@ -269,7 +269,7 @@ fn a_case_that_fails_only_after_another_names_it() {
     );
 }
 
-/// The records of a run without what may differ from run to run, in order.
+/// Returns the records of a run in order, without what can differ between runs.
 fn plain(folder: &Path) -> Vec<String> {
     let run = Run::read(folder).unwrap();
     assert!(!run.truncated);
@@ -289,7 +289,7 @@ fn plain(folder: &Path) -> Vec<String> {
     all
 }
 
-/// All files below a folder with what they hold.
+/// Returns all files below a folder with their contents.
 fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -303,7 +303,7 @@ fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
-/// A run that takes some time and whose records are of all kinds.
+/// A run that takes some time and has records of all kinds.
 const RUN: [&str; 8] = [
     "run",
     "selftest/depth*",
@@ -331,13 +331,13 @@ fn start(out: &Path, more: &[&str]) -> Child {
         .unwrap()
 }
 
-/// Returns the number of records in the run that is kept in a folder.
+/// Returns the number of records of the run in a folder.
 fn records_in(folder: &Path) -> usize {
     let text = fs::read_to_string(folder.join("run.jsonl")).unwrap_or_default();
     text.matches("{\"case\":").count()
 }
 
-/// Waits until a run has written a record more than `before`, or has ended.
+/// Waits until a run has written more than `before` records, or has ended.
 fn wait_for_progress(child: &mut Child, out: &Path, before: usize) {
     let start = Instant::now();
     while records_in(out) <= before && child.try_wait().unwrap().is_none() {
@@ -375,7 +375,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
         loop {
             let before = records_in(out.path());
             let mut child = start(out.path(), &["--resume"]);
-            // Every second kill comes after a record of this process, however busy the machine is.
+            // Every second kill waits for a record of this process, however busy the machine is.
             if kills % 2 == 0 {
                 sleep(part(first));
             } else {
@@ -397,7 +397,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
             child.kill().unwrap();
             child.wait().unwrap();
             kills += 1;
-            // The folder can be read at any moment.
+            // The folder must be readable at any moment.
             if out.path().join("run.jsonl").exists() {
                 let run = Run::read(out.path()).unwrap();
                 inside += usize::from(!run.records.is_empty() && run.missing() > 0);
@@ -448,7 +448,7 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
             cut.records.iter().all(|r| !r.unexpected()),
             "nothing is blamed"
         );
-        // The words that it prints are a command.
+        // The printed words are a command.
         let command = said.rsplit("resume with: etalon ").next().unwrap();
         let words = shlex::split(command).unwrap();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -462,7 +462,7 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
 #[test]
 fn a_folder_in_use_or_with_a_run_is_left_alone() {
     let out = folder();
-    // A run that waits for a driver that hangs.
+    // A run that waits for a hanging driver.
     let mut first = std::process::Command::new(BINARY)
         .args([
             "run",
@@ -499,7 +499,7 @@ fn a_folder_in_use_or_with_a_run_is_left_alone() {
     );
     again(&["--resume"]).code(1);
     assert_eq!(fs::read(out.path().join("run.jsonl")).unwrap(), before);
-    // Another run cannot go on there.
+    // Another run cannot continue there.
     let other = |arguments: &[&str]| {
         etalon(arguments)
             .arg("--out")

@@ -1,4 +1,4 @@
-//! `--version`, and the build script that finds out the commit.
+//! `--version`, and the build script that finds the commit.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command as Assert;
@@ -25,7 +25,7 @@ fn built(script: &Path, folder: &Path, path: &str) -> Vec<String> {
         .current_dir(folder)
         .env("PATH", path)
         .env("CARGO_PKG_VERSION", VERSION)
-        // No repository above that of the test takes part.
+        // Repositories above the test's folder have no effect.
         .env("GIT_CEILING_DIRECTORIES", script.parent().unwrap())
         .env_remove("GIT_DIR")
         .output()
@@ -85,6 +85,6 @@ fn the_build_script_needs_neither_a_repository_nor_git() {
     assert_eq!(found[1..], [version]);
     assert_eq!(built(&script, &folder, ""), bare, "without git");
 
-    // An archive inside the repository of something else.
+    // An archive inside another project's repository.
     assert_eq!(built(&script, &package("own/vendor"), &path), bare);
 }

@@ -1,4 +1,4 @@
-//! The folder of an export: what it may be, and that no name leaves it.
+//! The folder of an export: which folders are accepted, and that no name leads out of it.
 
 use crate::made::{FORMATS, daily, files, history};
 use etalon_export::{ExportError, Selection, export};

@@ -9,7 +9,7 @@ use std::path::Path;
 
 const BENCHMARK: &str = "perf/a gl:x an OS, a processor, 2 cores";
 
-/// Three nights; the last one timed another case alone.
+/// Three nights; the last one timed only another case.
 fn nights() -> Vec<NewRun> {
     let night = |number: u8, case: &str, times: FrameTimes| {
         let mut part = adapter("gl:x", "1.0");

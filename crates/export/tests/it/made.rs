@@ -114,7 +114,7 @@ pub(crate) fn history(dir: &Path, runs: &[NewRun]) -> History {
     History::open_read(&path).unwrap()
 }
 
-/// Exports the selected of these runs, and returns the folder and what removes it.
+/// Exports the selected ones of these runs. Returns the folder, and the guard that removes it.
 pub(crate) fn exported(
     runs: &[NewRun],
     format: Format,
@@ -128,12 +128,13 @@ pub(crate) fn exported(
     (out, dir)
 }
 
-/// The time at which a run stands.
+/// The time of a run.
 pub(crate) fn time(run: &NewRun) -> i64 {
     run.released.unwrap_or(run.started)
 }
 
-/// The selected runs in the order of their times. Of runs with the same header the last added stands for all.
+/// The selected runs in the order of their times. Of runs with the same header only the last added one
+/// counts.
 pub(crate) fn selected<'r>(runs: &'r [NewRun], selection: &Selection) -> Vec<&'r NewRun> {
     let last: HashMap<[u8; 32], usize> = runs.iter().map(|r| r.header).zip(0..).collect();
     let mut kept: Vec<&NewRun> = runs

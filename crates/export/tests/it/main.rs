@@ -1,4 +1,4 @@
-//! A history from outside as files for other programs: what was added is in them.
+//! Exports of a history, from outside: the files for other programs contain what was added.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod dashboard;

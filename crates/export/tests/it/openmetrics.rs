@@ -67,8 +67,8 @@ fn sample(line: &str) -> (Series, i64, f64) {
     )
 }
 
-/// Reads a file, and demands what Prometheus does: metrics follow their descriptions, samples of a series stand together
-/// in ascending time, and the last line ends the file.
+/// Reads a file by Prometheus's rules: metrics follow their descriptions, samples of a series are together in
+/// ascending time, and the last line ends the file.
 fn read(text: &str) -> Samples {
     let lines: Vec<&str> = text.strip_suffix('\n').unwrap().split('\n').collect();
     let (last, lines) = lines.split_last().unwrap();
@@ -115,7 +115,7 @@ fn series<const N: usize>(metric: &str, labels: [(&str, &str); N]) -> Series {
 /// The samples that these runs make.
 fn due(runs: &[&NewRun]) -> Samples {
     let mut samples = Samples::new();
-    // The later one of two at one time stands for both.
+    // Of two samples at one time, the later replaces the other.
     let mut records = BTreeMap::new();
     let mut times: BTreeMap<_, BTreeMap<i64, &FrameTimes>> = BTreeMap::new();
     for run in runs {

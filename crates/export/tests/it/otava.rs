@@ -13,7 +13,7 @@ use std::path::Path;
 /// The columns of a row by their names.
 type Row = BTreeMap<String, String>;
 
-/// Reads CSV: fields in quotes may hold anything, and a quote in them stands twice.
+/// Reads CSV: fields in quotes can contain anything, and a quote in them is doubled.
 fn records(text: &str) -> Vec<Vec<String>> {
     let (mut records, mut record, mut field) = (Vec::new(), Vec::new(), String::new());
     let mut quoted = false;
@@ -34,8 +34,8 @@ fn records(text: &str) -> Vec<Vec<String>> {
     records
 }
 
-/// The rows of each test that the configuration names. Every file must be of a test, and every column that a test names
-/// must be there.
+/// The rows of each test that the configuration names. Every file must belong to a test, and every column
+/// that a test names must exist.
 fn read(out: &Path) -> BTreeMap<String, Vec<Row>> {
     let text = fs::read_to_string(out.join("otava.yaml")).unwrap();
     let configuration: Value = serde_json::from_str(&text).unwrap();

@@ -1,4 +1,4 @@
-//! Random runs: few names, times and outcomes, so that runs meet in series, and any of them hostile.
+//! Random runs: few names, times and outcomes, so that runs share series, and any of them can be hostile.
 
 use crate::made::{HOSTILE, adapter, run};
 use etalon_export::Selection;
@@ -65,7 +65,7 @@ fn outcome() -> impl Strategy<Value = Outcome> {
         )
 }
 
-/// No time, that of one round, or those of three.
+/// No time, the time of one round, or those of three.
 fn rounds() -> impl Strategy<Value = Vec<f32>> {
     let time = 1e-6f32..10.0;
     prop_oneof![Just(Vec::new()), vec(time.clone(), 1..2), vec(time, 3..4)]
@@ -98,7 +98,7 @@ fn part() -> impl Strategy<Value = NewAdapter> {
         })
 }
 
-/// Up to five runs. Some are the run before, resumed.
+/// Up to five runs. Some resume the run before.
 pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
     let parts = btree_map(select(&NAMES[..]), part(), 0..3);
     let about = (

@@ -1,4 +1,4 @@
-//! Runs that are selected, and selections of none.
+//! Selected runs, and empty selections.
 
 use crate::made::{FORMATS, daily, history, selected};
 use etalon_export::{ExportError, Selection, export};

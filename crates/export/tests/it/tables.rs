@@ -110,7 +110,7 @@ fn partitions(path: &Path) -> String {
     values.join(" ")
 }
 
-/// A text whose `%` and two digits stand for a byte.
+/// Decodes a text in which `%` and two digits encode a byte.
 fn decoded(text: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = text.bytes();

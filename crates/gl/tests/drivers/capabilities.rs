@@ -1,4 +1,4 @@
-//! Formats and read paths of OpenGL's drivers, and the ways to them.
+//! Formats and read paths of OpenGL drivers.
 
 use crate::drivers::{self, context, is_softpipe};
 use etalon_backend::Backend;

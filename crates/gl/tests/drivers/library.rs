@@ -5,7 +5,7 @@ use etalon_backend::Backend;
 use etalon_case::Profile;
 use etalon_conformance::{Share, Subject, draw_library};
 
-/// Full axes where states cost nothing to compile, else the quick profile.
+/// Full axes if states cost nothing to compile, otherwise the quick profile.
 pub(crate) fn sample(backend: &dyn Backend) {
     let (profile, per_file) = if is_softpipe(backend) {
         (Profile::Full, 2)

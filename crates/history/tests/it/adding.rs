@@ -1,4 +1,4 @@
-//! What was added comes back.
+//! Added runs are read back.
 
 use crate::made::{adapter, case, run, times, with};
 use etalon_history::{
@@ -53,7 +53,7 @@ fn the_same_run_twice_adds_nothing() {
     let made = run(1, "2026-01-01", vec![with("cpu", "1", "ppf")]);
     assert_eq!(writer.add(&made).unwrap(), Added::New(RunId::from(1)));
     let before = std::fs::read(&path).unwrap();
-    // Labels do not make another run of it.
+    // Other labels do not make it another run.
     let mut again = made.clone();
     again.labels = parse_labels(&["branch=main"]).unwrap();
     for same in [&made, &again] {
@@ -216,7 +216,7 @@ fn the_last_entry_about_a_subject_counts() {
     for entry in &entries {
         writer.triage(entry).unwrap();
     }
-    // A history that is open sees the log as it is, since it belongs to no run.
+    // An open history sees the current log, since the log belongs to no run.
     assert_eq!(history.triage_log().unwrap(), entries);
     let states = history.triage_states().unwrap();
     assert_eq!(states[&verdict], entries[2]);

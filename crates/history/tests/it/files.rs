@@ -1,4 +1,4 @@
-//! Files that are no history, in use, full or half written.
+//! Files that are not a history, in use, full or half written.
 
 use crate::made::{case, run, with};
 use etalon_history::{Added, History, HistoryError, NewRun, Writer};
@@ -144,7 +144,7 @@ fn a_full_disk_keeps_what_was_added_before() {
     let history = History::open_read(&path).unwrap();
     assert_eq!(history.runs().len(), 1);
     assert_eq!(history.cases().unwrap().len(), 3);
-    // With space again, the run goes in.
+    // With space again, the run can be added.
     assert!(matches!(
         Writer::open(&path).unwrap().add(&large).unwrap(),
         Added::New(_)

@@ -116,7 +116,7 @@ fn a_run_is_the_same_packed_or_not_and_by_any_name() {
     let [part] = &run.adapters[..] else {
         panic!("{run:?}")
     };
-    // An adapter of a run keeps its name, whatever release it is.
+    // An adapter of a run keeps its name, whatever release it has.
     assert_eq!(part.timeline, "vulkan:a@2");
     assert_eq!(
         (part.adapter.line.as_str(), part.adapter.shown_version()),
@@ -207,7 +207,8 @@ fn releases_of_a_line_are_runs_of_one_timeline_by_their_dates() {
     let dates = ReleaseDates::parse(Path::new("dates"), dates).unwrap();
     let mut runs = read_runs(folder.path(), &dates).unwrap();
     assert_eq!(runs.len(), 3);
-    // Added newest first, they still stand by their dates; one without a date stands where it was drawn.
+    // Although added newest first, they are ordered by date; one without a date is placed at its drawing
+    // time.
     runs.reverse();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();
@@ -268,7 +269,7 @@ fn what_the_repository_keeps_can_be_added() {
 
 #[test]
 fn the_reader_of_benches_is_that_of_records() {
-    // A round's medians stand beside its ruler.
+    // A round's medians are next to its ruler.
     let picture =
         r#"{"picture":{"case":"perf/a","adapter":"vulkan:a@2","verdict":"pass","asserted":1.0}}"#;
     let other = picture.replace("perf/a", "depth/a");

@@ -77,7 +77,7 @@ pub(crate) fn times(wall: &[f32], ruler: f32) -> FrameTimes {
     }
 }
 
-/// Everything that a history holds of the records of its runs, by digest, timeline and case.
+/// All records of a history's runs, by digest, timeline and case.
 pub(crate) type Content = BTreeMap<([u8; 32], String, String), Outcome>;
 
 /// The content that these runs have.

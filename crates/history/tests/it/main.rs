@@ -1,4 +1,4 @@
-//! A history from outside: what was added comes back, whatever happens to the file.
+//! A history from outside: added runs are read back, whatever happens to the file.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod adding;

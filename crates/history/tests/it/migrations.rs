@@ -4,8 +4,8 @@ use etalon_history::{History, SCHEMA, Writer};
 use etalon_record::Verdict;
 use rusqlite::Connection;
 
-/// A history of schema 1 as it was written when that was the newest: a run of one adapter with two cases, one of which
-/// became better in a second run.
+/// A history of schema 1 as the suite wrote it then: a run of one adapter with two cases; one case improved
+/// in a second run.
 const SCHEMA_1: &str = include_str!("schema-1.sql");
 
 #[test]
@@ -31,7 +31,7 @@ fn the_first_schema_is_read_and_added_to() {
         let keys = history.series_keys().unwrap();
         assert_eq!(history.series(&keys[0]).unwrap()[0].times.wall, [1.5, 2.5]);
         drop(history);
-        // Opening it for writing leaves it as it was.
+        // Opening it for writing does not change it.
         Writer::open(&path).unwrap();
     }
     let schema: u32 = Connection::open(&path)

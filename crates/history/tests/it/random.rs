@@ -1,4 +1,4 @@
-//! Whatever is added in whatever order comes back as it was.
+//! Whatever is added, in any order, is read back unchanged.
 
 use crate::made::{Content, adapter, content, run, times};
 use etalon_frame::{Aspect, TexelCounts};
@@ -72,7 +72,7 @@ fn outcome() -> impl Strategy<Value = Outcome> {
         )
 }
 
-/// Few outcomes and few cases, so that most runs repeat what others had.
+/// Few outcomes and few cases, so that most runs repeat those of others.
 fn part(outcomes: Vec<Outcome>) -> impl Strategy<Value = BTreeMap<String, Outcome>> {
     let case = (0u8..30).prop_map(|n| format!("{}/made/n={n}", ["depth", "perf"][n as usize % 2]));
     btree_map(case, select(outcomes), 0..25)
@@ -163,7 +163,7 @@ proptest! {
         let mut writer = Writer::open(&path).unwrap();
         for made in &order {
             prop_assert!(matches!(writer.add(made).unwrap(), Added::New(_)));
-            // Any run that is there may come again at any time.
+            // Any run that is there can be added again at any time.
             prop_assert!(matches!(writer.add(order[0]).unwrap(), Added::Already(_)));
         }
         let history = History::open_read(&path).unwrap();

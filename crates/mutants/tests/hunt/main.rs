@@ -103,7 +103,7 @@ fn draw(backend: &dyn Backend, case: &Case) -> Vec<Frame> {
     draw_frames(backend, case).unwrap()
 }
 
-/// Cases with the frames that are due, drawn once.
+/// Cases with the rasterizer's frames, drawn once.
 struct Cases {
     faithful: CpuBackend,
     judge: Judge,
@@ -118,7 +118,7 @@ impl Cases {
             .cases(profile)
             .filter(|c| area(c.id().split('/').next().unwrap()))
             .map(|c| c.build().unwrap())
-            // A selftest fails whatever draws it.
+            // A selftest fails on every driver.
             .filter(|c| c.judged_as.is_none());
         Self {
             faithful: CpuBackend::spans("cpu"),
@@ -127,7 +127,7 @@ impl Cases {
         }
     }
 
-    /// Scatters the cases, since neighbours in a file try much the same.
+    /// Scatters the cases, since neighbours in a file test much the same.
     fn scattered(mut self) -> Self {
         let mut placed: Vec<_> = self.all.into_iter().zip(0_u32..).collect();
         placed.sort_by_key(|(_, i)| i.wrapping_mul(2_654_435_761));
@@ -155,7 +155,7 @@ impl Cases {
     }
 }
 
-/// Holds all mutants of a class.
+/// Checks all mutants of a class.
 fn hunt(class: &str) {
     let own: Vec<&Mutant> = mutants().iter().filter(|m| class_of(m) == class).collect();
     let areas: BTreeSet<&str> = own.iter().map(|m| catching_area(m)).collect();
@@ -165,7 +165,7 @@ fn hunt(class: &str) {
     let mut survivors = Vec::new();
     for area in areas {
         let mut cases = Cases::new(Profile::Quick, |a| a == area);
-        // State of the previous case shows where the next one differs in that state alone.
+        // Stale state of a case shows if the next case differs only in that state.
         if class != "sticky" {
             cases = cases.scattered();
         }
@@ -190,7 +190,7 @@ fn hunt(class: &str) {
     );
 }
 
-/// Holds that a mutant which a clause allows changes some frame, and that none of them fails.
+/// Checks that a mutant that a clause allows changes some frame, and that none of these frames fails.
 fn hold_legal(mutant: &Mutant, cases: &Cases) {
     let mut changes = 0;
     for record in cases.changed(mutant) {
@@ -202,7 +202,7 @@ fn hold_legal(mutant: &Mutant, cases: &Cases) {
         );
         changes += 1;
     }
-    // A change that the quick profile does not show is one of the full one.
+    // If the quick profile does not show a change, the full one must.
     if changes == 0 {
         let full = Cases::new(Profile::Full, |area| area == mutant.area);
         let changed = full.changed(mutant).next();

@@ -1,4 +1,4 @@
-//! Damaged files: reading ends with a message, or with the part that is whole.
+//! Damaged files: reading ends with a message, or with the intact part.
 //!
 //! `PROPTEST_CASES` sets the number of inputs of each test; a million of each take some minutes in a
 //! release build.
@@ -88,7 +88,7 @@ proptest! {
                 if let Err(error) = Merge::read(&[folder.path().to_owned()]) {
                     told(&error);
                 }
-                // A run that can be read can be resumed, and loses nothing by that.
+                // A run that can be read can be resumed without loss.
                 let (_, again) = RunWriter::resume(folder.path(), &run.header).unwrap();
                 prop_assert_eq!(again.records, run.records);
             }
@@ -180,7 +180,7 @@ fn absurdities_are_refused() {
     );
 }
 
-/// Some spoilt inputs are refused and some are taken: they reach beyond the first brace.
+/// Some spoilt inputs are refused and some accepted, so they get beyond the first brace.
 #[test]
 fn spoiling_goes_deep_and_not_too_deep() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();

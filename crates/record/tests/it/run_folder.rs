@@ -218,7 +218,7 @@ proptest! {
         fs::write(&path, &bytes[..end]).unwrap();
         let run = Run::read(folder.path()).unwrap();
         let newlines = bytes[first..end].iter().filter(|b| **b == b'\n').count();
-        // A record that lacks no more than its newline is whole.
+        // A record that lacks only its newline is complete.
         prop_assert!(run.records.len() == newlines || bytes[end] == b'\n');
         prop_assert_eq!(&run.records[..], &records[..run.records.len()]);
         let partial = bytes[end - 1] != b'\n' && bytes[end] != b'\n';
@@ -411,7 +411,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         let stories = run.records.iter().filter(|r| r.story.is_some()).count();
         assert!(format < 3 || stories > 0, "a story as sentences");
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
-        // Records of this format may not follow a header of another.
+        // Records of this format must not follow a header of another.
         let mut now = run.header.clone();
         now.format = FORMAT;
         let refused = RunWriter::resume(folder.path(), &now).unwrap_err();

@@ -133,7 +133,7 @@ impl Spoiling {
 impl Change {
     fn apply(&self, bytes: &mut Vec<u8>) {
         let place = |index: &Index, bytes: &[u8]| index.index(bytes.len() + 1);
-        // Pieces are short: a text that loses its half has little left to be wrong.
+        // Pieces are short: a text that loses half of itself has little left that can be wrong.
         let piece = |from: &Index, length: &Index, bytes: &[u8]| {
             let from = place(from, bytes);
             (from, (from + length.index(64)).min(bytes.len()))

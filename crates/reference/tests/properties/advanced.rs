@@ -1,5 +1,5 @@
-//! Advanced blends: plain results lie inside judging ones, whatever the texts' ways of computing them arrive
-//! at lies there too, and what the texts pin is exact.
+//! Advanced blends: plain results are inside judging ones, and so are the results of every computation that
+//! the texts permit; results that the texts define exactly are exact.
 
 use crate::arithmetic::wider;
 use crate::common::{all_rules, assert_inside, assert_within, config};
@@ -46,8 +46,8 @@ fn judged(rules: &Rules, encoding: ChannelEncoding, (mode, src, dst): &Blend) ->
     advanced_blend(&mut a, *mode, [encoding; 4], src, dst).map(|v| a.encode(encoding, v))
 }
 
-/// The blend in 64-bit floats, without a division where source and destination lie alone; the value of
-/// each step is rounded down or up to `1 / scale`, as `up` says, bit by bit.
+/// The blend in 64-bit floats, without a division where only source or destination covers; each step is
+/// rounded down or up to `1 / scale`, by the bits of `up`.
 fn stepwise((mode, src, dst): &Blend, scale: f64, up: u32) -> [f64; 4] {
     let mut bit = 0;
     let mut step = |v: f64| {
@@ -102,7 +102,8 @@ fn stepwise((mode, src, dst): &Blend, scale: f64, up: u32) -> [f64; 4] {
                     d + step((2.0 * s - 1.0) * (root - d))
                 }
             };
-            // What lies alone is the premultiplied colour, less what is covered.
+            // The part covered by one colour alone is its premultiplied colour, minus the part covered by
+            // both.
             step(mixed * both) + step(src[c] * (1.0 - da)) + step(dst[c] * (1.0 - sa))
         }
     })
@@ -174,7 +175,7 @@ fn the_ends_are_exact() {
     assert_eq!(opaque(burn, 0.0, 255), white);
     assert_eq!(opaque(burn, 0.0, 254), black);
     assert_eq!(opaque(burn, 1.0, 255), white);
-    // The others add what is not 0, and a sum is as exact as a float.
+    // The others add terms that are not 0, and a sum is as exact as a float.
     for mode in [
         AdvancedBlend::Multiply,
         AdvancedBlend::Overlay,

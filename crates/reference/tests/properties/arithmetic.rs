@@ -1,4 +1,4 @@
-//! Plain results lie inside judging ones, and wider rules give wider intervals.
+//! Plain results are inside judging ones, and wider rules give wider intervals.
 
 use crate::common::{all_rules, assert_inside, assert_within, config};
 use etalon_frame::{ChannelEncoding, CodeInterval};
@@ -26,7 +26,7 @@ fn state() -> impl Strategy<Value = BlendState> {
     (component(), component()).prop_map(|(color, alpha)| BlendState { color, alpha })
 }
 
-/// Values inside and outside of 0..=1, exactly representable ones among them.
+/// Values inside and outside 0..=1, exactly representable ones among them.
 fn value() -> impl Strategy<Value = f32> {
     prop_oneof![
         select(vec![
@@ -93,7 +93,7 @@ fn judged(
     blend(&mut a, state, [encoding; 4], &input).map(|v| a.encode(encoding, v))
 }
 
-/// Pairs of rules of which the second permits everything that the first permits.
+/// Pairs of rules in which the second permits everything that the first permits.
 pub(crate) fn wider() -> Vec<(Rules, Rules)> {
     use etalon_reference::rules::{DepthOrder, SharedEdge, Snap};
     let yardstick = || all_rules().pop().expect("the yardstick comes last");
@@ -163,7 +163,7 @@ fn normalized() -> impl Strategy<Value = f32> {
     prop_oneof![0.0_f32..=1.0, code().prop_map(|code| code as f32 / 255.0)]
 }
 
-/// Rounds to a float whose significand has so many bits: down, up or to the nearest.
+/// Rounds to a float with a significand of `bits` bits: down, up or to the nearest.
 fn short(bits: i32, direction: i8, value: f64) -> f64 {
     if value == 0.0 {
         return 0.0;
@@ -177,8 +177,8 @@ fn short(bits: i32, direction: i8, value: f64) -> f64 {
     }
 }
 
-/// The source weighed by the complement of the destination's alpha, and the destination by the source's alpha, with
-/// every operand and result rounded by `short`.
+/// The source weighted by the complement of the destination's alpha, and the destination by the source's
+/// alpha, with every operand and result rounded by `short`.
 fn short_blend(
     encoding: ChannelEncoding,
     short: impl Fn(f64) -> f64,
@@ -281,7 +281,7 @@ proptest! {
                 let allowed = a.encode(encoding, v);
                 prop_assert!(allowed.contains(order), "{} {encoding}: {order} not in {allowed:?}", rules.name);
                 prop_assert!(allowed.contains(encoding.order_of_code(encoding.nearest_code(f64::from(depth)))), "{} {encoding}", rules.name);
-                // Two neighbours, and as many codes as the computed code may be off by.
+                // Two neighbours, and the codes by which the computed code can be off.
                 let off = match encoding {
                     ChannelEncoding::Float32 => 0.0,
                     _ => rules.float_error.value() * order as f64,
@@ -307,7 +307,7 @@ proptest! {
                 let again = a.encode(encoding, range);
                 prop_assert!(again.contains(i64::from(back)), "{} {bits} bits", rules.name);
                 prop_assert!(again.contains(i64::from(code)), "{} {bits} bits", rules.name);
-                // What a shader that reads the attachment may see.
+                // The values that a shader can read from the attachment.
                 let read = a.encode(ChannelEncoding::Float32, range);
                 prop_assert!(read.contains(seen), "{} {bits} bits", rules.name);
             }
@@ -364,7 +364,7 @@ proptest! {
                 let held = if plain.is_nan() { range.may_be_nan() } else { range.contains(f64::from(plain)) };
                 prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range:?}", rules.name);
             }
-            // An exact argument leaves no more than the error that a text grants.
+            // For an exact argument, only the error that the specification permits remains.
             if below == 0.0 && above == 0.0 && (-20.0..=20.0).contains(&value) {
                 let power = a.exp2(judged).hull();
                 prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power:?}");

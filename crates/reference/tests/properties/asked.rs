@@ -1,4 +1,4 @@
-//! What a judge asks of rules and limits is all that a legal set depends on.
+//! A legal set depends only on what the judge asks of rules and limits.
 
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
@@ -69,7 +69,7 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
             }
         }
     }
-    // Else there is nothing to share, and the test holds nothing.
+    // Otherwise nothing is shared, and the test shows nothing.
     let computed = computed.get();
     assert!(
         computed * 2 < sets,

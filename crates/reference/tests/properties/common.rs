@@ -57,7 +57,7 @@ pub(crate) fn config(cases: u32) -> Config {
     }
 }
 
-/// Asserts that the codes of a colour lie inside intervals, by some rules.
+/// Asserts that the codes of a colour are inside intervals, by some rules.
 pub(crate) fn assert_inside(
     rules: &str,
     codes: [i64; 4],
@@ -74,7 +74,7 @@ pub(crate) fn assert_inside(
     Ok(())
 }
 
-/// Asserts that the intervals of a colour lie within those of wider rules.
+/// Asserts that the intervals of a colour are within those of wider rules.
 pub(crate) fn assert_within(
     inner: [CodeInterval; 4],
     outer: [CodeInterval; 4],

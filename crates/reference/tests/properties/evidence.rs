@@ -1,4 +1,4 @@
-//! Sets by version of the text, by promise of the adapter and by evidence: what each leaves legal.
+//! Legal sets by version of the specification, by promises of the adapter and by evidence.
 
 use crate::common::{limits, scene};
 use etalon_frame::{Api, ApiVersion, Grade, Limits, Property};
@@ -12,7 +12,7 @@ fn version(api: Api, major: u8, minor: u8) -> Limits {
     limits
 }
 
-/// Returns whether each kind of evidence, from all to musts alone, allows the orders of a sample.
+/// Returns whether each kind of evidence, from all to only musts, allows the orders of a sample.
 fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool; 3] {
     let rules = Rules::of(limits);
     Grade::ALL.map(|grade| {
@@ -30,7 +30,7 @@ const BY_CTS: [bool; 3] = [false, false, true];
 
 #[test]
 fn signed_blending_is_clamped_as_the_version_says() {
-    // -1 × 1 + 0: -127 by the range of the format, 0 where everything is clamped to [0,1].
+    // -1 × 1 + 0: -127 by the range of the format, 0 if everything is clamped to [0,1].
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8snorm","size":[4,4],"clear":[0,0,0,0]}},
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[-1,-1,-1,-1]},
@@ -69,15 +69,15 @@ fn logic_operations_apply_to_srgb_by_3_3_alone() {
     let old = version(Api::OpenGl, 3, 3);
     assert_eq!(at(&old, 0), ALWAYS);
     assert_eq!(at(&old, 255), DISPUTED);
-    // No reading has a value between.
+    // No reading permits a value between them.
     assert_eq!(at(&old, 128), NEVER);
     let new = version(Api::OpenGl, 4, 6);
     assert_eq!(at(&new, 255), ALWAYS);
     assert_eq!(at(&new, 0), NEVER);
 }
 
-/// A draw with forced early tests on a stencil of 5, whose sample 1 of 4 the sample mask excludes, or whose
-/// alpha is 0 under alpha to coverage.
+/// A draw with forced early tests on a stencil of 5. The sample mask excludes sample 1 of 4, or alpha is 0
+/// under alpha to coverage.
 fn early(multisample: &str, alpha: u8) -> Scene {
     scene(&format!(
         r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}},
@@ -183,7 +183,7 @@ fn alpha_to_one_is_sure_of_the_first_output_alone() {
         let second = scene(&text.replace("READ", "b"));
         assert_eq!(allowed(&second, &limits, 0, &[0, 0, 0, 255]), ALWAYS);
         assert_eq!(allowed(&second, &limits, 0, &[0; 4]), ALWAYS);
-        // A choice, and nothing between.
+        // Either value, and none between them.
         assert_eq!(allowed(&second, &limits, 0, &[0, 0, 0, 128]), NEVER);
     }
 }
@@ -281,7 +281,7 @@ fn the_mask_that_a_shader_writes_acts_on_one_sample_as_each_text_says() {
     }
 }
 
-/// A draw on a stencil of 5 whose shader writes 300 as reference, where the draw's own is 9.
+/// A draw on a stencil of 5 whose shader writes the reference 300; the draw's own is 9.
 fn exporting(early: &str) -> Scene {
     scene(&format!(
         r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,0]}},
@@ -303,7 +303,7 @@ fn the_reference_that_a_shader_writes_counts_in_the_bits_of_the_attachment() {
             for stored in [5, 9, 44, 255] {
                 let expected = match (early, stored) {
                     _ if stored == due => ALWAYS,
-                    // A shader that "should" come after the tests may come first.
+                    // A shader that "should" run after the tests may run before them.
                     ("forced", 44) if limits.api == Api::Vulkan => DISPUTED,
                     _ => NEVER,
                 };
@@ -351,7 +351,7 @@ fn webgpu_does_not_say_that_the_stencil_reference_is_masked() {
     }
 }
 
-/// The legal range of a counter of shader runs, by all evidence and by musts alone.
+/// The legal range of a counter of shader runs, by all evidence and by only musts.
 fn runs(scene: &Scene, limits: &Limits) -> [(u64, Option<u64>); 2] {
     let rules = Rules::of(limits);
     [Grade::Disputed, Grade::Proven].map(|grade| {
@@ -401,7 +401,7 @@ fn a_fragment_that_is_overwritten_may_go_without_a_run_in_es() {
     let visible = r#"{"mesh":{"kind":"full"},"shader":"counted_color","params":{"color":[1,1,1,1]},"counters":["n"]}"#;
     let scene = counted("implicit", &format!("{visible},{visible}"));
     assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [(32, None); 2]);
-    // Of two fragments of a texel the last one at least.
+    // At least the last of a texel's two fragments.
     assert_eq!(
         runs(&scene, &version(Api::OpenGlEs, 3, 2)),
         [(16, Some(32)); 2]
@@ -455,7 +455,7 @@ fn a_half_float_that_overflows_is_no_nan_by_musts_in_vulkan_alone() {
         allowed(&scene, &version(Api::OpenGlEs, 3, 1), 0, &nan),
         DISPUTED
     );
-    // What is copied in WebGPU may change where it is no number.
+    // A copy in WebGPU may change a value that is not a number.
     assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &nan), ALWAYS);
 }
 

@@ -1,5 +1,5 @@
-//! The built-in cases, area by area: each asserts something under every API, and the rasterizer's
-//! frames of it are legal under every API. A case of which every frame would be legal proves nothing.
+//! The built-in cases, area by area: each asserts something under every API, and the rasterizer's frames of
+//! it are legal under every API. A case with only legal frames would prove nothing.
 //!
 //! The first, middle and last case of each file's quick profile represent it; the middle one alone in
 //! `methods` and `perf`, whose pictures are large. With `ETALON_TESTS=all` all of them are judged.
@@ -48,7 +48,8 @@ fn area_of(file: &CaseFile) -> &str {
     file.name().split('/').next().unwrap_or_default()
 }
 
-/// The cases that represent a file, or all of its quick profile, or of the full one where that has none.
+/// Returns the cases that represent a file, or all of its quick profile, or of the full one if the quick one
+/// is empty.
 fn some(file: &CaseFile) -> Vec<Case> {
     let mut quick: Vec<_> = file.cases(Profile::Quick).collect();
     if quick.is_empty() {
@@ -67,7 +68,7 @@ fn some(file: &CaseFile) -> Vec<Case> {
     built.map(|c| c.expect("built-in cases build")).collect()
 }
 
-/// A lattice of the large pictures that are measured, all texels of others.
+/// A lattice of the large pictures of measured cases, all texels of others.
 fn texels(case: &Case) -> Texels {
     if case.measured {
         Texels::AtMost(1024)
@@ -76,8 +77,8 @@ fn texels(case: &Case) -> Texels {
     }
 }
 
-/// True if an API says what a case draws, and as the rasterizer does: programs of OpenGL ES have fragment
-/// shaders, and OpenGL ignores the masks of shaders where a texel has one sample.
+/// Returns true if an API defines what a case draws, and as the rasterizer does: programs of OpenGL ES have
+/// fragment shaders, and OpenGL ignores shaders' masks in single-sampled texels.
 fn is_said_by(api: Api, case: &Case) -> bool {
     let opengl = matches!(api, Api::OpenGl | Api::OpenGlEs);
     case.scene.passes.iter().all(|pass| {
@@ -89,9 +90,9 @@ fn is_said_by(api: Api, case: &Case) -> bool {
     })
 }
 
-/// Judges a case under every API that says what it draws; returns the sum of what is asserted of the case.
+/// Judges a case under every API that defines what it draws. Returns the sum of its assertions.
 fn judge(case: &Case) -> AspectStatistics {
-    // The judge of a selftest is given another scene, which the rasterizer's frame must violate.
+    // A selftest is judged as another scene, which the rasterizer's frame must violate.
     let scenes: Vec<_> = match &case.judged_as {
         Some(scene) => vec![(scene, None)],
         None => case.scenes().map(|s| (s, Some(draw(s)))).collect(),
@@ -110,7 +111,7 @@ fn judge(case: &Case) -> AspectStatistics {
                 }
             }
             if let Some(frame) = frame {
-                // Of a format whose encoding is open one reading has to fit.
+                // If a format's encoding is open, one of the encodings must fit.
                 let worst = judgements
                     .iter()
                     .filter_map(|j| compare(frame, &j.legal, &j.yardstick, 1).ok())
@@ -119,7 +120,7 @@ fn judge(case: &Case) -> AspectStatistics {
                 assert_eq!(worst, Some(None), "{} by {api:?}", case.id);
             }
         }
-        // A method may leave everything open: its distance from the truth is measured.
+        // A method can leave everything open: its distance from the truth is measured.
         let some = asserted.asserted > 0 || case.method.is_some();
         assert!(some, "{}: nothing by {api:?}", case.id);
         sum.add(asserted);
@@ -135,7 +136,7 @@ fn hold(area: &str) {
     for case in files.clone().flat_map(some) {
         sum.add(judge(&case));
     }
-    // Of large pictures most texels are not judged, and of methods much is open.
+    // Most texels of large pictures are not judged, and methods leave much open.
     if files.clone().all(CaseFile::is_measured) {
         return;
     }
@@ -143,11 +144,11 @@ fn hold(area: &str) {
     assert!(share > 0.9, "{area}: {share:.3} is asserted");
     let exact = sum.exact as f64 / sum.asserted as f64;
     let least = match area {
-        // Relations hold what the rules leave open there; a texture may move a code by one.
+        // There, relations assert what the rules leave open; a texture can move a code by one.
         "order" | "texture" => 0.3,
         // Random scenes blend several times over.
         "combined" => 0.4,
-        // One scene, whose advanced blending the texts leave a code or two.
+        // One scene, for whose advanced blending the texts allow a code or two.
         "found" => 0.2,
         _ => 0.5,
     };

@@ -1,4 +1,4 @@
-//! Whole frames: the rasterizer's are legal, wider rules allow more, and pinned inputs leave one value.
+//! Whole frames: the rasterizer's are legal, wider rules allow more, and exact inputs leave one value.
 
 use crate::arithmetic::wider;
 use crate::common::{APIS, config, draw, limits, scene};

@@ -24,7 +24,7 @@ fn floats_become_the_codes_of_the_conversion_rules() {
         (u8_, 0.5, 127, 128),
         (u8_, -3.0, 0, 0),
         (u8_, 7.5, 255, 255),
-        // 63.75 and 191.25: the yardstick wants the nearest.
+        // 63.75 and 191.25: the yardstick requires the nearest.
         (u8_, 0.25, 63, 64),
         (u8_, 0.75, 191, 192),
         (u16_, 0.0, 0, 0),

@@ -1,4 +1,4 @@
-//! Vertices with any w: what the rasterizer draws of primitives that reach behind the eye lies inside the legal set.
+//! Vertices with any w: the rasterizer's pictures of primitives that extend behind the eye are legal.
 
 use crate::common::{APIS, config, draw, limits, scene};
 use etalon_frame::compare;
@@ -38,7 +38,7 @@ struct Inputs {
     depth: [f32; 2],
 }
 
-/// Factors by which positions lie in front of the eye, behind it, in its plane, near to it and far away.
+/// Factors that place positions in front of the eye, behind it, in its plane, near it and far away.
 fn w() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => select(vec![1.0_f32, 2.0, 0.5, 4.0, 0.25, 8.0]),
@@ -90,7 +90,7 @@ fn inputs() -> impl Strategy<Value = Inputs> {
                 samples,
                 clamps,
                 slope,
-                // The rasterizer holds a biased depth to the viewport's range, which not every API allows.
+                // The rasterizer clamps a biased depth to the viewport's range, which not every API allows.
                 depth: if slope == 0.0 { depth } else { [0.0, 1.0] },
             }
         })

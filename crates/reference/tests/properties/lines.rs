@@ -1,4 +1,4 @@
-//! Lines of which fragments are missing: how many may be, wherever they lie.
+//! Lines with missing fragments: how many may be missing, wherever they are.
 
 use crate::common::{APIS, draw, limits, scene};
 use etalon_frame::{Api, Frame, Grade};
@@ -28,7 +28,8 @@ fn changed(frame: &Frame, codes: impl Fn([u32; 2]) -> Option<u32>) -> Frame {
     frame
 }
 
-/// Returns the fewest legal and the most possible fragments of a line that lacks some, by musts of an API.
+/// Returns the smallest legal and the largest possible number of fragments of a line that lacks some, by an
+/// API's musts.
 fn gap(scene: &Scene, api: Api, frame: &Frame) -> Option<[usize; 2]> {
     let limits = limits(api);
     let rules = Rules::of(&limits).bound_by(Grade::Proven);
@@ -99,7 +100,7 @@ fn a_fragment_that_changes_nothing_may_be_anywhere() {
             assert_eq!(gap(&scene, api, &draw(&scene)), None, "{api} {state}");
         }
     }
-    // Of the columns in sight, 3 to 7, none has a fragment.
+    // None of the visible columns, 3 to 7, has a fragment.
     let scene = line(HORIZONTAL, &half);
     let missing = changed(&draw(&scene), |_| Some(0));
     for api in COUNTING {

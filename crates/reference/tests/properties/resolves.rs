@@ -5,7 +5,7 @@ use etalon_frame::{Api, CodeInterval};
 use etalon_reference::judgements;
 use etalon_scene::Scene;
 
-/// A texel of which one sample in four is 1 and the others 0.
+/// A texel with one sample in four 1 and the others 0.
 fn quarter(format: &str) -> Scene {
     scene(&format!(
         r#"{{"attachments":{{"many":{{"format":"{format}","size":[2,2],"samples":4,"clear":[0,0,0,0]}},
@@ -44,7 +44,7 @@ fn srgb_is_averaged_linear_or_as_codes_and_not_between() {
     let set = judgement.legal.groups[0].sample(0, 0, 0);
     let allows = |red: i64| set.allows(&[red, red, red, 64]);
     assert!(allows(137) && allows(64) && !allows(100) && !allows(0) && !allows(255));
-    // One way for all channels.
+    // All channels are rounded in the same way.
     assert!(!set.allows(&[137, 64, 137, 64]));
     let frame = draw(&scene);
     assert!(allows(i64::from(frame.images[0].codes[0])));

@@ -1,5 +1,5 @@
-//! The step of a depth bias is one for all of a fixed-point attachment: what one column of a frame shows
-//! of it binds the others.
+//! A depth bias has one step for all of a fixed-point attachment: what one column of a frame shows of it
+//! applies to the others.
 
 use crate::common::{draw, limits};
 use etalon_case::{Library, Profile};
@@ -34,7 +34,7 @@ fn with_depths(scene: &Scene, code: impl Fn(usize, u32) -> u32) -> Frame {
     frame
 }
 
-/// Returns the number of refused samples before and after the step is known.
+/// Returns the number of refused samples without and with knowledge of the step.
 fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
     let judgement = judgements(scene, &limits(api)).remove(0);
     let count = |legal| {
@@ -70,7 +70,7 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
 fn another_step_is_legal_in_all_columns_alike_and_in_no_single_one() {
     let scene = linear();
     let larger = |column: usize, code: u32| code + CONSTANTS[column] / 2;
-    // One and a half steps a unit, in the lower half too.
+    // One and a half steps per unit, in the lower half too.
     let mut whole = with_depths(&scene, larger);
     let mut images = whole.images.iter_mut();
     let depth = images.find(|i| i.aspect == Aspect::Depth).expect("a depth");

@@ -1,5 +1,5 @@
-//! Shaders that compute and passes that read earlier ones: the twins' plain results lie inside the
-//! judging ones, and the rasterizer's frames are legal.
+//! Shaders that compute, and passes that read earlier ones: the twins' plain results are inside the judging
+//! ones, and the rasterizer's frames are legal.
 
 use crate::common::{APIS, all_rules, config, draw, limits, scene};
 use etalon_case::{Library, Profile};
@@ -174,7 +174,7 @@ proptest! {
     }
 }
 
-/// Compares the rasterizer's frame with both bands of every API; returns the frame and its judgement by
+/// Compares the rasterizer's frame with both bands of every API. Returns the frame and its judgement by
 /// Vulkan's rules.
 fn legal(scene: &Scene) -> (Frame, Comparison) {
     let frame = draw(scene);
@@ -262,7 +262,7 @@ fn three_flat_layers_peel_one_by_one() {
     for (image, due) in frame.images.iter().zip(due) {
         assert_eq!(image.sample(1, 2, 0), due, "{}", image.attachment);
     }
-    // A picture with a layer in the place of another one is wrong.
+    // A picture with two layers exchanged is wrong.
     let mut swapped = frame.clone();
     swapped.images[0].codes = frame.images[2].codes.clone();
     for judgement in judgements(&scene, &limits(etalon_frame::Api::Vulkan)) {
@@ -346,7 +346,7 @@ fn a_weighted_composite_over_earlier_passes_is_legal() {
         ));
         let (frame, found) = legal(&scene);
         assert_eq!(found.texels.open, 0);
-        // Where nothing was drawn the background stays.
+        // The background stays where nothing was drawn.
         assert_eq!(frame.images[0].sample(7, 7, 0), [64, 128, 191, 255]);
         assert_ne!(frame.images[0].sample(1, 1, 0), [64, 128, 191, 255]);
     }
@@ -412,7 +412,7 @@ fn check_sampled(id: &str, scene: &Scene, most: u64) {
                     }
                 }
             }
-            // A lattice over a small picture holds all of it.
+            // A lattice over a small picture contains all of it.
             assert!(
                 part.counters == full.counters
                     || part.counters.iter().all(|c| c.range.is_open(c.kind)),
@@ -428,7 +428,7 @@ fn check_sampled(id: &str, scene: &Scene, most: u64) {
 fn a_sampled_judgement_is_the_full_one_where_it_looks() {
     check_sampled("peeled", &peeled(3), 5);
     let library = Library::built_in().expect("built-in files parse");
-    // The large pictures of these are judged on a lattice alone, and whole ones would take long.
+    // The large pictures of these are judged only on a lattice, since whole ones would take long.
     let left_out = ["selftest/", "perf/", "methods/"];
     let files = library.files().iter();
     for file in files.filter(|f| !left_out.iter().any(|area| f.name().starts_with(area))) {

@@ -73,7 +73,7 @@ fn mesh() -> BoxedStrategy<(&'static str, String)> {
     )
         .prop_map(|(topology, positions, values, indices)| {
             let indices = match indices {
-                // A list takes no restart index.
+                // A list has no restart index.
                 Some(all) if topology.ends_with("strip") || topology.ends_with("fan") => {
                     format!(r#","indices":[{}]"#, all.join(","))
                 }
@@ -95,8 +95,8 @@ fn mesh() -> BoxedStrategy<(&'static str, String)> {
     prop_oneof![1 => covered, 2 => loose].boxed()
 }
 
-/// Viewport, depth range and clamp, bias, bounds and scissor rectangle. Where a depth may leave the
-/// viewport's range, the specifications differ and one rasterizer cannot follow all of them.
+/// Viewport, depth range and clamp, bias, bounds and scissor rectangle. If a depth can leave the viewport's
+/// range, the specifications differ, and one rasterizer cannot follow all of them.
 fn raster(ground: Ground, written_depth: bool) -> BoxedStrategy<String> {
     let [w, h] = ground.size.map(|v| v as f32);
     let edge = move |length: f32| {
@@ -293,7 +293,7 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
                 .prop_map(
                     move |((topology, mesh), [color, back], depth, stencil, colors, raster, samples, state)| {
                         let (cull, front, outline, thrown, early) = state;
-                        // Edges that are drawn twice are blended twice, or not: opaque only.
+                        // Edges that are drawn twice may be blended twice or not, so only opaque ones.
                         let opaque = outline.is_empty() || !colors.contains("blend");
                         let outline = if opaque { outline } else { "" };
                         format!(

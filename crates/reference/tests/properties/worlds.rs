@@ -9,7 +9,7 @@ use proptest::prelude::*;
 /// Side of the attachment in texels.
 const SIZE: u32 = 8;
 
-/// A scene that counts in the stencil how often each sample of 8 by 8 is covered. Positions are in
+/// A scene of 8 by 8 texels that counts in the stencil how often each sample is covered. Positions are in
 /// texels from the top left corner.
 fn counting(triangles: &[[[f64; 2]; 3]]) -> Scene {
     let ndc = |v: f64| v / f64::from(SIZE) * 2.0 - 1.0;
@@ -67,7 +67,7 @@ fn counts(set: &TexelSet) -> Vec<i64> {
 
 #[test]
 fn samples_on_edges_count_exactly_once_where_the_rules_say_so() {
-    // Vertices at every second texel centre: even texels lie on vertices, the others on edges.
+    // Vertices at every second texel centre: even texels are on vertices, the others on edges.
     let vertices = grid(2.0, 0.5, 4);
     for bits in 0..8 {
         let scene = counting(&triangulate(&vertices, |_, _| bits));
@@ -172,7 +172,7 @@ fn a_later_draw_does_not_close_an_open_sample() {
 proptest! {
     #![proptest_config(config(300))]
 
-    /// A plane torn into random triangles: every sample once, whatever the snapping.
+    /// A plane divided into random triangles: every sample is covered once, whatever the snapping.
     #[test]
     fn a_random_tiling_covers_every_sample_once(
         jitter in proptest::collection::vec((-0.3_f64..0.3, -0.3_f64..0.3, 0_u8..8), 36),
@@ -181,12 +181,12 @@ proptest! {
         let mut vertices = grid(step, -1.0, 6);
         for (i, (dx, dy, _)) in jitter.iter().enumerate() {
             let v = &mut vertices[i / 6][i % 6];
-            // On the quarter-texel grid every few vertices, so that edges and vertices hit samples.
+            // Every few vertices are on the quarter-texel grid, so that edges and vertices hit samples.
             let snap = |v: f64| if i % 3 == 0 { (v * 2.0).round() / 2.0 } else { v };
             *v = [snap(v[0] + dx * step), snap(v[1] + dy * step)];
         }
         let triangles = triangulate(&vertices, |i, j| jitter[j * 6 + i].2);
-        // Tilings that are folded over are none.
+        // Folded tilings are skipped.
         let area = |[a, b, c]: &[[f64; 2]; 3]| {
             ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
         };

@@ -82,8 +82,7 @@ fn round(case: &str, adapter: &str, number: u32, median: f64, gpu: bool) -> Benc
     })
 }
 
-/// Two cases: softpipe's picture is wrong, lavapipe takes 3 ms, `cpu` as long as is said, the card
-/// 0.1 ms.
+/// Two cases: softpipe's picture is wrong, lavapipe takes 3 ms, `cpu` a given time, the card 0.1 ms.
 pub(crate) fn write(folder: &Path, header: &BenchHeader, cpu: f64, softpipe: Verdict) -> Bench {
     let mut writer = BenchWriter::create(folder, header).unwrap();
     for case in CASES {
@@ -242,7 +241,7 @@ fn the_table_ranks_within_a_kind() {
             .unwrap();
         row[2].clone()
     };
-    // 0.1 % apart: not to be told apart; softpipe is third.
+    // 0.1 % apart, which cannot be distinguished; softpipe is third.
     assert_eq!(rank("vulkan:lavapipe", "Software"), "1");
     assert_eq!(rank("cpu", "Software"), "1");
     assert_eq!(rank("gl:softpipe", "Software"), "3");
@@ -291,7 +290,7 @@ fn a_diff_tells_what_is_worse() {
             .all(|g| !g.worse)
     );
     assert_eq!(diff(&after, &before, Time::Wall).counts()[1], 2);
-    // The card alone has GPU times, and no ruler bears on them.
+    // Only the card has GPU times, and no ruler applies to them.
     let gpu = diff(&before, &same, Time::Gpu);
     assert!(gpu.changes.len() == 2 && gpu.changes.iter().all(|c| c.ruled.is_none()));
 

@@ -1,5 +1,5 @@
 //! The pages in a browser: opened from the file system, used by clicks and keys. One Chromium serves all
-//! checks, since its start costs more than most of them; each check has a tab of its own.
+//! checks, since its start costs more than most of them; each check has its own tab.
 
 mod cdp;
 mod driver;

@@ -1,6 +1,6 @@
-//! Whatever stands in a run folder, its reports are made or a message says why not.
+//! Whatever a run folder contains, its reports are made or a message explains why not.
 //!
-//! `PROPTEST_CASES` says how many inputs are taken.
+//! `PROPTEST_CASES` sets the number of inputs.
 
 #[path = "../../../record/tests/spoil/mod.rs"]
 mod spoil;
@@ -36,7 +36,7 @@ proptest! {
             }
             Ok(written) => {
                 let page = fs::read_to_string(&written.html).unwrap();
-                // The page's own scripts and no other: each stands at its known place.
+                // Only the page's own scripts, each at its known place.
                 let scripts = page.matches("<script").count();
                 let ends = page.matches("</script").count();
                 prop_assert_eq!(scripts, ends);

@@ -1,6 +1,6 @@
-//! deqp-runner's lists, read as deqp-runner 0.24.0 reads them (`RunnerResults::from_csv`). Its package is
-//! no dependency, since it brings a whole test runner; instead `data/deqp` keeps a list as it is written
-//! here, and the status that deqp-runner's own reader gave each line.
+//! deqp-runner's lists, read as deqp-runner 0.24.0 reads them (`RunnerResults::from_csv`). Its package is not
+//! a dependency, since it brings a whole test runner. Instead `data/deqp` keeps a list as it is written here,
+//! and the status that deqp-runner's own reader gave each line.
 
 use std::collections::HashMap;
 

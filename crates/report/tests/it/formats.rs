@@ -1,4 +1,4 @@
-//! The files for other programs, read by somebody else's parsers and schemas.
+//! The files for other programs, read by third-party parsers and schemas.
 
 use crate::deqp::{self, Line};
 use crate::markdown::read_markdown;
@@ -55,7 +55,7 @@ fn hostile(folder: &Path) {
     record_all(folder, &header, &[record, better, nameless]);
 }
 
-/// Three cases, of which one is recorded whole and one is cut off.
+/// Three cases: one record is complete, one is cut off.
 fn truncated(folder: &Path) {
     let ids = ["a/0", "a/1", "a/2"];
     let mut header = header(3, vec![adapter("cpu", Api::Vulkan)]);
@@ -68,7 +68,7 @@ fn truncated(folder: &Path) {
     fs::write(folder.join("cases.txt"), "a/0\na/1\na/2\n").unwrap();
 }
 
-/// Runs of every kind that a report has to stand.
+/// Runs of every kind that a report must handle.
 fn runs() -> Vec<(&'static str, tempfile::TempDir)> {
     let made = |name, make: &dyn Fn(&Path)| {
         let folder = tempfile::tempdir().unwrap();
@@ -214,7 +214,7 @@ fn ctrf_keeps_to_the_schema_of_the_format() {
         let (start, stop) = (&summary["start"], &summary["stop"]);
         assert!(start.as_u64().unwrap() <= stop.as_u64().unwrap(), "{name}");
     }
-    // The schema is not one that takes anything.
+    // The schema does not accept everything.
     let mut wrong = ctrf(&write(runs()[0].1.path()).unwrap());
     wrong["results"]["tests"][0]["status"] = "expected".into();
     assert!(!validator.is_valid(&wrong));
@@ -265,9 +265,9 @@ fn deqp_runner_reads_its_lists() {
         // One test of the other format stands for the run itself.
         let tests = document["results"]["tests"].as_array().unwrap().len() - 1;
         let due = match name {
-            // Two of three ids are none that deqp-runner can read, and so is the third, which is empty.
+            // deqp-runner cannot read two of the three ids, nor the third, which is empty.
             "hostile" => 0,
-            // Two that are missing are listed as such.
+            // Two missing ones are listed as missing.
             "truncated" => 3,
             _ => tests,
         };
@@ -312,7 +312,7 @@ fn deqp_runner_understands_every_status() {
         let Line { status, regression } = deqp::recorded(&record.case);
         assert_eq!(status, due, "{record:?}");
         assert_eq!(own[record.case.as_str()], due, "{record:?}");
-        // What speaks against the run speaks against it there, but for flakes, which deqp-runner lets pass.
+        // Everything that fails the run fails it there too, except flakes, which deqp-runner passes.
         let flake = record.verdict == Verdict::Flaky;
         assert_eq!(regression, record.unexpected() && !flake);
     }
@@ -339,7 +339,7 @@ fn missing_records_are_missing_in_lists_of_deqp_runner() {
     let written = write(folder.path()).unwrap();
     let list = text(&written.results[0]);
     assert_eq!(list, "a/0,Pass,0\na/1,Missing,0\na/2,Missing,0\n");
-    // Without the list of cases they are counted.
+    // Without the list of cases, missing ones are only counted.
     fs::remove_file(folder.path().join("cases.txt")).unwrap();
     let list = text(&write(folder.path()).unwrap().results[0]);
     assert!(
@@ -354,7 +354,7 @@ fn the_summary_holds_no_markup_of_others() {
         let summary = text(&write(folder.path()).unwrap().summary);
         let read = read_markdown(&summary);
         assert!(!summary.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{name}");
-        // A mention is one when a letter follows; in code there are none.
+        // A mention needs a following letter; code has no mentions.
         let mentions = Parser::new(&summary).any(|e| match e {
             Event::Text(text) => text.contains("@me") || text.contains("#1"),
             _ => false,
@@ -409,7 +409,7 @@ fn the_summary_tells_counts_records_and_commands() {
 #[test]
 fn files_of_a_huge_run_keep_their_limits() {
     let folder = tempfile::tempdir().unwrap();
-    // Ids long enough that a list of them would not fit, were they not cut.
+    // Ids so long that a list of them fits only if they are cut.
     let long = "x|".repeat(500);
     let adapters: Vec<_> = (0..10)
         .map(|i| adapter(&format!("a:{i}"), Api::Vulkan))

@@ -8,15 +8,15 @@ use etalon_record::{Machine, Time, Verdict};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Broken in the last night on the first adapter, and in no other.
+/// Broken in the last night, only on the first adapter.
 pub(crate) const BROKEN: &str = "depth/compare/compare=less";
 /// Flaky since the last night.
 pub(crate) const FLAKY: &str = "depth/compare/compare=equal";
 /// Fixed in the third night.
 pub(crate) const FIXED: &str = "blend/factors/src=one";
-/// Broken in the last night, which somebody calls ignored.
+/// Broken in the last night, and triaged as ignored.
 pub(crate) const IGNORED: &str = "blend/factors/src=zero";
-/// In the last night alone.
+/// Only in the last night.
 pub(crate) const NEW: &str = "blend/factors/src=two";
 /// Slower since the eleventh bench.
 pub(crate) const SLOWER: &str = "perf/fill/layers=8";

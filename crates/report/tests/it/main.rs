@@ -1,5 +1,5 @@
-//! Reports made from recorded folders, read again by parsers of others, by a browser, and by people: what
-//! a report prints is kept under `snapshots/`. To change it, run with `INSTA_UPDATE=always` and review the
+//! Reports made from recorded folders, read again by third-party parsers, by a browser, and by people:
+//! printed reports are kept under `snapshots/`. To change them, run with `INSTA_UPDATE=always` and review the
 //! difference.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 

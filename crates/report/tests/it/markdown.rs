@@ -1,4 +1,4 @@
-//! A summary in Markdown as a reader of Markdown takes it.
+//! A summary in Markdown, parsed as Markdown.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 

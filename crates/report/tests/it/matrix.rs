@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 const TEXELS: u64 = 1 << 20;
-/// Seconds that a frame costs beside its layers.
+/// Seconds that a frame costs in addition to its layers.
 const FIXED: f64 = 0.004;
 /// Cells with the seconds that a layer takes.
 const CELLS: [(&str, f64); 4] = [
@@ -77,7 +77,7 @@ fn round(case: &str, adapter: &str, number: u32, time: f64) -> BenchLine {
     })
 }
 
-/// A bench with every cell of [`CELLS`], and one that the second adapter does not have.
+/// A bench with every cell of [`CELLS`], and a cell that the second adapter lacks.
 pub(crate) fn write(folder: &Path) -> Bench {
     let header = matrix_header();
     let mut writer = BenchWriter::create(folder, &header).unwrap();
@@ -191,7 +191,7 @@ fn the_page_holds_every_cell_of_every_adapter_and_its_samples() {
     let [path, _] = write_bench(folder.path()).unwrap().matrix.unwrap();
     let html = fs::read_to_string(path).unwrap();
     assert!(!html.contains("<r8unorm>"));
-    // Links lead to samples, and each place stands once.
+    // Links lead to samples, and each place occurs once.
     let ids: Vec<&str> = html
         .split(" id=\"s-")
         .skip(1)

@@ -32,7 +32,7 @@ fn page(path: &Path) -> String {
             html = format!("{before}{start}{end}{after}");
         }
     }
-    // The digest of the script, which any change of it changes.
+    // The digest of the script, which changes with the script.
     if let Some((before, rest)) = html.split_once("'sha256-") {
         let (_, after) = rest.split_once('\'').unwrap();
         html = format!("{before}'sha256-…'{after}");

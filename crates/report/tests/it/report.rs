@@ -17,7 +17,7 @@ fn read(written: &RunReports) -> (String, String) {
     )
 }
 
-/// One case per verdict on one adapter, and one more each: expected, due, missed, better.
+/// One case per verdict on one adapter, and one case each: expected, due, missed, better.
 fn every_verdict(folder: &Path) -> Vec<Record> {
     let adapters = vec![adapter("gl:a", Api::OpenGl), adapter("gl:b", Api::OpenGl)];
     let cases = Verdict::ALL.len() as u64 + 4;
@@ -261,7 +261,7 @@ fn the_table_counts_and_lists() {
     let text = table(&run, TableOptions::default());
     assert!(!text.contains('\u{1b}'));
     assert!(text.contains("24 unexpected records"), "{text}");
-    // Whatever became of a case is counted in one column; the last one holds the rate.
+    // Every outcome of a case is counted in one column; the last column has the rate.
     let options = TableOptions {
         width: 200,
         color: false,
@@ -314,7 +314,7 @@ fn methods_get_a_page_of_charts() {
     let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
     links_lead_somewhere(&page);
     assert_eq!(page.matches("<script").count(), 1, "its own");
-    // What needs it says so.
+    // The elements that need the script say so.
     assert!(page.contains("<noscript>") && page.contains("disabled"));
     assert!(!page.contains("http://") && !page.contains("https://"));
     // Two questions and three scenes on four adapters, and one chart of stability for each scene, since the made-up errors
@@ -346,7 +346,7 @@ fn methods_get_a_page_of_charts() {
         3,
         "never among the others"
     );
-    // Every record stands in a table, and every scene has its command.
+    // Every record is in a table, and every scene has its command.
     assert_eq!(
         page.matches("<tr><th scope=\"row\">").count(),
         records + claims(&page)
@@ -474,7 +474,7 @@ fn pictures_of_methods_are_shown_when_they_are_pictures() {
     fs::write(pictures.join("c.png"), png).unwrap();
     let written = write(&folder.path().join("with")).unwrap();
     let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
-    // The truth stands beside every setting, the picture at its own.
+    // The truth is next to every setting, the picture at its own.
     let images = |page: &str| {
         (
             page.matches("<img ").count(),

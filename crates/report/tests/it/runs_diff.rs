@@ -1,4 +1,4 @@
-//! Two runs held against each other: planted changes of every kind are found, and none other.
+//! Comparisons of two runs: planted changes of every kind are found, and no others.
 
 use crate::runs_made::{Two, one_adapter, record_all, rich};
 use crate::synthetic::{self, adapter, header};
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// The change that one planted difference is found as: its direction and what differs.
+/// The change that a planted difference is reported as: its direction and what differs.
 fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
     let two = Two::new();
     let old: Vec<Record> = (0..5).map(|i| rich(&format!("blend/f/case={i}"))).collect();
@@ -28,7 +28,7 @@ fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
     assert!(found.changes.len() <= 1, "none but the planted one");
     let changed = found.changes.len() as u64;
     assert_eq!(found.pairs[0].same, 5 - changed);
-    // The one that changed is listed, and no other: methods have a line each, of their times.
+    // Only the changed case is listed; each method has a line about its times.
     let text = table(&found, TableOptions::default());
     let page = two.page(&found);
     let listed = |start: &str| text.lines().filter(|l| l.starts_with(start)).count();
@@ -134,7 +134,7 @@ fn times_messages_and_stories_are_no_change() {
     assert_eq!(same, None);
 }
 
-/// A failing record with its frame, in a run of its own.
+/// A failing record with its frame, in its own run.
 fn with_frame(folder: &Path, change: impl FnOnce(&mut etalon_record::FrameFile)) -> Record {
     let writer = RunWriter::create(folder, &one_adapter(1)).unwrap();
     let record = synthetic::record(&writer, "depth/f/case=1", "gl:a", Verdict::Fail, 7);
@@ -268,7 +268,7 @@ fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
     assert_eq!((found.lost(), found.only.len()), (0, 2));
     assert!(found.only.iter().all(|o| o.side == Side::After));
 
-    // Nor where somebody asked for fewer cases.
+    // Nor if fewer cases were selected.
     let mut fewer = one_adapter(1);
     fewer.settings.selection = selection_digest(["a/f/c=0"]);
     record_all(&two.after(), &fewer, &records[..1]);
@@ -305,7 +305,7 @@ fn a_case_that_both_select_and_the_second_lacks_is_worse() {
         .collect();
     assert_eq!(worse, [("b", true), ("c", false), ("d", false)]);
     assert!(found.worse());
-    // The shard that the case does not belong to is not to draw it.
+    // A shard must not draw a case of another shard.
     let index = 3 - shard_of("b", 2);
     let shard = Some(Shard { index, count: 2 });
     selected(&two.after(), &["a", "b", "d"], shard, &[]);
@@ -379,7 +379,7 @@ fn a_run_that_was_cut_off_is_told() {
         ["The second run is incomplete: 1 of 3 records are missing."]
     );
     assert_eq!(found.lost(), 1);
-    // A line that is damaged in the middle is no comparison.
+    // A line that is damaged in the middle prevents the comparison.
     fs::write(&path, text.replacen("\"case\"", "\"cas\"", 1)).unwrap();
     let error = diff(&two.before(), &two.after(), None)
         .unwrap_err()
@@ -661,8 +661,8 @@ fn any_run() -> impl Strategy<Value = Vec<Record>> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// Any run held against itself is no change, whatever it holds; any two runs give figures that add up,
-    /// a page and a text.
+    /// Comparing any run with itself gives no change; any two runs give figures that add up, a page and a
+    /// text.
     #[test]
     fn any_two_runs_can_be_compared(old in any_run(), new in any_run()) {
         let two = Two::new();

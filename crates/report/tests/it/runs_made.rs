@@ -1,4 +1,4 @@
-//! Runs to be held against each other.
+//! Runs to compare.
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, CounterKind, CounterOutcome, Distance};
@@ -49,7 +49,7 @@ pub(crate) fn record_all(folder: &Path, header: &Header, records: &[Record]) {
     records.iter().for_each(|r| writer.append(r).unwrap());
 }
 
-/// A record with something of everything that can differ.
+/// A record with a value for everything that can differ.
 pub(crate) fn rich(case: &str) -> Record {
     let mut record = Record::new(case, "gl:a", Verdict::Imprecise);
     record.texels.total = 256;

@@ -1,4 +1,4 @@
-//! Sites: what they take, what they refuse, and that no link of one leads nowhere.
+//! Sites: the folders that they accept and refuse, and that no link is broken.
 
 use crate::browser::made;
 use etalon_report::{SITE_FILE, write_site};

@@ -1,11 +1,11 @@
-//! A run with every verdict, taken in every way.
+//! A run with every verdict, expected in every way.
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::Api;
 use etalon_record::{Expected, Header, LossKind, ProcessEnd, Record, RunWriter, Verdict};
 use std::path::Path;
 
-/// One record per verdict on `gl:a`, and one more for each way in which it can be taken.
+/// One record per verdict on `gl:a`, and another for each way in which it can be expected.
 pub(crate) fn every_verdict(folder: &Path) -> Vec<Record> {
     let mut records: Vec<Record> = Verdict::ALL
         .into_iter()
@@ -26,7 +26,7 @@ pub(crate) fn every_verdict(folder: &Path) -> Vec<Record> {
         record.improves = Some(due);
         records.push(record);
     }
-    // Better than a crash, and bad all the same.
+    // Better than a crash, but still bad.
     let mut still_bad = Record::new("blend/still-bad", "gl:a", Verdict::Fail);
     still_bad.improves = Some(Verdict::Crash);
     records.push(still_bad);

@@ -1,5 +1,5 @@
-//! Prepared scenes that are submitted again and again: the worker keeps them, and every frame is held
-//! against the first.
+//! Prepared scenes that are submitted repeatedly: the worker keeps them, and every frame is compared with the
+//! first.
 
 use crate::worker::{FAULT, launch, serve};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
@@ -11,7 +11,7 @@ use etalon_record::Verdict;
 use etalon_runner::{Worker, draw_frames};
 use etalon_scene::Scene;
 
-/// The rasterizer, whose clears are a code off from some submission of a prepared scene on.
+/// The rasterizer, with clears that are one code off from a certain submission of a prepared scene on.
 struct Tiring {
     inner: CpuBackend,
     from: u32,
@@ -72,7 +72,7 @@ fn worker() {
     serve(|| Ok(Box::new(tiring(from.parse().unwrap()))));
 }
 
-/// A clear to a colour of which several codes are legal.
+/// A clear to a colour with several legal codes.
 fn case() -> Case {
     let text = r#"{
         "about": "A clear again.", "spec": ["none"],
@@ -90,7 +90,7 @@ fn case() -> Case {
 #[test]
 fn a_frame_that_changes_with_the_submissions_is_no_longer_the_same() {
     let case = case();
-    // After the first one, 1, 2 and 64 more: 2, 4 and 68 in all.
+    // After the first one, 1, 2 and 64 others: 2, 4 and 68 in all.
     for (from, variant) in [
         (2, "1-more"),
         (3, "2-more"),

@@ -52,7 +52,7 @@ impl Backend for Faulty {
 impl Prepared for FaultyScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         self.frames += 1;
-        // One frame is drawn to be judged, several are when they are timed.
+        // One frame is drawn for judging, several for timing.
         match (self.fault, self.frames) {
             ("dies", 2) | ("dies at once", 1) => std::process::abort(),
             ("lost", 2) => Err(BackendError::lost("planted")),
@@ -180,14 +180,14 @@ fn adapters_take_turns_case_after_case_and_round_after_round() {
             assert!((1..=3).contains(&round.read_back.len()), "{round:?}");
         }
     }
-    // The order of measuring is that of the clock.
+    // Measurements follow the clock.
     let rounds = |n: usize| bench.records.iter().map(move |r| r.rounds[n].at);
     let times: Vec<f64> = (0..ROUNDS as usize).flat_map(rounds).collect();
     assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
 }
 
-/// Benches a faulty adapter beside a good one. Returns the record of the marked case; all others are
-/// complete.
+/// Benches a faulty adapter together with a good one. Returns the record of the marked case; all others must
+/// be complete.
 fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchSummary) {
     let (bench, outcome, _) = bench(vec![adapter("faulty", fault), adapter("good", "")]);
     let mut found = None;

@@ -4,7 +4,7 @@ use etalon_case::{Case, Library, Profile};
 use std::fs;
 use std::path::Path;
 
-/// Cases whose heights count up from 1. Their case file is written to the folder.
+/// Returns cases whose heights count up from 1. Writes their case file to the folder.
 pub(crate) fn cases(folder: &Path, count: u32) -> Vec<Case> {
     let text = r#"{
         "about": "An attachment is filled.", "spec": ["none"],

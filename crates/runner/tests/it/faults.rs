@@ -19,7 +19,7 @@ use std::time::Duration;
 
 /// The height of the scene that goes wrong.
 const MARKED: u32 = 3;
-/// The start of faults of scenes without passes, which round trips are, in place of the marked one.
+/// The prefix of faults in scenes without passes (round trips) instead of the marked scene.
 const TRIP: &str = "trip:";
 const CASES: u32 = 9;
 
@@ -52,11 +52,11 @@ fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
             Ok(())
         }
         "half" => {
-            // A message of 16 bytes of which 2 come.
+            // Announces a message of 16 bytes and sends 2 of them.
             protocol().write_all(&[16, 0, 0, 0, 1, 0]).unwrap();
             std::process::exit(0)
         }
-        // The picture is changed behind it.
+        // The picture is changed afterwards.
         "wrong" => Ok(()),
         "lost" => Err(BackendError::lost(word())),
         "resource" => Err(BackendError::refused("a buffer", word())),
@@ -156,7 +156,7 @@ fn broken(launch: &Launch) -> String {
     }
 }
 
-/// Puts a shell's script in front of a worker, which gets its command as "$0" "$@".
+/// Puts a shell script in front of a worker; the script gets the worker's command as "$0" "$@".
 fn behind(mut launch: Launch, script: &str) -> Launch {
     launch.launcher = Some(Launcher {
         prefix: ["/bin/sh", "-c", script].map(str::to_owned).to_vec(),
@@ -196,7 +196,7 @@ fn a_launcher_that_prints_or_brings_no_worker_is_told_from_a_driver() {
         Err(StartError::Launcher(text)) => assert!(text.contains("`/nowhere/ssh`"), "{text}"),
         _ => panic!("started"),
     }
-    // Behind the greeting it is the driver again.
+    // After the greeting, the driver itself fails.
     match Worker::start(&behind(launch("panic"), PLAIN)) {
         Err(StartError::Broken(text)) => assert!(text.contains("planted panic"), "{text}"),
         _ => panic!("not broken"),
@@ -211,7 +211,7 @@ fn a_launcher_hides_how_its_worker_ended() {
     let (records, _) = run(behind(launch("abort@submit"), PLAIN));
     let lost: Vec<_> = records.iter().filter_map(|r| r.process.as_ref()).collect();
     assert_eq!(lost.len(), 1);
-    // A shell says 128 and the signal, another launcher something else.
+    // A shell returns 128 plus the signal; other launchers return something else.
     assert_eq!((lost[0].signal, lost[0].exit), (None, None));
     let crashed = records.iter().find(|r| r.process.is_some()).unwrap();
     let message = &crashed.message;
@@ -276,7 +276,7 @@ fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
     run_with(launch, 1, &[])
 }
 
-/// Runs all cases on so many workers, round trips first. Returns the records, in the order of the cases.
+/// Runs all cases on this many workers, round trips first. Returns the records, in the order of the cases.
 fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(&folder.path().join("cases"), CASES);
@@ -295,7 +295,7 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         adapters: vec![(launch, worker)],
         dead: Vec::new(),
         options: Options {
-            // A second look starts workers of its own, which these tests count.
+            // A recheck starts additional workers, which these tests count.
             recheck: 0,
             timeout: Duration::from_secs(10),
             jobs,

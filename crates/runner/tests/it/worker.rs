@@ -1,4 +1,4 @@
-//! The workers: this executable itself, in which an ignored test serves a faulty backend.
+//! The workers: this executable itself; an ignored test in it serves a faulty backend.
 //!
 //! libtest prints to standard output, so the protocol goes to descriptor 3.
 
@@ -15,9 +15,9 @@ pub(crate) const FAULT: &str = "ETALON_TEST_FAULT";
 /// The variable with a file that gets one line per start; numbers after it are starts that fail.
 const STARTS: &str = "ETALON_TEST_STARTS";
 
-/// The variable of a worker that runs behind a launcher.
+/// The variable of a worker that a launcher starts.
 pub(crate) const LAUNCHED: &str = "ETALON_TEST_LAUNCHED";
-/// What such a worker is told to open.
+/// The request to such a worker.
 pub(crate) const TO_OPEN: &str = "what to open";
 
 /// The command that starts a worker by running an ignored test.
@@ -43,7 +43,7 @@ pub(crate) fn launch(test: &str, adapter: &str, fault: &str) -> Launch {
     }
 }
 
-/// Counts a worker's starts in a file and has some of them fail.
+/// Counts a worker's starts in a file, and lets some of them fail.
 pub(crate) fn fail_starts(launch: &mut Launch, file: &Path, failing: &str) {
     let starts = format!("{} {failing}", file.display());
     launch.environment.push((STARTS.to_owned(), Some(starts)));

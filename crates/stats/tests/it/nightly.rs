@@ -8,11 +8,11 @@ use oorandom::Rand64;
 pub(crate) const RUNS: usize = 200;
 /// Steps in a series.
 pub(crate) const STEPS: usize = 3;
-/// The fewest runs between steps, and from the ends.
+/// The fewest runs between steps, and between steps and the ends.
 const APART: u64 = 20;
-/// A change so many runs from a step is that step.
+/// A change at most this many runs from a step is that step.
 const TOLERANCE: usize = 5;
-/// Rounds of a run; their spread is that of runs times the root of this.
+/// Rounds of a run; their spread is that of the runs times the square root of this.
 const ROUNDS: f64 = 9.0;
 
 /// A machine and its noise; deviations and drifts are of the logarithm.
@@ -31,9 +31,9 @@ pub(crate) struct Machine {
     pub(crate) pace: f64,
     /// The probability to keep the pace for another run.
     pub(crate) stay: f64,
-    /// The size of steps of the machine, which the ruler shares, 40 runs from the steps of the driver.
+    /// The size of the machine's steps, which the ruler shares, 40 runs from the driver's steps.
     pub(crate) moved: f64,
-    /// Deviation of the ruler, where there is one.
+    /// Deviation of the ruler, if there is one.
     pub(crate) ruler: Option<f64>,
 }
 
@@ -116,7 +116,7 @@ pub(crate) fn normal(random: &mut Rand64) -> f64 {
     radius * (std::f64::consts::TAU * random.rand_float()).cos()
 }
 
-/// A series of a machine with steps of a size up or down; none of size 0.
+/// A series of a machine with steps of this size up or down; no steps for size 0.
 pub(crate) fn series(random: &mut Rand64, machine: Machine, size: f64) -> Series {
     let free = RUNS as u64 - (STEPS as u64 + 1) * APART;
     let mut steps: Vec<u64> = (0..STEPS).map(|_| random.rand_range(0..free)).collect();
@@ -196,7 +196,7 @@ impl Score {
     }
 }
 
-/// The runs at which somebody should look.
+/// The runs that a person should look at.
 pub(crate) fn alarms(points: &[Point]) -> Vec<usize> {
     let changes = change_points(points).expect("simulated times are above zero");
     let alarms = changes.points.iter().filter(|point| point.is_alarm());

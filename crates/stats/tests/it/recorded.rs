@@ -39,7 +39,7 @@ fn bench(rounds: &[Round], factor: f64) -> Samples {
     Samples::new(&frames).unwrap().with_ruler(&rulers).unwrap()
 }
 
-/// Two benches of so many rounds each, drawn from all without replacement.
+/// Two benches of this many rounds each, drawn from all rounds without replacement.
 fn drawn(rounds: &mut [Round], each: usize, random: &mut Rand64) -> (Vec<Round>, Vec<Round>) {
     for i in 0..2 * each {
         let with = random.rand_range(i as u64..rounds.len() as u64) as usize;
@@ -90,8 +90,8 @@ fn the_same_work_is_not_called_different() {
 fn planted_changes_are_found_in_recorded_samples() {
     let mut rounds = recorded(STEADY);
     let mut random = Rand64::new(2);
-    // Two per cent is less than this recording could show in most trials; whatever is said of it must
-    // be right all the same.
+    // Two percent is less than this recording could show in most trials; every statement about it must still
+    // be right.
     for (change, seen_at_least) in [(1.02, 0), (1.05, 5), (1.10, 95)] {
         let (mut above, mut found) = (0, 0);
         for trial in 0..100 {

@@ -1,4 +1,4 @@
-//! Change points of series: by hand, by what must hold for any, simulated, and recorded.
+//! Change points of series: made by hand, by properties of any series, simulated, and recorded.
 
 use crate::nightly::{MACHINES, Machine, RUNS, Score, alarms, normal, series};
 use etalon_stats::{Cause, Changes, MIN_RUNS, Point, PointError, Samples, change_points, quantile};
@@ -75,7 +75,7 @@ fn series_that_say_nothing() {
     }
     let two = found(&[1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
     assert_eq!(indices(&two), [4]);
-    // Wide intervals within the runs say that the agreement is chance.
+    // Wide intervals within the runs show that the agreement is chance.
     let wide = |p: Point| Point {
         interval: Some([p.median / 3.0, p.median * 3.0]),
         ..p
@@ -150,7 +150,7 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
     assert_eq!(with(1.07, 0.003, &mut random), Cause::Machine);
     assert_eq!(with(1.03, 0.003, &mut random), Cause::Driver);
     assert_eq!(with(1.0, 0.3, &mut random), Cause::Unclear);
-    // The other way round the times have not stepped by what the ruler says.
+    // In the other direction, the times did not step by the ruler's step.
     assert_eq!(with(0.8, 0.003, &mut random), Cause::Unclear);
 }
 
@@ -269,7 +269,7 @@ fn run_by_run_gives_the_same_as_all_at_once() {
         let due = change_points(&all).unwrap();
         assert_eq!(indices(&grown), indices(&due), "{seed}");
         assert_eq!(grown.settled(), 270);
-        // What lies before is not read.
+        // Earlier points are not read.
         let mut other = all.clone();
         other[..200].fill(Point {
             median: 9.0,
@@ -371,7 +371,7 @@ fn planted_steps_are_found_and_little_else() {
 
 #[test]
 fn noise_alone_gives_no_alarm() {
-    // 6,000 runs each; the paces without a ruler (7) are steps by any measure.
+    // 6,000 runs each; without a ruler, the paces (7) look like steps.
     for (at, machine) in MACHINES.into_iter().enumerate().filter(|(at, _)| *at != 7) {
         let score = score(machine, 0.0);
         println!("{at}: {} in {} runs", score.wrong, score.runs);
@@ -379,7 +379,7 @@ fn noise_alone_gives_no_alarm() {
     }
 }
 
-/// Benches of `ci/history/record`: the points, and the runs from which on frames were made longer or shorter.
+/// Benches of `ci/history/record`: the points, and the runs at which frames were made longer or shorter.
 fn recorded(name: &str) -> (Vec<Point>, Vec<usize>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/history");
     let text = std::fs::read_to_string(folder.join(name)).unwrap();
@@ -434,7 +434,8 @@ fn recorded_steps_are_found_and_little_else() {
 
 #[test]
 fn a_machine_that_is_busy_hides_steps_and_says_so() {
-    // Beside other work frames and the ruler took up to twice as long for hours, and steps of 3 to 11 % are planted.
+    // During other work, frames and the ruler took up to twice as long for hours; steps of 3 to 11 % are
+    // planted.
     for name in ["recorded-busy-1.csv", "recorded-busy-2.csv"] {
         let (points, steps) = recorded(name);
         let changes = change_points(&points).unwrap();

@@ -80,7 +80,7 @@ fn bench(random: &mut Rand64, noise: Noise, rounds: usize, factor: f64) -> Sampl
         let mut deviation = noise.frame * normal(random);
         let mut frames = Vec::new();
         for _ in 0..FRAMES {
-            // Half of what a frame deviates by comes from the one before it.
+            // Half of a frame's deviation comes from the frame before it.
             deviation = 0.5 * deviation + 0.75_f64.sqrt() * noise.frame * normal(random);
             let mut time = 0.003 * factor * (own + deviation).exp();
             if chance(random, noise.outliers) {
@@ -96,8 +96,8 @@ fn bench(random: &mut Rand64, noise: Noise, rounds: usize, factor: f64) -> Sampl
 
 #[test]
 fn the_same_thing_twice_is_seldom_called_different() {
-    // Benches of different lengths, of machines that are noisier one day than another, and of ones
-    // that change their pace between benches.
+    // Benches of different lengths, of machines whose noise varies from day to day, and of machines that
+    // change their pace between benches.
     let paced = Noise {
         pace: 0.05,
         ..USUAL
@@ -136,7 +136,7 @@ fn the_same_thing_twice_is_seldom_called_different() {
         println!("{seed}: {wrong} of {trials}; {outside} without the minimum");
         assert!(wrong <= most(trials, LEVEL), "{seed}: {wrong} of {trials}");
         if first == second && first.pace == 0.0 {
-            // The level holds for the interval alone, where nothing but chance is at work.
+            // The level holds only for the interval, and only if nothing but chance acts.
             assert!(
                 outside <= most(trials, LEVEL),
                 "{seed}: {outside} of {trials}"
@@ -190,7 +190,7 @@ fn planted_changes_above_the_smallest_visible_are_found() {
                 } else {
                     below_found += u32::from(outcome == due);
                 }
-                // Never the wrong way round.
+                // The direction is never wrong.
                 assert!(outcome == due || !told(outcome), "{noise:?} {factor}");
             }
             println!(
@@ -235,8 +235,8 @@ fn the_smallest_visible_change_is_neither_promised_too_small_nor_far_too_large()
         println!("{seed}: {found}, {found_half}, {promised} of {trials}");
         assert!(share(found) >= POWER, "{noise:?}: {found}");
         assert!(share(found_half) <= 0.6, "{noise:?}: {found_half}");
-        // What one bench promises of two others holds a little less often: it cannot know of
-        // disturbances that it did not have.
+        // What one bench predicts for two others holds a little less often: it cannot know about disturbances
+        // that it did not have.
         assert!(share(promised) >= POWER - 0.1, "{noise:?}: {promised}");
     }
 }

@@ -62,7 +62,7 @@ fn of_two_at_the_same_depth_the_later_is_in_front() {
             ],
             [
                 pane(slanted, Paint::Flat([1.0, 0.0, 0.0, 1.0])),
-                // Other corners on the same plane, which rounding places apart.
+                // Other corners on the same plane, which rounding moves apart.
                 Surface {
                     corners: [[-7.0, -9.0], [39.0, -9.0], [-7.0, 50.3]]
                         .map(|[x, y]| [x, y, slanted(x, y)])
@@ -103,7 +103,7 @@ fn layers_accumulate_as_a_power() {
 
 #[test]
 fn panes_that_pass_through_each_other_swap_along_the_line() {
-    // Of the texel's area, this much lies where the second pane's depth is below 0.5.
+    // The part of the texel's area in which the second pane's depth is below 0.5.
     type Depth = fn(f64, f64) -> f64;
     let cases: [(Depth, f64); 4] = [
         (|x, _| x + 0.2, 0.3),
@@ -123,7 +123,7 @@ fn panes_that_pass_through_each_other_swap_along_the_line() {
 
 #[test]
 fn three_panes_through_one_point_make_six_orders() {
-    // At 60 degrees from each other through the middle, each nearest in a third of all directions.
+    // At 60 degrees to each other through the middle, each the nearest in a third of all directions.
     let turned = |degrees: f64, color: [f64; 4]| {
         let (sin, cos) = degrees.to_radians().sin_cos();
         pane(

@@ -1,4 +1,4 @@
-//! Scenes by hand.
+//! Scenes made by hand.
 
 use etalon_methods::{Coverage, Paint, Surface, Truth};
 
@@ -15,7 +15,7 @@ pub(crate) fn rectangle(low: [f64; 2], high: [f64; 2], depth: f64, color: [f64; 
     }
 }
 
-/// A rectangle that reaches beyond a picture of 16 by 16 texels, its depth a function of the position.
+/// A rectangle larger than a picture of 16 by 16 texels, with depth as a function of the position.
 pub(crate) fn pane(depth: impl Fn(f64, f64) -> f64, paint: Paint) -> Surface {
     let corners = [[-4.0, -4.0], [20.0, -4.0], [20.0, 20.0], [-4.0, 20.0]];
     Surface {
@@ -70,7 +70,7 @@ pub(crate) fn reduced(size: [u32; 2], rgb: &[[f64; 3]], times: u32) -> Vec<[f64;
 pub(crate) fn largest_difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().flatten().zip(b.iter().flatten());
-    // Not by `max`, which passes over a NaN.
+    // `max` would skip a NaN.
     pairs.fold(0.0, |worst: f64, (a, b)| {
         let difference = (a - b).abs();
         if difference <= worst {

@@ -46,7 +46,7 @@ fn a_picture_has_no_distance_from_itself() {
         (found.flip, found.wrong, found.truth_error),
         (0.0, 0.0, 0.0)
     );
-    // Eight bits: half a code at most, uniformly distributed.
+    // 8 bits: at most half a code, uniformly distributed.
     let found = distance(&expected, &image(TextureFormat::Rgba8Unorm, at)).unwrap();
     assert!(
         found.max <= 0.5 / 255.0 + 1e-12 && found.rmse > 0.0,
@@ -100,7 +100,7 @@ fn codes_stand_for_linear_values_and_missing_channels_for_nothing() {
     );
     let found = distance(&plain([1.0, 0.5, 0.0]), &red).unwrap();
     assert_eq!((found.max, found.wrong), (0.5, 1.0));
-    // Beyond 1 nothing is cut off, except for FLIP.
+    // Values beyond 1 are not clamped, except for FLIP.
     let bright = image(TextureFormat::Rgba16Float, |_, _| vec![3.0, 1.0, 1.0, 1.0]);
     let found = distance(&plain([1.0; 3]), &bright).unwrap();
     assert_eq!((found.max, found.flip, found.wrong), (2.0, 0.0, 1.0));
@@ -150,8 +150,8 @@ fn what_cannot_be_compared_has_no_distance() {
     assert_eq!(distance(&empty, &image), None);
 }
 
-/// The codes of two pictures of 16 by 8 texels, which the page of methods compares too: its own FLIP is held
-/// against this number in `crates/report/tests/it/browser/methods.rs`.
+/// The codes of two pictures of 16 by 8 texels. The page of methods compares them too:
+/// `crates/report/tests/it/browser/methods.rs` checks its own FLIP against this number.
 #[test]
 fn two_known_pictures_have_the_flip_that_pages_must_find() {
     let truth = |x: u32, y: u32| [(x * 16) as u8, (y * 32) as u8, (x * y * 2) as u8];

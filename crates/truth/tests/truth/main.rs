@@ -1,4 +1,4 @@
-//! Truths compared with closed forms, with sampling, and with themselves in another resolution.
+//! Truths compared with closed forms, with sampling, and with truths at another resolution.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod closed;

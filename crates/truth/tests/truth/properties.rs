@@ -104,7 +104,7 @@ fn seen(what: &Truth, p: [f64; 2]) -> Option<[f64; 3]> {
     if layers.windows(2).any(|pair| pair[1].0 - pair[0].0 < 1e-9) {
         return None;
     }
-    // Front to back, with what light is left.
+    // Front to back, with the remaining light.
     let (mut color, mut left) = ([0.0; 3], 1.0);
     let background = (
         0.0,
@@ -124,7 +124,7 @@ fn seen(what: &Truth, p: [f64; 2]) -> Option<[f64; 3]> {
     Some(color)
 }
 
-/// Inserts points into a square of two triangles, each into one triangle, which becomes three.
+/// Inserts points into a square of two triangles. Each point splits one triangle into three.
 fn triangulated(points: &[(usize, f64, f64)]) -> Vec<[[f64; 2]; 3]> {
     let corners = [[-1.0, -1.0], [5.0, -1.0], [5.0, 5.0], [-1.0, 5.0]];
     let mut triangles = vec![
@@ -140,7 +140,7 @@ fn triangulated(points: &[(usize, f64, f64)]) -> Vec<[[f64; 2]; 3]> {
             (s, t)
         };
         let mut p = [0, 1].map(|i| a[i] + s * (b[i] - a[i]) + t * (c[i] - a[i]));
-        // On a centre where there is one inside.
+        // On a texel centre, if one is inside.
         let snapped = p.map(|v| v.floor() + 0.5);
         let cross = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
             (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -240,7 +240,7 @@ proptest! {
         dense.coverage = Coverage::Center;
         let sampled = reduced(dense.size, &truth(&dense).rgb, 96);
         let difference = largest_difference(&picture.rgb, &sampled);
-        // Midpoints of 96 by 96 squares give functions with such slopes to this.
+        // The midpoint rule on 96 by 96 squares integrates functions with such slopes to this precision.
         prop_assert!(
             difference <= 1e-3 + picture.error,
             "{} apart, {} stated", difference, picture.error
@@ -263,7 +263,7 @@ proptest! {
     }
 }
 
-/// Threads take parts of a picture: no texel may depend on where they are cut.
+/// Threads take parts of a picture: no texel may depend on how it is divided.
 #[test]
 fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
     let ramp = |shift: f64| Surface {
@@ -291,7 +291,7 @@ fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
         })
     };
     let whole = of(128, 0.0);
-    // Small enough for one part, and at another place of it.
+    // Small enough for one part, and at another place in it.
     let strip = of(8, 60.0);
     for (y, x) in (0..128).flat_map(|y| (0..8).map(move |x| (y, x))) {
         let (one, other) = (whole.rgb[y * 128 + 60 + x], strip.rgb[y * 8 + x]);

@@ -17,7 +17,7 @@ fn limits_are_those_of_the_device() {
         assert_eq!(support.read, ReadPath::Copy);
         assert_eq!(support.depth.len(), usize::from(format.has_depth()));
     }
-    // Features of all Vulkan devices; lavapipe's description holds its own.
+    // Features of all Vulkan devices; lavapipe's description has its own.
     for feature in [
         Feature::ReversedDepthRange,
         Feature::TriangleFans,

@@ -1,4 +1,4 @@
-//! Built-in cases, and everything under the eyes of the validation layer.
+//! Built-in cases, and everything again with the validation layer.
 
 use crate::drivers::{backend, is_lavapipe, lavapipe};
 use etalon_backend::Backend;

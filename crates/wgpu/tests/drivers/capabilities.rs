@@ -4,7 +4,7 @@ use etalon_backend::{Backend, BackendError};
 use etalon_conformance::{Value, json, scene, with};
 use etalon_frame::{Api, Feature, Requirement, TextureFormat};
 
-/// What the drivers' descriptions do not hold.
+/// Facts that the drivers' descriptions do not give.
 pub(crate) fn offers(backend: &dyn Backend) {
     let limits = backend.limits();
     assert_eq!(limits.api, Api::WebGpu);
@@ -12,7 +12,7 @@ pub(crate) fn offers(backend: &dyn Backend) {
         assert!(matches!(support.samples[..], [] | [1, ..]), "{format}");
     }
     assert_eq!(limits.formats[&TextureFormat::Rgba8Uint].samples, [1]);
-    // Over OpenGL wgpu 30 says that it has four samples, also where the driver has one.
+    // Over OpenGL wgpu 30 reports four samples, even if the driver has one.
     let color = &limits.formats[&TextureFormat::Rgba8Unorm];
     assert_eq!(color.samples, [1, 4]);
     assert!(limits.sample_positions.contains_key(&4));
@@ -61,7 +61,7 @@ fn denies(backend: &dyn Backend) {
     );
 }
 
-/// Texels of the clear are 0 where a draw of the pass leaves them.
+/// Cleared texels are 0 if a draw of the pass leaves them.
 fn loses_the_clear_of_integers(backend: &dyn Backend) {
     let scene = scene(json!({
         "attachments": { "color": { "format": "rgba8uint", "size": [4, 4], "clear": [1, 128, 255, 0] } },

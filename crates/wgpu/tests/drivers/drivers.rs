@@ -49,7 +49,7 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
     backend
 }
 
-/// Mistakes of wgpu 30 over Vulkan: it offers DEPTH_BIAS_CLAMP and does not enable the device's
+/// Validation errors of wgpu 30 over Vulkan: it offers DEPTH_BIAS_CLAMP but does not enable the device's
 /// depthBiasClamp.
 const MISTAKES_OF_WGPU: &[&str] = &["VUID-VkGraphicsPipelineCreateInfo-pDynamicStates-00754"];
 

@@ -1,4 +1,4 @@
-//! Properties of the families that the plain simulation cannot follow: the states that they try.
+//! Properties of the families that the plain simulation cannot draw: the states that they cover.
 
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::{ChannelEncoding, Feature, Requirement};
@@ -7,7 +7,7 @@ use etalon_scene::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The built-in cases below a path, all of them.
+/// All built-in cases below a path.
 pub(super) fn all_cases(prefix: &str) -> Vec<Case> {
     let library = Library::built_in().expect("built-in files parse");
     let named = library
@@ -20,7 +20,7 @@ pub(super) fn all_cases(prefix: &str) -> Vec<Case> {
 
 #[test]
 fn every_selftest_is_judged_as_something_else() {
-    // A relation fails by what is drawn, whatever the judge believes.
+    // A relation fails because of what is drawn, whatever scene is judged.
     let told = |case: &Case| case.relation.is_none();
     for case in all_cases("selftest/").into_iter().filter(told) {
         assert!(&case.scene != case.judged_scene(), "{}", case.id);
@@ -53,7 +53,7 @@ fn families_over_formats_leave_none_out() {
 #[test]
 fn multisample_cases_read_every_sample_of_every_count() {
     let mut seen: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
-    // Of integers only what is resolved can be read everywhere.
+    // Only resolved integers can be read on every API.
     let read_whole = |case: &Case| !case.id.starts_with("multisample/resolve-integer/");
     for case in all_cases("multisample/").into_iter().filter(read_whole) {
         let read = case.scene.read.iter().map(|i| &case.scene.attachments[*i]);
@@ -75,7 +75,7 @@ fn multisample_cases_read_every_sample_of_every_count() {
 #[test]
 fn the_second_source_weighs_alpha_by_other_factors_than_colour() {
     let mut cases = all_cases("blend/dual-source/");
-    // Both sides of the equation by a factor of the second source, and each side beside all others.
+    // Second-source factors on both sides of the equation, and on each side with all other factors.
     let source = all_cases("blend/dual-source-weighs-source/");
     let destination = all_cases("blend/dual-source-weighs-destination/");
     assert_eq!((source.len(), destination.len()), (4 * 19 * 5, 15 * 4 * 5));

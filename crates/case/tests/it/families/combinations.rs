@@ -1,4 +1,4 @@
-//! Properties of the families that combine states: what each of them needs for its question to show.
+//! Properties of the families that combine states: what each needs to show its bugs.
 
 use super::breadth::all_cases;
 use etalon_case::Case;
@@ -10,7 +10,7 @@ fn draws(case: &Case) -> Vec<&Draw> {
     case.scene.passes.iter().flat_map(|p| &p.draws).collect()
 }
 
-/// A draw without its inputs: two with one state may share a pipeline and its dynamic state.
+/// A draw without its inputs: two draws with the same state can share a pipeline and its dynamic state.
 fn state(draw: &Draw) -> Draw {
     let mut state = draw.clone();
     state.mesh.vertices.clear();
@@ -42,7 +42,7 @@ fn coverage_is_tried_where_the_first_target_has_no_alpha_to_store() {
 fn draws_that_share_a_pipeline_come_back_to_their_state() {
     for case in all_cases("sequence/shared/") {
         let draws = draws(&case);
-        // Their viewports are places in the files whose draws count.
+        // In the files whose draws count, viewports are only places.
         let states: Vec<Draw> = draws
             .iter()
             .map(|draw| Draw {
@@ -130,7 +130,7 @@ fn each_target_is_cleared_on_load_where_each_other_one_is_not() {
             }
         }
     }
-    // The third is cleared beside others alone.
+    // The third is cleared only together with others.
     let missing: Vec<_> = (0..4)
         .flat_map(|a| (0..4).map(move |b| (a, b)))
         .filter(|(a, b)| a != b && !pairs.contains(&(*a, *b)))

@@ -7,7 +7,7 @@ use etalon_scene::{
     StencilOperation,
 };
 
-/// One attachment's contents; what the format lacks stays empty.
+/// One attachment's contents; aspects that the format lacks stay empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Plain {
     pub(crate) color: Vec<[f64; 4]>,
@@ -61,7 +61,7 @@ fn indices(draw: &Draw) -> Vec<[usize; 3]> {
 /// triangles over the whole attachment.
 pub(crate) fn knows(scene: &Scene) -> bool {
     let formats = scene.attachments.iter().enumerate().all(|(i, a)| {
-        // A float is only fetched from.
+        // Float attachments are only fetched from.
         let fetched = a.format == TextureFormat::Rgba32Float
             && matches!(a.contents, Contents::Texels(_))
             && scene.passes.iter().all(|p| !p.color.contains(&i));

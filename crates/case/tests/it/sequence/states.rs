@@ -10,7 +10,7 @@ use etalon_scene::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
 
-/// The states of a draw by name. What is off has no parts; vertices are no state.
+/// The states of a draw by name. Disabled states have no parts; vertices are not a state.
 pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     let mut all = States::default();
     let Draw {
@@ -190,7 +190,7 @@ impl States {
         self.0.insert(name.to_owned(), format!("{value:?}"));
     }
 
-    /// The face stands last: what both faces share is one state.
+    /// The face comes last, so that what both faces share is one state.
     fn face(&mut self, name: &str, face: &StencilFace) {
         let StencilFace {
             compare,

@@ -1,5 +1,5 @@
-//! The Chrome DevTools Protocol, as far as these tests need it: requests and their answers over one
-//! websocket. A client of the whole protocol takes longer to compile than all of this crate.
+//! The part of the Chrome DevTools Protocol that these tests need: requests and answers over one websocket. A
+//! client of the whole protocol takes longer to compile than this crate.
 
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 use tungstenite::{Message, WebSocket};
 
-/// The longest time that the browser may take for an answer.
+/// The time limit of an answer.
 const ANSWER: Duration = Duration::from_secs(60);
 
 /// A browser and the connection to it.
@@ -21,7 +21,7 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Starts a headless Chromium with a profile of its own.
+    /// Starts a headless Chromium with its own profile.
     pub(super) fn start(executable: &Path, profile: &Path) -> Self {
         let mut process = Command::new(executable)
             .args([
@@ -38,7 +38,7 @@ impl Connection {
                 "--lang=en",
                 "--window-size=1400,1000",
                 "--remote-debugging-port=0",
-                // Tests ask what a screen reader is told.
+                // Tests ask for the text that a screen reader gets.
                 "--enable-blink-features=ComputedAccessibilityInfo",
             ])
             .arg(format!("--user-data-dir={}", profile.display()))
@@ -53,7 +53,7 @@ impl Connection {
             .map_while(Result::ok)
             .find_map(|line| Some(line.split_once("DevTools listening on ")?.1.to_owned()))
             .expect("Chromium says where it listens");
-        // A full pipe would stop the browser.
+        // Without a reader, a full pipe would block the browser.
         std::thread::spawn(move || lines.for_each(drop));
         let host = address.strip_prefix("ws://").unwrap();
         let stream = TcpStream::connect(host.split_once('/').unwrap().0).unwrap();
@@ -66,7 +66,7 @@ impl Connection {
         }
     }
 
-    /// The answer to a request, of a session where there is one; events are skipped.
+    /// Returns the answer to a request, of a session if there is one; skips events.
     pub(super) fn try_call(
         &self,
         session: Option<&str>,
@@ -102,7 +102,7 @@ impl Connection {
         }
     }
 
-    /// As [`Self::try_call`], where an error is a failure of the test.
+    /// Like [`Self::try_call`], but an error fails the test.
     pub(super) fn call(&self, session: Option<&str>, method: &str, params: &Value) -> Value {
         self.try_call(session, method, params)
             .unwrap_or_else(|e| panic!("{method} {params}: {e}"))
@@ -111,7 +111,7 @@ impl Connection {
 
 impl Drop for Connection {
     fn drop(&mut self) {
-        // Nothing can be done about a browser that is gone already.
+        // The browser may have ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

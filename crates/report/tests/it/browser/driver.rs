@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 /// The longest time to wait for a change of the page; nothing that works takes so long.
 const PATIENCE: Duration = Duration::from_secs(40);
 
-/// The browser; every page is a new tab of it.
+/// The browser; every page is a new tab.
 pub(crate) struct Chromium {
     connection: Connection,
-    /// Removed when the browser is gone.
+    /// Removed after the browser has ended.
     _profile: tempfile::TempDir,
 }
 
@@ -32,7 +32,7 @@ impl Chromium {
         page
     }
 
-    /// As [`Self::open`], with scripts switched off.
+    /// Like [`Self::open`], with scripts switched off.
     pub(crate) fn open_without_scripts(&self, path: &Path) -> Page<'_> {
         let page = self.tab();
         let off = json!({ "value": true });
@@ -103,7 +103,7 @@ impl Page<'_> {
         self.wait("location.protocol === 'file:' && document.readyState === 'complete'");
     }
 
-    /// The value of an expression of the page, as JSON; an error while the page is changed for another.
+    /// Returns the value of an expression of the page, as JSON; an error while the page changes.
     fn evaluate(&self, script: &str) -> Result<Value, String> {
         let params = json!({ "expression": script, "returnByValue": true });
         let answer = self
@@ -115,7 +115,7 @@ impl Page<'_> {
         }
     }
 
-    /// The value of an expression of the page.
+    /// Returns the value of an expression of the page.
     pub(crate) fn eval<T: DeserializeOwned>(&self, script: &str) -> T {
         let value = self.evaluate(&format!("JSON.stringify({script})"));
         let value = value.unwrap_or_else(|e| panic!("{script}: {e}"));
@@ -139,12 +139,12 @@ impl Page<'_> {
         }
     }
 
-    /// The text of the first element that a selector finds, as it is in the tree.
+    /// Returns the text of the first element that a selector finds, as it is in the tree.
     pub(crate) fn text(&self, selector: &str) -> String {
         self.eval(&format!("document.querySelector({selector:?}).textContent"))
     }
 
-    /// The texts of all elements that a selector finds.
+    /// Returns the texts of all elements that a selector finds.
     pub(crate) fn texts(&self, selector: &str) -> Vec<String> {
         self.eval(&format!(
             "[...document.querySelectorAll({selector:?})].map(e => e.textContent)"
@@ -168,7 +168,7 @@ impl Page<'_> {
         }
     }
 
-    /// Moves the mouse onto an element, again where the page moved it away meanwhile.
+    /// Moves the mouse onto an element; again if the page moved the element meanwhile.
     pub(crate) fn hover(&self, selector: &str) {
         let start = Instant::now();
         loop {
@@ -187,14 +187,14 @@ impl Page<'_> {
         }
     }
 
-    /// Makes the window so wide and so high.
+    /// Sets the size of the window.
     pub(crate) fn resize(&self, width: u32, height: u32) {
         let metrics =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", &metrics);
     }
 
-    /// Presses and lets go of a key: `Tab`, `Enter`, `j`.
+    /// Presses and releases a key: `Tab`, `Enter`, `j`.
     pub(crate) fn press(&self, key: &str) {
         let (number, text) = match key {
             "Tab" => (9, ""),
@@ -225,7 +225,7 @@ impl Page<'_> {
             .unwrap_or_else(|e| panic!("{script}: {e}"));
     }
 
-    /// Puts a text where the cursor is, as an input method does.
+    /// Inserts a text at the cursor, as an input method does.
     pub(crate) fn type_in(&self, text: &str) {
         self.call("Input.insertText", &json!({ "text": text }));
     }
@@ -251,7 +251,7 @@ impl Page<'_> {
         panic!("{selector} has no {option}");
     }
 
-    /// The ids of the cases in the table, in their order.
+    /// Returns the ids of the cases in the table, in order.
     pub(crate) fn rows(&self) -> Vec<String> {
         self.eval(
             "[...document.querySelectorAll('#case-table tbody th a')]\
@@ -271,7 +271,7 @@ impl Page<'_> {
         self.wait(&format!("location.hash === {hash:?}"));
     }
 
-    /// The id, the text or the name of the focused element.
+    /// Returns the id, the text or the name of the focused element.
     pub(crate) fn focused(&self) -> String {
         self.eval(
             "document.activeElement.id || document.activeElement.textContent.trim() \

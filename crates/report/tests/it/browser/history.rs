@@ -51,7 +51,7 @@ pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
     let job: String = page.eval("document.querySelector('#view-body dd a').href");
     assert_eq!(job, "https://example.org/job/1");
 
-    // By keys: back, search, the first that is found.
+    // By keys: back, search, the first match.
     page.press("Escape");
     page.wait("!document.querySelector('#start').hidden");
     page.press("/");

@@ -1,4 +1,4 @@
-//! Names that try to become something else than text.
+//! Names that try to become something other than text.
 
 use super::driver::Chromium;
 use crate::synthetic::{self, adapter, header};
@@ -47,7 +47,7 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     let id = |text: &str| format!("{text}/{text}/axis={text}");
     for text in HOSTILE {
         for (column, name) in HOSTILE.iter().enumerate() {
-            // The last kind has no entry under Findings, so the script tells all of it.
+            // The last kind has no entry under Findings, so the script shows all of it.
             let verdict = [Verdict::Fail, Verdict::Crash, Verdict::Pass][column % 3];
             let record = record(&writer, &id(text), name, verdict, &all);
             writer.append(&record).unwrap();

@@ -57,7 +57,7 @@ fn a_case_shows_what_it_is_meant_to_draw(chromium: &Chromium, path: &Path) {
     page.wait(
         "document.querySelector('#meant details')?.textContent.includes('\"next\": \"greater\"')",
     );
-    // An area without a script says nothing, and fails nothing.
+    // A missing script of an area shows nothing and breaks nothing.
     page.run("location.hash = '#case=stencil/masks/read=2'");
     page.wait("document.querySelector('#meant')?.hidden === true");
 }
@@ -96,7 +96,7 @@ fn search_and_filters_narrow_the_cases(chromium: &Chromium, path: &Path) {
     page.click("#f-q");
     page.keys("dep*false");
     page.wait_count("3 of 13 cases");
-    // Words that were typed are one step of the browser's history.
+    // Typed words are one step of the browser's history.
     page.run("history.back()");
     page.wait_count("13 of 13 cases");
     assert_eq!(
@@ -176,7 +176,7 @@ fn what_differs_on_one_adapter_only_is_found(chromium: &Chromium, path: &Path) {
     page.wait_hash("#sort=-case");
     assert_eq!(page.rows()[0], "stencil/masks/read=3");
 
-    // The list of findings says it too, without the script.
+    // The list of findings shows it too, without the script.
     let lines = page.texts("#findings .d");
     let only: Vec<_> = lines
         .iter()
@@ -210,7 +210,7 @@ fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
     ] {
         assert!(text.contains(due), "{due} in {text}");
     }
-    // The case that must be drawn before.
+    // The case that must be drawn first.
     page.click(&format!("#case a[href='#case={ODD}']"));
     page.wait_hash(&format!("#case={ODD}"));
     page.wait(&format!(
@@ -237,7 +237,7 @@ fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
 
     let reason = chromium.open(path, &format!("#case={MASKS}"));
     assert_eq!(reason.text("#case").matches("bug 99").count(), 4);
-    // No text that was encoded, so it is taken as it stands.
+    // The text was not encoded, so it is used unchanged.
     let unknown = chromium.open(path, "#case=depth/no%2Fsuch%ZZ%3Cb%3E");
     assert_eq!(
         unknown.text("#case [role=alert]"),
@@ -336,7 +336,7 @@ fn a_screen_reader_is_told_what_everything_is(chromium: &Chromium, path: &Path) 
              .filter(e => e.checkVisibility() && !e.computedName).map(e => e.outerHTML.slice(0, 200))",
         )
     };
-    // Tables of details that are closed have no name to give; those that are seen must.
+    // Tables in closed details have no name; visible ones must have one.
     assert_eq!(nameless(&page), [] as [&str; 0]);
     let names = "['f-q', 'f-messages', 'f-verdict', 'f-on', 'f-area', 'f-odd', 'f-unexpected', 'f-disagree']\
                  .map(id => document.getElementById(id)).map(e => e.computedRole + ' ' + e.computedName)";
@@ -357,7 +357,7 @@ fn a_screen_reader_is_told_what_everything_is(chromium: &Chromium, path: &Path) 
     let cells: Vec<String> = page.eval(table);
     assert!(cells[0].starts_with("rowheader "), "{cells:?}");
     assert!(cells[1].starts_with("cell "), "{cells:?}");
-    // A verdict is a word and not a sign or a colour alone.
+    // A verdict is a word, not only a sign or a colour.
     let words: Vec<String> = page.eval(
         "[...document.querySelectorAll('#case-table td:not(.says)')].map(td => td.querySelector('span').textContent)",
     );

@@ -1,10 +1,10 @@
-//! A run of the size that a night of work leaves.
+//! A run as large as a nightly one.
 
 use super::driver::Chromium;
 use crate::synthetic::large;
 use std::time::Instant;
 
-/// The most bytes of a page that people still send each other.
+/// The largest size of a page that people still send each other, in bytes.
 const MOST: u64 = 5_000_000;
 
 pub(super) fn eighty_thousand_records_open_and_are_searched(chromium: &Chromium) {

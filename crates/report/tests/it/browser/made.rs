@@ -1,4 +1,4 @@
-//! A small made-up run in which it is known what stands out.
+//! A small made-up run with known remarkable cases.
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::{Api, Aspect, ChannelEncoding, Frame, Image, ReadPath};
@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vulkan:lavapipe"];
 /// Fails on `gl:softpipe` and nowhere else.
 pub(crate) const ODD: &str = "depth/compare/compare=greater/write=true";
-/// Crashes on `vulkan:lavapipe`, with all that is told of a lost process.
+/// Crashes on `vulkan:lavapipe`, with everything that is recorded about a lost process.
 pub(crate) const CRASH: &str = "blend/order/draws=2";
 /// The number of cases.
 pub(crate) const CASES: usize = 6 + 1 + 4 + 1 + 1;
 
-/// Writes the run with its reports, and says where the page is.
+/// Writes the run with its reports, and returns the path of the page.
 pub(crate) fn write(folder: &Path) -> PathBuf {
     let adapters = ADAPTERS.map(|name| adapter(name, Api::Vulkan)).to_vec();
     let mut writer = RunWriter::create(folder, &header(CASES as u64, adapters)).unwrap();
@@ -28,7 +28,7 @@ pub(crate) fn write(folder: &Path) -> PathBuf {
     etalon_report::write(folder).unwrap().html
 }
 
-/// The cases of depth as they are meant, one with a hostile text.
+/// The catalogue of the depth cases, one with a hostile text.
 fn catalogue() -> Catalogue {
     let frame = Frame {
         images: vec![Image {

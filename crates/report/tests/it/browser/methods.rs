@@ -43,7 +43,7 @@ pub(super) const CHECKS: [(&str, Check); 7] = [
 
 const SIZE: [u32; 2] = [16, 8];
 
-/// The scene of transparency whose pictures there are, of `cpu`.
+/// The transparency scene that has pictures, of `cpu`.
 const WINDOWS: &str = "[data-name='transparency/windows']";
 
 /// As in `crates/truth/tests/truth/distances.rs`.
@@ -60,7 +60,7 @@ fn drawn(x: u32, y: u32) -> [u8; 3] {
     }
 }
 
-/// Writes a run with pictures and its page.
+/// Writes a run with pictures, and its page.
 pub(super) fn write(folder: &Path) -> PathBuf {
     let plain = folder.join("plain-methods");
     synthetic::methods::write(&plain);
@@ -109,7 +109,7 @@ fn a_budget_says_which_methods_are_left(chromium: &Chromium, path: &Path) {
     assert_eq!(page.text("#budget output[for=most-error]"), "0\u{a0}%");
     assert_eq!(left(), ["Left: none.", "Left: depth-peeling."]);
     assert!(count(".card .on:not(.off) .of.beyond") > 0);
-    // Nothing is drawn within no time at all, and another adapter has marks of its own.
+    // No method draws in zero time, and another adapter has its own marks.
     set("most-time", "0");
     set("on", "1");
     assert_eq!(count(".card .on[data-on='1']:not(.off)") as usize, cards);
@@ -149,7 +149,7 @@ fn a_legend_highlights_its_method(chromium: &Chromium, path: &Path) {
     );
     page.hover("h1");
     assert_eq!(opacity(&page, &other), "1");
-    // By keys alone, and pinned.
+    // Only by keys, and pinned.
     page.run(&format!(
         "document.querySelector(\"{key}\").previousElementSibling.focus()"
     ));
@@ -266,7 +266,7 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
     assert!(page.text("dialog .scale").contains("codes per channel"));
     page.press("4");
     assert!(page.text("dialog .scale").contains("67 pixels per degree"));
-    // Texels are seen: a grid between them, at eight times their size at least.
+    // Texels are visible: a grid between them, at least eight times their size.
     assert!(page.eval::<u64>("document.querySelector('dialog canvas').width") >= 16 * 8);
     page.press("Escape");
     page.wait("!document.querySelector('dialog').open");
@@ -332,11 +332,11 @@ fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
          .map(e => e.outerHTML.slice(0, 120))",
     );
     assert_eq!(wide, [] as [&str; 0]);
-    // The claims are read without scrolling sideways.
+    // The claims can be read without scrolling sideways.
     let reach: [u64; 2] =
         page.eval("(e => [e.scrollWidth, e.clientWidth])(document.querySelector('#claims .wide'))");
     assert!(reach[0] <= reach[1], "{reach:?}");
-    // No text of a chart overlaps another one, and none reaches out of it.
+    // No text of a chart overlaps another or extends beyond the chart.
     page.resize(1400, 900);
     page.wait("innerWidth === 1400");
     let clashes: Vec<String> = page.eval(

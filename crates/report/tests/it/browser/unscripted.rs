@@ -7,7 +7,7 @@ use crate::runs_made::Two;
 use crate::synthetic;
 use std::path::{Path, PathBuf};
 
-/// Every page but those of a run.
+/// Every page except those of a run.
 fn pages(folder: &Path) -> Vec<PathBuf> {
     let two = Two::new();
     synthetic::methods::write(&two.before());
@@ -21,7 +21,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// Their policy forbids every script, also one that a name should smuggle in.
+/// Their policy forbids every script, also one injected through a name.
 pub(super) fn pages_have_no_script(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     let pages = pages(folder.path());
@@ -38,7 +38,7 @@ pub(super) fn pages_have_no_script(chromium: &Chromium) {
         );
         page.wait("window.failed");
         assert!(page.eval::<bool>("window.hacked === undefined"), "{path:?}");
-        // The style sheet is let in, and no name is wider than the page.
+        // The style sheet is allowed, and no name is wider than the page.
         assert!(page.eval::<bool>(
             "getComputedStyle(document.querySelector('main')).maxWidth !== '' && \
              document.title.startsWith('etalon')"

@@ -1,4 +1,4 @@
-//! A made-up run of the size that a night of work leaves: 8,000 cases on ten adapters.
+//! A made-up run as large as a nightly one: 8,000 cases on ten adapters.
 
 use crate::synthetic::{ADAPTERS, cases, repeated, write_on};
 use etalon_frame::Api;

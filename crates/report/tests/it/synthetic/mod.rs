@@ -130,12 +130,12 @@ pub(crate) fn cases() -> Vec<String> {
     ids
 }
 
-/// Writes the run on eight adapters; frames for what is wrong. Returns how many records it has.
+/// Writes the run on eight adapters, with frames for wrong records. Returns the number of records.
 pub(crate) fn write(folder: &Path, repeats: usize) -> usize {
     write_on(folder, &repeated(repeats), &ADAPTERS)
 }
 
-/// The cases so often, with ids of their own.
+/// Repeats the cases this many times, with their own ids.
 pub(crate) fn repeated(repeats: usize) -> Vec<String> {
     let mut ids = cases();
     for repeat in 1..repeats {
