@@ -11,10 +11,11 @@ use etalon_runner::{Launch, ReductionError, Unconfirmed, Worker};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Seconds that a case may take, unless the user says otherwise.
+/// The default time limit of a case in seconds.
 pub(crate) const TIMEOUT: &str = "20";
 
-/// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
+/// Returns the name of a reduced case's file, which is also its id. Characters that ids cannot have become
+/// `-`.
 pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     let word = |text: &str| -> String {
         let letters = text.chars();

@@ -1,7 +1,7 @@
 //! Reductions on a driver, with the judge as oracle.
 //!
-//! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
-//! way. Each such candidate costs a process, and each that hangs costs its time.
+//! A case that crashes or hangs its worker is reduced like one that is drawn wrong: a candidate must end its
+//! worker in the same way. Each such candidate costs a process, and each hanging one the time limit.
 
 mod oracle;
 mod reducer;
@@ -50,7 +50,7 @@ pub enum ReductionError {
         /// The verdict, with the record's message.
         verdict: String,
     },
-    /// The case fails in some drawings only, or in several ways.
+    /// The case fails only in some drawings, or in several ways.
     #[error("{case} is flaky on {adapter}: {flakiness}; only a steady failure can be reduced")]
     Flaky {
         /// The id of the case.
@@ -73,7 +73,7 @@ pub enum ReductionError {
 /// How the drawings of one case differ.
 #[derive(Debug, Error)]
 pub enum Flakiness {
-    /// It fails in some drawings only.
+    /// It fails only in some drawings.
     #[error("it fails in {failing} of {drawings} drawings, in {processes} processes")]
     Sometimes {
         /// The number of drawings that failed.

@@ -17,7 +17,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["columns-alpha"]),
     Claim::new(
         QUESTION,
-        "The error of blending into 8 bits grows with the layers.",
+        "The error of blending into 8 bits grows with the number of layers.",
         "Closed form: half a code per layer, reduced by 1 - alpha in each later layer",
         Test::Trend {
             quantity: Quantity::Largest,

@@ -24,7 +24,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "ordered-float",
         "Layers are blended into floats of 32 bits.",
-        "The error is below any step of a display; the attachment takes four times the bytes.",
+        "The error is below any step of a display; the attachment takes four times the memory.",
         "Vulkan: Blending",
     ),
 ];

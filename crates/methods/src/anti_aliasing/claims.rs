@@ -30,7 +30,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["half-planes"]),
     Claim::new(
         QUESTION,
-        "Where neighbours share an edge, alpha from both sides lets the background through.",
+        "If neighbours share an edge, alpha from both sides lets the background through.",
         "Porter and Duff 1984, Compositing Digital Images: alphas are taken to be uncorrelated",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -42,7 +42,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["checker-fan", "half-planes"]),
     Claim::new(
         QUESTION,
-        "Supersampling by 2×2 shades four times.",
+        "Supersampling by 2×2 shades four times as many fragments.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 5.4: screen-based antialiasing",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -77,7 +77,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "A filter over the finished picture lessens the error of edges.",
+        "A filter over the finished picture reduces the error of edges.",
         "Lottes 2009, FXAA",
         Test::Ratio {
             quantity: Quantity::Rmse,

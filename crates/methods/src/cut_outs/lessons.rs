@@ -6,7 +6,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "discard",
         "Fragments whose filtered alpha is below a cutoff are discarded.",
-        "A texel is kept or lost as a whole: edges alias, and thin parts vanish when they are smaller than a texel.",
+        "A texel is kept or lost as a whole: edges alias, and parts thinner than a texel vanish.",
         "Akeley 1993, RealityEngine Graphics",
     ),
     Lesson::new(

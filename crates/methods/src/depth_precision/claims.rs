@@ -13,7 +13,7 @@ const GAPS: &[&str] = &["planes", "slanted"];
 const fn infinite(families: &'static [&'static str], from: f64) -> Claim {
     Claim::new(
         QUESTION,
-        "A far plane at infinity resolves the same gaps, from eight steps of 24 bits on.",
+        "A far plane at infinity resolves the same gaps if they are at least eight steps of 24 bits.",
         "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
         Test::Same {
             methods: ["infinite-depth", "depth24"],
@@ -37,7 +37,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(GAPS),
     Claim::new(
         QUESTION,
-        "Float depth that is not reversed resolves no smaller gaps than 24 bits.",
+        "Float depth that is not reversed does not resolve smaller gaps than 24 bits.",
         "Reed 2015, Depth Precision Visualized",
         Test::Narrowest {
             of: "depth32float",

@@ -29,7 +29,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     ),
     Lesson::new(
         "infinite-depth",
-        "Window depth in 24 bits, 1 at infinity.",
+        "Window depth is stored in 24 bits, 1 at infinity.",
         "Little precision is lost, because few codes are past a far plane.",
         "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
     ),
@@ -53,7 +53,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     ),
     Lesson::new(
         "larger-near",
-        "Window depth in 24 bits with a near plane farther away.",
+        "Window depth is stored in 24 bits, with a near plane farther away.",
         "Steps shrink by the same factor, and everything nearer than the plane is cut off.",
         "Upchurch and Desbrun 2012, Tightening the Precision of Perspective Rendering",
     ),

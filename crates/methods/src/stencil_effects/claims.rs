@@ -7,7 +7,7 @@ const QUESTION: &str = "stencil-effects";
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
-        "Shadow volumes by depth-fail are right with the eye inside, where depth-pass is not.",
+        "With the eye inside a shadow volume, depth-fail is right and depth-pass is not.",
         "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
         Test::Unlike {
             right: "shadow-volume-depth-fail",

@@ -18,7 +18,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "mirror",
         "The mirror stores a stencil value, and the scene is drawn upside down inside it.",
-        "One mirror in another needs a value and a pass for each.",
+        "A mirror in a mirror needs its own value and pass.",
         "Kilgard 1999, Improving Shadows and Reflections via the Stencil Buffer",
     ),
     Lesson::new(
@@ -29,13 +29,13 @@ pub(crate) const LESSONS: &[Lesson] = &[
     ),
     Lesson::new(
         "shadow-volume-depth-pass",
-        "Front faces of shadow volumes count up and back faces down, where they pass the depth test.",
+        "Fragments of shadow volumes that pass the depth test count: front faces up, back faces down.",
         "If the eye or the near plane is inside a volume, a front face is missing, and light and shadow are swapped.",
         "Heidmann 1991, Real Shadows Real Time",
     ),
     Lesson::new(
         "shadow-volume-depth-fail",
-        "Back faces of shadow volumes count up and front faces down, where they fail the depth test.",
+        "Fragments of shadow volumes that fail the depth test count: back faces up, front faces down.",
         "The eye can be anywhere, but volumes need caps and must not be cut by the far plane.",
         "Everitt and Kilgard 2002, Practical and Robust Stenciled Shadow Volumes",
     ),

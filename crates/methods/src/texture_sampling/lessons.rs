@@ -18,7 +18,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "affine",
         "Texture coordinates are interpolated linearly in the picture, without a division by w.",
-        "The two triangles bend the ground, each its own way.",
+        "The two triangles distort the ground, each in its own way.",
         "Heckbert and Moreton 1991, Interpolation for Polygon Texture Mapping and Shading",
     ),
     Lesson::new(

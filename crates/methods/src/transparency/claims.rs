@@ -19,7 +19,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "smoke"]),
     Claim::new(
         QUESTION,
-        "Depth peeling needs no order: it is right where triangles pass through each other.",
+        "Depth peeling needs no order: it is right even if triangles intersect.",
         "Everitt 2001, Interactive Order-Independent Transparency",
         Test::Value {
             quantity: Quantity::Rmse,
@@ -30,7 +30,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "intersecting-panes", "nested-glass"]),
     Claim::new(
         QUESTION,
-        "No order of objects is right once they pass through each other.",
+        "No order of objects is right once they intersect.",
         "Everitt 2001, Interactive Order-Independent Transparency: the sorting problem",
         Test::Value {
             quantity: Quantity::Rmse,
@@ -107,7 +107,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     ),
     Claim::new(
         QUESTION,
-        "Weights from moments of what the scene absorbs are nearer to the truth than weights that depth alone gives.",
+        "Weights from moments of the scene's absorbance have less error than weights from depth alone.",
         "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,
@@ -137,11 +137,11 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::AtMost(0.004),
         },
     )
-    .noting("In these scenes no picture has more fragments than the pool has nodes, eight for each texel.")
+    .noting("In these scenes no picture has more fragments than the pool has nodes, which is eight per texel.")
     .of(&["windows", "intersecting-panes", "nested-glass", "smoke"]),
     Claim::new(
         QUESTION,
-        "Linked lists draw the geometry once, where depth peeling draws it once for each layer.",
+        "Linked lists draw the geometry once; depth peeling draws it once per layer.",
         "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -166,7 +166,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(8.0, 8.0),
     Claim::new(
         QUESTION,
-        "Masks that are random in each layer compose layers better than the fixed masks of alpha to coverage.",
+        "Random masks for each layer compose layers better than the fixed masks of alpha to coverage.",
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
         Test::Ratio {
             quantity: Quantity::Rmse,

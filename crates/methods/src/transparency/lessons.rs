@@ -12,13 +12,13 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "sorted",
         "Objects are blended one over the other, the farthest first by the mean depth of their corners.",
-        "One depth per object has no right order where objects enclose or pass through each other.",
+        "One depth per object gives no right order if objects enclose each other or intersect.",
         "Porter and Duff 1984, Compositing Digital Images",
     ),
     Lesson::new(
         "sorted-triangles",
         "Triangles are blended one over the other, the farthest first by the mean depth of their corners.",
-        "Triangles that pass through each other need both orders at once, so that one side of the line where they meet is wrong.",
+        "Intersecting triangles need both orders at once, so one side of their intersection is wrong.",
         "Newell, Newell and Sancha 1972, A Solution to the Hidden Surface Problem",
     ),
     Lesson::new(
@@ -35,14 +35,14 @@ pub(crate) const LESSONS: &[Lesson] = &[
     ),
     Lesson::new(
         "alpha-to-coverage",
-        "Alpha becomes a mask of the four samples of a texel, in which the surface is opaque.",
+        "Alpha becomes a mask of a texel's four samples; the surface is opaque in these samples.",
         "Four samples give five levels, and since each layer has the same mask, a layer hides all layers of equal alpha behind it.",
         "Akeley 1993, RealityEngine Graphics",
     ),
     Lesson::new(
         "stochastic",
         "Alpha becomes a random mask of the four samples, a different one in each layer and texel, so that the mean is right.",
-        "The variance of four samples is seen as noise, whatever the number of layers.",
+        "The variance of four samples is visible as noise, whatever the number of layers.",
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
     ),
     Lesson::new(

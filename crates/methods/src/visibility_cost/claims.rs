@@ -23,7 +23,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .where_fewer(COUNTED),
     Claim::new(
         QUESTION,
-        "Drawing front to back shades as few fragments as a depth prepass leaves to shade.",
+        "Drawing front to back shades as few fragments as drawing after a depth prepass.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
         Test::Ratio {
             quantity: Quantity::Fragments,

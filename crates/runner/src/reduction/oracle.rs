@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use thiserror::Error;
 
-/// The time of a candidate, if the case does not end.
+/// The time limit of a candidate if the original case hangs.
 const HUNG_TIME: Duration = Duration::from_secs(2);
 
 /// Why a failure was not confirmed.
@@ -21,7 +21,7 @@ pub enum Unconfirmed {
     /// No new process could be started.
     #[error("could not be drawn in a new process: {0}")]
     Start(#[from] StartError),
-    /// It fails by the second symptom where it failed by the first.
+    /// It fails by the second symptom instead of the first.
     #[error("is unsteady: it failed by {0}, and drawn alone in a new process it fails by {1}")]
     Unsteady(Box<Symptom>, Box<Symptom>),
     /// It does not fail when it is drawn alone.
@@ -29,7 +29,7 @@ pub enum Unconfirmed {
     FailsAfterOthers(Verdict),
 }
 
-/// Draws a case in a new process, which must fail with this symptom.
+/// Draws a case in a new process, where it must fail with this symptom.
 ///
 /// # Errors
 /// If the process does not start, or the case fails in another way or not at all.
@@ -49,7 +49,7 @@ pub fn confirm(
 }
 
 impl Unconfirmed {
-    /// What a case with this symptom did instead, drawn alone.
+    /// Returns why a failure with `symptom` is not confirmed by `alone`, the symptom of the case drawn alone.
     fn of(symptom: &Symptom, alone: Symptom) -> Self {
         if alone.verdict.is_bad() {
             Self::Unsteady(Box::new(symptom.clone()), Box::new(alone))
@@ -59,23 +59,23 @@ impl Unconfirmed {
     }
 }
 
-/// The judge as oracle: a candidate must fail like the case before it. If the case ends its worker, the candidate must
-/// end its worker in the same way.
+/// An oracle that draws candidates on a driver: a candidate must fail like the case before it. If the case
+/// ends its worker, the candidate must end it in the same way.
 pub(super) struct DriverOracle<'a> {
     pub(super) trials: Trials,
     /// The symptom of the smallest case so far, and its record.
     pub(super) symptom: Symptom,
     pub(super) record: Record,
     pub(super) error: Option<StartError>,
-    /// Set when the search is being stopped.
+    /// True once the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// Starts a process of its own for each candidate that fails, which must fail there too: on some drivers a failure
-    /// leaves something behind that makes the next case fail.
+    /// If set, each failing candidate is drawn again alone, in a process that this starts, and must fail
+    /// there too. Needed if a failure leaves the driver in a state that makes the next case fail.
     pub(super) alone: Option<Launch>,
 }
 
 impl<'a> DriverOracle<'a> {
-    /// An oracle on a case with this record. A case may take as long as `timeout`.
+    /// Makes an oracle for a case with this record. `timeout` is the time limit of a case.
     pub(super) fn new(
         mut trials: Trials,
         record: Record,

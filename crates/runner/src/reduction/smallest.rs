@@ -1,4 +1,4 @@
-//! The way from a case that fails on an adapter to the smallest one that fails in the same way.
+//! Reduces a case that fails on an adapter to the smallest one that fails in the same way.
 
 use super::ReductionError;
 use super::oracle::{DriverOracle, Unconfirmed, confirm};
@@ -14,9 +14,9 @@ use std::time::{Duration, Instant};
 
 /// A reduced case.
 pub struct Smallest {
-    /// What is left, and what it took to find it.
+    /// The reduced case, and what the reduction cost.
     pub reduction: Reduction,
-    /// Its record.
+    /// The record of the reduced case.
     pub record: Record,
     /// The symptom of the case that was reduced.
     pub first: Symptom,

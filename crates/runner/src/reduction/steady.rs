@@ -1,4 +1,4 @@
-//! Repeated drawings of one case: only a failure that comes every time can be reduced.
+//! Draws one case repeatedly: only a failure that happens every time can be reduced.
 
 use super::{Flakiness, ReductionError};
 use crate::launch::Launch;
@@ -8,14 +8,14 @@ use etalon_diagnose::Symptom;
 use etalon_record::{Record, Verdict};
 use std::time::Duration;
 
-/// The processes in which a case is drawn at the start, and the drawings in each. A failure that depends on either is
-/// not steady.
+/// The number of processes that draw a case at the start, and the number of drawings in each. A failure that
+/// depends on either is not steady.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
-/// The processes of a case that does not end, each of which costs its time.
+/// The number of processes for a case that hangs; each costs the full time limit.
 const HUNG: usize = 2;
 
-/// Draws a case several times in several processes, each time alone; if it ends a process, once in each. Returns a
+/// Draws a case several times in each of several processes; only once in a process that it ends. Returns a
 /// worker, the first record and its symptom if the case fails in the same way every time.
 pub(super) fn steady(
     id: &str,
