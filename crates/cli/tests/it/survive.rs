@@ -354,7 +354,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
     wait_for_progress(&mut child, undisturbed.path(), 0);
     let first = began.elapsed();
     assert_eq!(child.wait().unwrap().code(), Some(1));
-    let drawing = began.elapsed() - first;
+    let all_records = records_in(undisturbed.path());
     let due = plain(undisturbed.path());
     let due_frames: Vec<Vec<u8>> = files(&undisturbed.path().join("frames"))
         .into_values()
@@ -363,11 +363,11 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
 
     let planned = sample::count("kills", 32, 200);
     let mut random = 1_u64;
-    let mut part = |of: Duration| {
+    let mut share = || {
         random = random
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
-        of.mul_f64((random >> 40) as f64 / (1_u64 << 24) as f64)
+        (random >> 40) as f64 / (1_u64 << 24) as f64
     };
     let (mut kills, mut ended, mut inside) = (0, 0, 0);
     while kills < planned {
@@ -375,12 +375,17 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
         loop {
             let before = records_in(out.path());
             let mut child = start(out.path(), &["--resume"]);
-            // Every second kill waits for a record of this process, however busy the machine is.
+            // Every second kill waits for records of this process, so that it falls between records on a busy
+            // machine too.
             if kills % 2 == 0 {
-                sleep(part(first));
+                sleep(first.mul_f64(share()));
             } else {
-                wait_for_progress(&mut child, out.path(), before);
-                sleep(part(drawing / 2));
+                let left = all_records - before;
+                wait_for_progress(
+                    &mut child,
+                    out.path(),
+                    before + (left as f64 * share() / 2.0) as usize,
+                );
             }
             if let Some(status) = child.try_wait().unwrap() {
                 let mut said = String::new();
@@ -408,7 +413,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
         assert!(frames == due_frames, "after {kills} kills");
     }
     println!("{kills} kills, {inside} of them between records, {ended} runs that ended before");
-    assert!(inside >= planned / 8, "{inside}");
+    assert!(inside >= planned / 4, "{inside}");
 }
 
 /// Waits until a run has written some records.
