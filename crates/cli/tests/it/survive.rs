@@ -380,7 +380,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
             if kills % 2 == 0 {
                 sleep(first.mul_f64(share()));
             } else {
-                let left = all_records - before;
+                let left = all_records.saturating_sub(before);
                 wait_for_progress(
                     &mut child,
                     out.path(),
