@@ -14,7 +14,7 @@ async function allCases() {
 
 const caseLink = id => make("a", { href: addressOf(id) }, make("code", {}, id));
 
-// A label that is an address leads there; any other text stays text.
+// Links a label that is a URL; any other text stays text.
 function labelOf(text) {
   if (!/^https?:\/\//.test(text) || !URL.canParse(text)) return text;
   return make("a", { href: new URL(text).href, rel: "noreferrer" }, text);
