@@ -86,7 +86,7 @@ fn explanation() -> Markup {
             }
             p {
                 b { "Median" } " is the median of the rounds' medians; the " b { "interval" }
-                " holds it with a confidence of " (CONFIDENCE * 100.0) " %, by drawing rounds with replacement (at least "
+                " contains it with a confidence of " (CONFIDENCE * 100.0) " %, by drawing rounds with replacement (at least "
                 (MIN_ROUNDS) " rounds). " b { "p50" } " and " b { "p95" } " are over all frames. "
                 b { "Visible" } " is the smallest change that a diff with another bench like this one "
                 "finds with a probability of " (POWER) "."

@@ -71,8 +71,8 @@ pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
         details open[number < 3] {
             summary { h3 { (breakable(&line.name)) } " " small { (of_all(shown_runs.len(), shown.len())) } }
             p.cap {
-                "Large: good of the " (thousands(common as u64))
-                " cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. "
+                "Large: the good share of the " (thousands(common as u64))
+                " cases with a verdict in all whole runs of this adapter. Small: of all cases of that run. "
                 a href={ "#adapter=" (crate::page::link::encoded(&line.name)) } { "Every run" } "."
             }
             (table.page(areas.into_iter().chain([all_areas])))

@@ -43,7 +43,7 @@ pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
                 input id="q" type="search" autocomplete="off" spellcheck="false" placeholder="words of an id";
                 span.soft { kbd { "/" } " searches, " kbd { "j" } " and " kbd { "k" } " go through links, " kbd { "Esc" } " goes back" }
             }
-            noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. What follows needs none." } }
+            noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. The rest of this page does not." } }
             (news(found))
             (last_runs(model, found))
             section id="over-time" {
@@ -157,7 +157,7 @@ fn families(model: &Model<'_>) -> Markup {
     html! {
         section id="families" {
             h2 { "Families" }
-            p.cap { "Good of the cases that all whole runs of an adapter have, from the first run to the last; the height is from the least to the most." }
+            p.cap { "The share of good cases among those that all whole runs of an adapter have, from the first run to the last. The height spans a curve's lowest and highest value." }
             @if !moving.is_empty() { (curves(model, &scores, &moving, "Families whose score moved")) }
             @if !still.is_empty() {
                 details {

@@ -44,7 +44,7 @@ pub fn write_site(
     site.finish(start::page(&runs).as_bytes(), about)
 }
 
-/// Refuses a site that contains one of its sources, which replacing the site would delete, or is inside one.
+/// Refuses a site that contains one of its sources or is inside it: replacing the site would delete the source.
 fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
     if overlap(to, folder) {
         return Err(ReportError::Within {

@@ -318,9 +318,9 @@ fn reading() -> Markup {
             h2 { "Worse and better" }
             p {
                 b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
-                "one that became a graver one; a case that was right and is not supported any more; a case that "
-                "both runs select and the second one holds no record of; and an adapter that vanished. " b { "Better" } " is the way "
-                "back. Other pixels, counters and distances under the same verdict are " b { "other" }
+                "verdict that became a graver one; a case that was right and is no longer supported; a case that "
+                "both runs select and the second has no record of; and an adapter that vanished. " b { "Better" } " is the "
+                "reverse. Other pixels, counters and distances under the same verdict are " b { "other" }
                 " changes, and so is pass to imprecise, which is legal."
             }
         }
