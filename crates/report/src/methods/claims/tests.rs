@@ -267,7 +267,7 @@ fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
     // A fifth of all fragments of the prepass, but far fewer than it shades.
     let (found, figures, _) = outcome(title, &records(300, 2500));
     assert_eq!(found, Reproduction::NotReproduced, "{figures:?}");
-    // Half as many more fragments as the prepass shades.
+    // Half again as many fragments as the prepass shades.
     assert_eq!(
         outcome(title, &records(1500, 2500)).0,
         Reproduction::NotReproduced
