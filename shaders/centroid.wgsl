@@ -1,5 +1,5 @@
-// One uniform colour where the first texture coordinate, interpolated at a point inside the
-// primitive, is not negative; another where it is.
+// One uniform colour if the first texture coordinate, interpolated at a point inside the primitive, is not
+// negative; another if it is.
 
 struct Params {
     color: vec4f,

@@ -1,4 +1,4 @@
-// The vertex colour, the same over the whole primitive, which is clipped by its two texture coordinates.
+// The vertex colour, the same over the whole primitive. The two texture coordinates are clip distances.
 
 enable clip_distances;
 

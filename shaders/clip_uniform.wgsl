@@ -1,5 +1,5 @@
 // One uniform colour, clipped by eight distances: the vertex colour, the texture coordinates, and the
-// vertex colour's alpha and blue less these.
+// differences between the vertex colour's alpha and blue and the texture coordinates.
 
 enable clip_distances;
 

@@ -1,4 +1,4 @@
-// A uniform colour; every run of the shader counts itself.
+// A uniform colour. Each run of the shader increments a counter.
 
 struct Params {
     color: vec4f,

@@ -1,5 +1,5 @@
-// A uniform colour; the vertex colour's red becomes the fragment's depth, bit for bit. Every run of
-// the shader counts itself.
+// A uniform colour. The vertex colour's red becomes the fragment's depth, bit for bit. Each run of the shader
+// increments a counter.
 
 struct Params {
     color: vec4f,

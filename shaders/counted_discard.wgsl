@@ -1,5 +1,5 @@
-// The texel of a texture that lies under the fragment. Every run of the shader counts itself; then a
-// fragment whose alpha is below the parameter's is discarded.
+// The texel of a texture under the fragment. Each run of the shader increments a counter, then discards the
+// fragment if its alpha is below the parameter's.
 
 struct Params {
     color: vec4f,

@@ -1,5 +1,5 @@
-// The vertex colour, the same over the whole primitive. Its two texture coordinates are cull distances, which WGSL calls by
-// no name: they are clip distances here, and backends make the others of them.
+// The vertex colour, the same over the whole primitive. The two texture coordinates are cull distances. WGSL
+// has no name for these: the shader writes clip distances, and backends turn them into cull distances.
 
 enable clip_distances;
 

@@ -1,5 +1,5 @@
-// The distance that a window depth of a perspective projection stands for, as grey: 0 at the near
-// plane, whose distance is the parameter's red, 1 at the far plane, its green.
+// The distance that corresponds to a window depth of a perspective projection, as grey: 0 at the near plane,
+// whose distance is the parameter's red, and 1 at the far plane, whose distance is the green.
 
 struct Params {
     color: vec4f,

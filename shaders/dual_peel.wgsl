@@ -1,7 +1,6 @@
-// One step of dual depth peeling (Bavoil and Myers 2008). Texture 0 holds minus the nearest and the
-// farthest depth that are still to be peeled, texture 1 the colour in front so far, premultiplied.
-// All three outputs are blended by their maximum: depths for the next step, front, and the farthest
-// layer's own colour.
+// One step of dual depth peeling (Bavoil and Myers 2008). Texture 0 has minus the nearest and the farthest
+// depth that are not peeled yet; texture 1 has the premultiplied colour in front of them. All three outputs
+// are blended by their maximum: depths for the next step, front, and the farthest layer's own colour.
 
 @group(0) @binding(1) var depths: texture_2d<f32>;
 @group(0) @binding(2) var front: texture_2d<f32>;

@@ -1,4 +1,4 @@
-// The vertex colour, its alpha weighted by how much of the texel an edge leaves: the first texture
+// The vertex colour, with its alpha weighted by the part of the texel inside an edge. The first texture
 // coordinate is the distance from the edge in texels, positive inside.
 
 struct Varying {

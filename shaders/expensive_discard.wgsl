@@ -1,4 +1,4 @@
-// As `expensive_color`; discards where the vertex colour's alpha is below the parameter's.
+// Like `expensive_color`; discards the fragment if the vertex colour's alpha is below the parameter's.
 
 struct Params {
     color: vec4f,
@@ -17,14 +17,14 @@ fn vs(@location(0) position: vec4f, @location(1) color: vec4f) -> Varying {
     return Varying(position, color);
 }
 
-// A value that is 0 and takes so many dependent steps to find out.
+// Returns 0 after `steps` dependent steps of work.
 fn cost(position: vec4f, steps: f32) -> f32 {
     var hash = u32(position.x) * 747796405u + u32(position.y);
     for (var i = 0u; i < u32(max(steps, 0.0)); i++) {
         hash = hash * 1664525u + 1013904223u;
         hash = hash ^ (hash >> 15u);
     }
-    // One of two neighbours is even.
+    // One of two consecutive numbers is even, so the product's lowest bit is 0.
     return f32((hash * (hash + 1u)) & 1u);
 }
 

@@ -10,7 +10,7 @@ struct Params {
 
 struct Output {
     @location(0) color: vec4f,
-    // WGSL has no such built-in: backends put it in the place of this location.
+    // WGSL has no such built-in: backends replace this location by it.
     @location(1) stencil_reference: i32,
 }
 

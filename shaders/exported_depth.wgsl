@@ -1,4 +1,4 @@
-// As exported_color; the texel's green becomes the depth.
+// Like `exported_color`; the texel's green becomes the depth.
 
 struct Params {
     color: vec4f,
@@ -10,7 +10,7 @@ struct Params {
 
 struct Output {
     @location(0) color: vec4f,
-    // WGSL has no such built-in: backends put it in the place of this location.
+    // WGSL has no such built-in: backends replace this location by it.
     @location(1) stencil_reference: i32,
     @builtin(frag_depth) depth: f32,
 }

@@ -1,5 +1,5 @@
-// One colour and the texel's red as stencil reference on front faces, the other colour and the texel's alpha
-// on back faces.
+// On front faces, one colour, and the texel's red as stencil reference; on back faces, another colour and the
+// texel's alpha.
 
 struct Params {
     color: vec4f,
@@ -11,7 +11,7 @@ struct Params {
 
 struct Output {
     @location(0) color: vec4f,
-    // WGSL has no such built-in: backends put it in the place of this location.
+    // WGSL has no such built-in: backends replace this location by it.
     @location(1) stencil_reference: i32,
 }
 

@@ -1,11 +1,11 @@
-// The number of the sample in binary: red its lowest bit. The red of the texel under the fragment plus the
+// The number of the sample in binary; red is the lowest bit. The red of the texel under the fragment plus the
 // sample's number becomes the stencil reference.
 
 @group(0) @binding(1) var source: texture_2d<f32>;
 
 struct Output {
     @location(0) color: vec4f,
-    // WGSL has no such built-in: backends put it in the place of this location.
+    // WGSL has no such built-in: backends replace this location by it.
     @location(1) stencil_reference: i32,
 }
 

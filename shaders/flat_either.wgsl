@@ -1,4 +1,4 @@
-// The vertex colour of either the first or the last vertex, the same over the whole primitive.
+// The vertex colour of the first or the last vertex, the same over the whole primitive.
 
 struct Varying {
     @builtin(position) position: vec4f,

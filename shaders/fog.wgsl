@@ -1,6 +1,6 @@
-// The vertex colour, faded to the second parameter with the distance that the window depth of a
-// perspective projection stands for: not at all at the near plane, whose distance is the first
-// parameter's red, wholly at the far plane, its green.
+// The vertex colour, faded to the second parameter with the distance, which follows from the window depth of
+// a perspective projection. It is not faded at the near plane, whose distance is the first parameter's red,
+// and completely at the far plane, whose distance is the green.
 
 struct Params {
     color: vec4f,

@@ -1,4 +1,5 @@
-// The fragment's window coordinates as red and green, by the parameter's; its blue and alpha.
+// The fragment's window coordinates, scaled by the parameter's red and green, as red and green; the
+// parameter's blue and alpha.
 
 struct Params {
     color: vec4f,

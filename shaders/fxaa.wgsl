@@ -1,8 +1,8 @@
-// Fast approximate anti-aliasing (Lottes 2009; the walk of version 3.11 with twelve steps) of a drawn
-// picture: finds the texels beside an edge by their luma, walks along the edge to both of its ends, and
-// reads the picture so far across the edge as the nearer end asks for. The first parameter holds the size
-// of a texel in texture coordinates, the contrast relative to the brightest neighbour and the least
-// contrast that count as an edge; the second one's red is the weight of single texels.
+// Fast approximate anti-aliasing (Lottes 2009; the search of version 3.11 with twelve steps) of a drawn
+// picture. It finds the texels next to an edge by their luma, searches along the edge for both of its ends,
+// and reads the picture at an offset across the edge that depends on the nearer end. The first parameter is
+// the size of a texel in texture coordinates, the contrast relative to the brightest neighbour and the least
+// contrast that count as an edge. The second parameter's red is the weight of single texels.
 
 struct Params {
     color: vec4f,
@@ -28,7 +28,7 @@ fn luma(at: vec2f) -> f32 {
     return color.r * 0.299 + color.g * 0.587 + color.b * 0.114;
 }
 
-// The texels that a step of the walk goes on.
+// Returns the number of texels that a step of the search advances.
 fn stride(step: i32) -> f32 {
     if step < 5 {
         return 1.0;
@@ -66,7 +66,7 @@ fn fs(in: Varying) -> @location(0) vec4f {
     let ne = luma(uv + vec2f(texel.x, -texel.y));
     let sw = luma(uv + vec2f(-texel.x, texel.y));
 
-    // How far the texel stands out from the mean of its neighbours.
+    // The difference of the texel from the mean of its neighbours.
     let mean = ((n + s + w + e) * 2.0 + (nw + ne) + (sw + se)) / 12.0;
     let apart = min(abs(mean - m) / contrast, 1.0);
     let smoothed = apart * apart * (3.0 - apart * 2.0);
@@ -120,7 +120,7 @@ fn fs(in: Varying) -> @location(0) vec4f {
     if walked.x < walked.y {
         end = ends.x;
     }
-    // On the side of the edge to which the nearer end leans, the texel keeps its colour.
+    // The texel keeps its colour on the side of the edge towards which the nearer end leans.
     var shift = 0.0;
     if (end < 0.0) != (m < average) {
         shift = 0.5 - min(walked.x, walked.y) / (walked.x + walked.y);

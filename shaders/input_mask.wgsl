@@ -1,5 +1,5 @@
-// Four bits of the sample mask that the shader is given: red the one whose number is the red of the uniform
-// colour, green, blue and alpha the next three.
+// Four bits of the sample mask that the shader receives. The red of the uniform colour is the number of the
+// bit in red; green, blue and alpha are the next three bits.
 
 struct Params {
     color: vec4f,

@@ -1,5 +1,5 @@
-// As `input_mask`, with the bit of the sample turned. Asking for its number makes the shader run once per sample,
-// whose mask has that bit alone: nothing is left.
+// Like `input_mask`, with the sample's own bit inverted. Reading the sample's number makes the shader run
+// once per sample with only this bit in its mask, so the result is 0.
 
 struct Params {
     color: vec4f,

@@ -1,5 +1,5 @@
 // The vertex colour. The depth grows linearly with the distance, which is the clip-space w: 0 at the near
-// plane, whose distance is the parameter's red, 1 at the far plane, its green.
+// plane, whose distance is the parameter's red, and 1 at the far plane, whose distance is the green.
 
 struct Params {
     color: vec4f,

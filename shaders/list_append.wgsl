@@ -1,7 +1,7 @@
-// Per-pixel linked lists (Yang, Hensley, Grün and Thibieroz 2010), their making: the fragment becomes a node in
-// front of its texel's list. The pool holds the number of nodes asked for, one head for each texel, and nodes of
-// six words: colour, depth, and the node behind. Nodes have numbers from 1 on, and 0 ends a list. Of what the
-// pool has no room for, nothing is left. The first parameter holds the picture's size.
+// Per-pixel linked lists (Yang, Hensley, Grün and Thibieroz 2010), first pass: the fragment becomes the first
+// node of its texel's list. The pool is the number of requested nodes, one head for each texel, and nodes of
+// six words: colour, depth, and the next node. Nodes are numbered from 1, and 0 ends a list. Fragments
+// without room in the pool are lost. The first parameter is the picture's size.
 
 struct Params {
     color: vec4f,

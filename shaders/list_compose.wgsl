@@ -1,6 +1,6 @@
-// Per-pixel linked lists (Yang and others 2010), their end: the nodes of the texel's list, nearest first, under
-// each other; premultiplied colour, and as alpha what all of them leave of the background. Of two at the same
-// depth the later node is in front. `list_append.wgsl` tells what the pool holds.
+// Per-pixel linked lists (Yang and others 2010), second pass: the nodes of the texel's list, composed nearest
+// first. The result is a premultiplied colour, with the transmittance of the background as alpha. Of two
+// nodes at the same depth, the later one is in front. `list_append.wgsl` describes the pool.
 
 struct Params {
     color: vec4f,

@@ -1,6 +1,6 @@
-// The vertex colour. The depth grows with the logarithm of the distance, which is the clip-space w: 0 at the
-// near plane, whose distance is the parameter's red. The parameter's blue is 1 over the binary logarithm of
-// far over near.
+// The vertex colour. The depth grows with the logarithm of the distance, which is the clip-space w. It is 0
+// at the near plane, whose distance is the parameter's red. The parameter's blue is 1 over the binary
+// logarithm of far over near.
 
 struct Params {
     color: vec4f,

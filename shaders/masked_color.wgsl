@@ -1,4 +1,4 @@
-// A uniform colour with the alpha of the texel under the fragment, whose red becomes the sample mask.
+// A uniform colour with the alpha of the texel under the fragment. The texel's red becomes the sample mask.
 
 struct Params {
     color: vec4f,

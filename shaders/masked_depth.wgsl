@@ -1,5 +1,5 @@
-// A uniform colour with the alpha of the texel under the fragment, whose red becomes the sample mask, its
-// green the depth, bit for bit.
+// A uniform colour with the alpha of the texel under the fragment. The texel's red becomes the sample mask,
+// and its green the depth, bit for bit.
 
 struct Params {
     color: vec4f,

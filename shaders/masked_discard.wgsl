@@ -1,5 +1,5 @@
-// A uniform colour with the alpha of the texel under the fragment, whose red becomes the sample mask. A
-// fragment whose texel's blue is below the parameter's is discarded.
+// A uniform colour with the alpha of the texel under the fragment. The texel's red becomes the sample mask.
+// The fragment is discarded if the texel's blue is below the parameter's.
 
 struct Params {
     color: vec4f,

@@ -1,5 +1,5 @@
-// The number of the sample in binary: red its lowest bit. The red of the texel under the fragment becomes
-// the sample mask, in which each run turns the bits of all samples but its own: they do not concern it.
+// The number of the sample in binary; red is the lowest bit. The red of the texel under the fragment becomes
+// the sample mask. Each run inverts the bits of all other samples, which must have no effect.
 
 @group(0) @binding(1) var source: texture_2d<f32>;
 

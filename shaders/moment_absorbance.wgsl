@@ -1,7 +1,8 @@
-// Moment-based transparency with four power moments (Münstermann, Krumpen, Klein and Peters 2018), its
-// first pass: a fragment's absorbance, and that times the first four powers of its depth, to be added up.
-// Absorbance counts halvings of light, so that logarithms are binary, and depths go from -1 to 1. An opaque
-// fragment would absorb without end: none absorbs more than leaves e^-10 of the light, as in the authors' code.
+// Moment-based transparency with four power moments (Münstermann, Krumpen, Klein and Peters 2018), first
+// pass: a fragment's absorbance, and the absorbance times the first four powers of the depth, to be summed.
+// Absorbance counts halvings of light, so logarithms are binary. Depths go from -1 to 1. An opaque fragment
+// would have infinite absorbance, so absorbance is limited to a transmittance of e^-10, as in the authors'
+// code.
 
 struct Varying {
     @builtin(position) position: vec4f,

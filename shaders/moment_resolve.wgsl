@@ -1,5 +1,5 @@
-// Moment-based transparency (Münstermann and others 2018), its end: the mean of all colours from texture 0,
-// weighted by alpha and transmittance, and as alpha what the absorbance in texture 1 leaves of the background.
+// Moment-based transparency (Münstermann and others 2018), last pass: the mean of all colours from texture 0,
+// weighted by alpha and transmittance, with the background's transmittance from texture 1 as alpha.
 
 @group(0) @binding(1) var sum: texture_2d<f32>;
 @group(0) @binding(2) var absorbance: texture_2d<f32>;

@@ -1,9 +1,10 @@
-// Moment-based transparency with four power moments (Münstermann and others 2018), its second pass: the
-// premultiplied colour and alpha times the transmittance in front of the fragment, to be added up. Of all
-// distributions of absorbance along depth with the moments in texture 1, the one that has the fragment's
-// depth among three places absorbs least in front of it (the Hamburger problem). The moments are moved by
-// 5e-7 towards (0, 0.375, 0, 0.375), which keeps their matrix regular, and a quarter of what lies at the
-// fragment's own depth counts as in front of it: bias and overestimation are those of the authors.
+// Moment-based transparency with four power moments (Münstermann and others 2018), second pass: the
+// premultiplied colour and alpha times the transmittance in front of the fragment, to be summed. Many
+// distributions of absorbance along depth have the moments in texture 1. The distribution with three places,
+// one of them the fragment's depth, absorbs least in front of the fragment (the Hamburger problem). The
+// moments are moved by 5e-7 towards (0, 0.375, 0, 0.375), which keeps their matrix regular, and a quarter of
+// the absorbance at the fragment's own depth counts as in front of it: the bias and overestimation of the
+// authors.
 
 @group(0) @binding(1) var absorbance: texture_2d<f32>;
 @group(0) @binding(2) var moments: texture_2d<f32>;
@@ -18,14 +19,15 @@ fn vs(@location(0) position: vec4f, @location(1) color: vec4f) -> Varying {
     return Varying(position, color);
 }
 
-// The share of the absorbance in front of a depth.
+// Returns the share of the absorbance in front of a depth.
 fn in_front(b: vec4f, z: f32) -> f32 {
-    // The matrix of the moments is L D Lt; D is (1, d1, d2), and l the lowest element of L.
+    // The matrix of the moments is L D Lt, where D is (1, d1, d2) and l the lowest element of L.
     let mixed = b.z - b.x * b.y;
     let d1 = b.y - b.x * b.x;
     let l = mixed / d1;
     let d2 = (b.w - b.y * b.y) - mixed * l;
-    // The inverse of the matrix between the powers of two depths, one of them z, is a parabola in the other.
+    // The inverse matrix between the powers of z and those of a second depth is a parabola in the second
+    // depth.
     let first = z - b.x;
     let second = (z * z - b.y) - first * l;
     let first_over = first / d1;
@@ -37,7 +39,7 @@ fn in_front(b: vec4f, z: f32) -> f32 {
     }
     let c1 = first_over - second_over * l;
     let c0 = (1.0 - b.x * first_over) + second_over * (b.x * l - b.y);
-    // Its roots are the two other places.
+    // The roots of the parabola are the two other places.
     var root = sqrt(max(c1 * c1 - (c0 * c2) * 4.0, 0.0));
     if c1 < 0.0 {
         root = -root;

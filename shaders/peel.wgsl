@@ -1,5 +1,5 @@
-// One step of depth peeling (Everitt 2001): the vertex colour and the depth of what lies behind the
-// depth that texture 0 holds; everything else is discarded.
+// One step of depth peeling (Everitt 2001): the vertex colour and the depth of fragments behind the depth in
+// texture 0. All others are discarded.
 
 @group(0) @binding(1) var before: texture_2d<f32>;
 

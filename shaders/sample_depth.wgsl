@@ -1,5 +1,5 @@
-// A uniform colour; the depth is the number of the sample plus 1, in 32nds. Asking for the number
-// makes the shader run once per sample.
+// A uniform colour. The depth is the number of the sample plus 1, in 32nds. Reading the number makes the
+// shader run once per sample.
 
 struct Params {
     color: vec4f,

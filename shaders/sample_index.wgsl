@@ -1,5 +1,4 @@
-// The number of the sample in binary: red its lowest bit. Asking for it makes the shader run once
-// per sample.
+// The number of the sample in binary; red is the lowest bit. Reading it makes the shader run once per sample.
 
 @vertex
 fn vs(@location(0) position: vec4f) -> @builtin(position) vec4f {

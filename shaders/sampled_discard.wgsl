@@ -1,5 +1,5 @@
-// A texture sampled at the interpolated texture coordinates. A fragment whose alpha is below the
-// parameter's is discarded: the alpha test.
+// A texture sampled at the interpolated texture coordinates. The alpha test discards fragments whose alpha is
+// below the parameter's.
 
 struct Params {
     color: vec4f,

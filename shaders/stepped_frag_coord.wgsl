@@ -1,5 +1,5 @@
-// The whole steps of the fragment coordinate's w and depth, by the parameter's red and green: of w as three bits of
-// which neighbouring steps differ in one, of the depth as alpha, odd or even.
+// The whole steps of the fragment coordinate's w and depth, scaled by the parameter's red and green. The step
+// of w is a Gray code in red, green and blue; the step of the depth is its lowest bit in alpha.
 
 struct Params {
     color: vec4f,

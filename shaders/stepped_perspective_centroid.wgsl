@@ -1,5 +1,6 @@
-// The whole steps of the texture coordinates, interpolated in perspective inside the part of the texel that the primitive covers:
-// of the first as three bits of which neighbouring steps differ in one, of the second as alpha, odd or even.
+// The whole steps of the texture coordinates, interpolated in perspective inside the part of the texel that
+// the primitive covers. The first coordinate's step is a Gray code in red, green and blue; the second's is
+// its lowest bit in alpha.
 
 struct Varying {
     @builtin(position) position: vec4f,

@@ -1,5 +1,5 @@
-// Stochastic transparency (Enderton and others 2010): the vertex colour, discarded where its alpha is
-// below a threshold that texture 0 holds for each of four samples. Runs once per sample.
+// Stochastic transparency (Enderton and others 2010): the vertex colour, discarded if its alpha is below a
+// threshold. Texture 0 has a threshold for each of four samples. Runs once per sample.
 
 @group(0) @binding(1) var thresholds: texture_2d<f32>;
 

@@ -1,4 +1,4 @@
-// The texel of a texture that lies under the fragment, fetched without filtering.
+// The texel of a texture under the fragment, fetched without filtering.
 
 @group(0) @binding(1) var source: texture_2d<f32>;
 

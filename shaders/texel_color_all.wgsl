@@ -1,4 +1,4 @@
-// The texel of a texture that lies under the fragment, the same to four colour attachments.
+// The texel of a texture under the fragment, written to four colour attachments.
 
 @group(0) @binding(1) var source: texture_2d<f32>;
 

@@ -1,5 +1,5 @@
-// The texel of a texture that lies under the fragment. A fragment whose alpha is below the parameter's
-// is discarded: the alpha test.
+// The texel of a texture under the fragment. The alpha test discards fragments whose alpha is below the
+// parameter's.
 
 struct Params {
     color: vec4f,

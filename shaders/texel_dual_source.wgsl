@@ -1,5 +1,4 @@
-// The texels of two textures that lie under the fragment: one the source, the other the second
-// source that blend factors can name.
+// The texels of two textures under the fragment: the source and the second source for blend factors.
 
 enable dual_source_blending;
 

@@ -1,4 +1,4 @@
-// A uniform colour as integers, for attachments that hold integers.
+// A uniform colour as integers, for integer attachments.
 
 struct Params {
     color: vec4f,

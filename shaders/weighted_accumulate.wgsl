@@ -1,5 +1,5 @@
-// Weighted blended transparency (McGuire and Bavoil 2013), its accumulation: premultiplied colour and
-// alpha by the weight of their equation 10, to be added up; alpha alone, to be multiplied up.
+// Weighted blended transparency (McGuire and Bavoil 2013), accumulation: premultiplied colour and alpha,
+// weighted by equation 10 and to be summed; and alpha alone, to be multiplied.
 
 struct Varying {
     @builtin(position) position: vec4f,

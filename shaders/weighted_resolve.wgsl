@@ -1,5 +1,5 @@
-// Weighted blended transparency (McGuire and Bavoil 2013), its end: the weighted mean of all colours
-// from texture 0, and as alpha what texture 1 says they leave of the background.
+// Weighted blended transparency (McGuire and Bavoil 2013), last pass: the weighted mean of all colours from
+// texture 0, with the background's transmittance from texture 1 as alpha.
 
 @group(0) @binding(1) var sum: texture_2d<f32>;
 @group(0) @binding(2) var left: texture_2d<f32>;

@@ -1,4 +1,4 @@
-//! The cost of case files: parsing the built-in ones, naming every case, and building every scene.
+//! The cost of case files: parsing the built-in files, naming all cases, and building all scenes.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_case::{Library, Profile};

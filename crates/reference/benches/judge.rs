@@ -1,5 +1,5 @@
-//! The cost of judging: single cases of 16 by 16 texels, a sample of all of them, and pictures and meshes
-//! that grow. Both legal sets; a frame compared with them.
+//! The cost of judging single cases of 16 by 16 texels, a sample of all such cases, and growing pictures and
+//! meshes. Measures both legal sets, and the comparison of a frame with them.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use etalon_backend::Backend;
@@ -16,7 +16,7 @@ const IDS: [&str; 3] = [
     "blend/factors/dst=one-minus-src-alpha/operation=add/src=src-alpha",
 ];
 
-/// Of the cases of 16 by 16 texels, each this many is judged together with the others.
+/// The step between the cases of 16 by 16 texels that are judged together.
 const STEP: usize = 41;
 
 fn case(library: &Library, id: &str) -> Case {
@@ -50,7 +50,7 @@ fn judge(c: &mut Criterion) {
     }
 }
 
-/// The scenes of cases whose attachments have 16 by 16 texels at most.
+/// Returns the scenes of cases whose attachments have at most 16 by 16 texels.
 fn small(library: &Library) -> Vec<Scene> {
     let cases = library.cases(Profile::Full);
     let built = cases

@@ -1,5 +1,5 @@
-//! Benches: the page, the files for dashboards and the summary for a terminal, computed from the recorded
-//! samples each time, so that a bench can be reported anew by a later version.
+//! Reports of a bench: the page, the files for dashboards and the summary for a terminal. All are computed
+//! from the recorded samples, so a later version can report an old bench again.
 
 mod charts;
 pub(crate) mod figures;

@@ -1,7 +1,9 @@
-//! The cases of a run as they are meant: scene, shader and reference picture, in one script per area beside the page.
+//! The cases of a run as intended: scene, shader and reference picture, in one script per area next to the
+//! page.
 //!
-//! A browser lets no page from the file system read its neighbours but by running them as scripts, so each file is a
-//! call of one function with one value. The page's policy lets its own script load them, and nothing else load anything.
+//! A browser lets a page from the file system read its neighbours only by running them as scripts. Each file
+//! is therefore a call of one function with one value. The page's policy allows its own script to load these
+//! files and forbids all other loading.
 
 use crate::error::ReportError;
 use crate::files::{make, replace};
@@ -16,10 +18,10 @@ use std::path::Path;
 
 /// The folder of the scripts in a run folder.
 pub const CATALOGUE: &str = "cases";
-/// The most bytes of one area's pictures: those behind are left out.
+/// The most bytes of one area's pictures. Pictures beyond this limit are left out.
 const PICTURE_BYTES: usize = 1_000_000;
 
-/// One case, as it is meant.
+/// One case as intended.
 #[derive(Clone, Debug)]
 pub struct CatalogueCase {
     /// The id.
@@ -30,11 +32,11 @@ pub struct CatalogueCase {
     pub lines: Vec<String>,
     /// The names of its shaders.
     pub shaders: Vec<&'static str>,
-    /// The reference picture, a `data:` address; empty where there is none.
+    /// The reference picture as a `data:` URL; empty if the case has no picture.
     pub picture: String,
 }
 
-/// Cases, before they are written.
+/// The cases to write.
 #[derive(Debug, Default)]
 pub struct Catalogue {
     /// The text that the cases of a file share, by its path without `.json`.
@@ -45,7 +47,7 @@ pub struct Catalogue {
     pub cases: Vec<CatalogueCase>,
 }
 
-/// The file of one area: texts, pictures and lists once each, by place.
+/// The file of one area. Each text, picture and list is in it once; the cases refer to them by index.
 #[derive(Serialize, Default)]
 struct Area<'a> {
     files: BTreeMap<&'a str, &'a Value>,
@@ -56,11 +58,12 @@ struct Area<'a> {
     scenes: Interner<Vec<usize>>,
     /// Lists of shaders.
     used: Interner<&'a [&'static str]>,
-    /// By file and the rest of the id: scene, picture (-1 for none), list of shaders.
+    /// By file and the rest of the id: the indices of the scene, the picture (-1 for none) and the list of
+    /// shaders.
     cases: BTreeMap<&'a str, BTreeMap<&'a str, (usize, i64, usize)>>,
 }
 
-/// Returns a small picture of a frame's first image, a `data:` address; empty where it cannot be shown.
+/// Returns a small picture of a frame's first image as a `data:` URL; empty if it cannot be shown.
 pub fn reference_picture(frame: &Frame) -> String {
     frame.images.first().and_then(thumbnail).unwrap_or_default()
 }
@@ -134,7 +137,7 @@ fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
     area
 }
 
-/// The scripts of a run folder: area and path below the folder; none where the folder has none.
+/// Returns the scripts of a run folder: area and path below the folder.
 pub(crate) fn scripts(folder: &Path) -> Vec<(String, String)> {
     let Ok(entries) = fs::read_dir(folder.join(CATALOGUE)) else {
         return Vec::new();

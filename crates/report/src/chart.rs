@@ -1,4 +1,5 @@
-//! Charts as SVG, drawn by hand: a page may hold hundreds, and a library of charts would bring a script.
+//! Charts as SVG, written directly: a page can hold hundreds of charts, and a chart library would bring a
+//! script.
 
 mod label;
 mod marker;
@@ -10,7 +11,7 @@ pub(crate) use marker::{color, dash, key, line_key, marker};
 pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, n, polyline, zero_band};
 pub(crate) use scale::Scale;
 
-/// The style sheet of charts. A legend shows where its method is; without scripts too.
+/// Returns the style sheet of charts. A legend highlights its method in the chart, even without scripts.
 pub(crate) fn style() -> String {
     let sheet = include_str!("chart/chart.css").to_owned();
     let rule = |i: usize| {

@@ -1,8 +1,8 @@
-//! Command lines that reports print for people to copy.
+//! Command lines in reports, for people to copy.
 
 use etalon_record::Record;
 
-/// Returns a word quoted for a POSIX shell where it needs to be.
+/// Returns a word, quoted for a POSIX shell if it needs quotes.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -12,12 +12,13 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// The command that draws a case again.
+/// Returns the command that draws a case again.
 pub(crate) fn run(case: &str, adapter: &str) -> String {
     format!("etalon run {} --adapter {}", quoted(case), quoted(adapter))
 }
 
-/// The command that explains the first wrong texel of a record; without one, draws the case again.
+/// Returns the command that explains the first wrong texel of a record. Without a wrong texel, it draws the
+/// case again.
 pub(crate) fn explain(record: &Record) -> String {
     match record.wrong.first() {
         Some(texel) => format!(
@@ -31,7 +32,7 @@ pub(crate) fn explain(record: &Record) -> String {
     }
 }
 
-/// The commands from a wrong picture to a report, each with what it gives.
+/// Returns the commands that lead from a wrong picture to a report, each with its result.
 pub(crate) fn onward(record: &Record) -> [(&'static str, String); 3] {
     let (case, adapter) = (quoted(&record.case), quoted(&record.adapter));
     [

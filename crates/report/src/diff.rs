@@ -1,4 +1,4 @@
-//! Comparisons: of two runs, and of two benches.
+//! Comparisons of two runs and of two benches.
 
 pub(crate) mod benches;
 pub mod runs;

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The reason for which a report could not be made.
+/// The reason why a report could not be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// The run could not be read.
@@ -20,7 +20,7 @@ pub enum ReportError {
         /// The error of the system.
         source: io::Error,
     },
-    /// A file that a report is made from could not be read.
+    /// A source file of a report could not be read.
     #[error("cannot read {}: {source}", path.display())]
     Unread {
         /// The file.
@@ -28,19 +28,19 @@ pub enum ReportError {
         /// The error of the system.
         source: io::Error,
     },
-    /// A folder for a site holds no page.
-    #[error("{0} holds no page; `etalon report {0}` writes those of a run or bench", path.display())]
+    /// A folder for a site has no page.
+    #[error("{0} holds no page; `etalon report {0}` writes the pages of a run or bench", path.display())]
     NoPage {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder for a site holds one.
+    /// The folder for a site already has a site.
     #[error("{} holds a site; --force replaces it", path.display())]
     HasSite {
         /// The folder.
         path: PathBuf,
     },
-    /// A folder for pages holds something else.
+    /// A folder for pages has other files.
     #[error("{} is not empty and holds no {kind}; name another folder", path.display())]
     Occupied {
         /// The folder.
@@ -48,16 +48,16 @@ pub enum ReportError {
         /// The kind of pages.
         kind: &'static str,
     },
-    /// A file in a folder of pages that is not of it.
-    #[error("{} is not of the {kind} and would be lost; move it", path.display())]
+    /// A file in a folder of pages does not belong to them.
+    #[error("{} does not belong to the {kind} and would be lost; move it", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
         /// The kind of pages.
         kind: &'static str,
     },
-    /// A recorded folder lies in the site, or the site in it.
-    #[error("{} and {} must not lie one in the other; name another folder for the site", site.display(), folder.display())]
+    /// A recorded folder is inside the site, or the site is inside it.
+    #[error("{} and {} must not contain each other; name another folder for the site", site.display(), folder.display())]
     Within {
         /// The site.
         site: PathBuf,
@@ -67,16 +67,16 @@ pub enum ReportError {
     /// A history could not be read.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// A history has no run of these labels.
+    /// A history has no run with these labels.
     #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
     NoRuns {
         /// The file.
         path: PathBuf,
     },
-    /// The JUnit report has no XML form.
+    /// The JUnit report could not be written as XML.
     #[error("cannot write the JUnit report: {0}")]
     Junit(#[from] quick_junit::SerializeError),
-    /// A report has no JSON form.
+    /// A report could not be written as JSON.
     #[error("cannot write a report as JSON: {0}")]
     Json(serde_json::Error),
     /// The path of a report does not end in a file name.
@@ -85,12 +85,12 @@ pub enum ReportError {
         /// The path.
         path: PathBuf,
     },
-    /// The run does not have the adapter that was asked for.
+    /// The run lacks the requested adapter.
     #[error("{} has no adapter {adapter}; it has {known}", path.display())]
     NoAdapter {
         /// The run folder.
         path: PathBuf,
-        /// The adapter that was asked for.
+        /// The requested adapter.
         adapter: String,
         /// The adapters of the run.
         known: String,
@@ -109,7 +109,7 @@ pub enum ReportError {
 }
 
 impl ReportError {
-    /// The error of a file that cannot be written.
+    /// Returns a conversion of the system's error for a file that cannot be written.
     pub(crate) fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),
@@ -117,7 +117,7 @@ impl ReportError {
         }
     }
 
-    /// The error of a file that cannot be read.
+    /// Returns a conversion of the system's error for a file that cannot be read.
     pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Unread {
             path: path.to_owned(),

@@ -1,16 +1,16 @@
-//! Files of reports, written beside their place and renamed into it: a reader never sees half a report.
+//! Files of reports. Each is written to a temporary file and renamed, so a reader never sees half a report.
 
 use crate::error::ReportError;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder.
+/// Creates a folder and its parents.
 pub(crate) fn make(folder: &Path) -> Result<(), ReportError> {
     fs::create_dir_all(folder).map_err(ReportError::unwritten(folder))
 }
 
-/// Writes a file of a folder.
+/// Writes a file in a folder.
 pub(crate) fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
     let path = folder.join(name);
     let beside = folder.join(format!(".{name}.{}", std::process::id()));
@@ -36,7 +36,8 @@ pub(crate) fn replace_at(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportErr
     }
 }
 
-/// A file name for a text, other than all before: what could mislead a file system or an address is replaced.
+/// Returns a file name for a text that differs from all earlier ones. Characters that could mislead a file
+/// system or a URL are replaced.
 pub(crate) fn file_name(text: &str, ending: &str, taken: &mut BTreeSet<String>) -> String {
     const LONGEST: usize = 120;
     let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
@@ -49,7 +50,7 @@ pub(crate) fn file_name(text: &str, ending: &str, taken: &mut BTreeSet<String>) 
     };
     let mut name = format!("{safe}{ending}");
     let mut number = 1;
-    // Some file systems hold names for the same that differ in case alone.
+    // Some file systems ignore case in names.
     while !taken.insert(name.to_ascii_lowercase()) {
         number += 1;
         name = format!("{safe}-{number}{ending}");

@@ -1,8 +1,8 @@
 //! The pages of a history: what changed since the last run, scores over time, and the whole course of each case.
 //!
-//! The start page needs no script. Everything else is in files beside it, each a script that hands its data to the one of
-//! the page, since a browser lets no page that was opened from the file system read its neighbours otherwise. A file
-//! is loaded when something in it is to be seen.
+//! The start page needs no script. Everything else is in neighbouring files, each a script that hands its
+//! data to the page's script: a browser does not let a page from the file system read its neighbours
+//! otherwise. A file is loaded when something in it is to be shown.
 
 mod courses;
 mod data;

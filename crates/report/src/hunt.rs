@@ -16,16 +16,16 @@ use std::path::{Path, PathBuf};
 /// The page of a hunt.
 pub const HUNT_PAGE: &str = "mutants.html";
 
-/// The files that [`write_hunt`] made.
+/// The files that [`write_hunt`] wrote.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenHunt {
     /// The page.
     pub html: PathBuf,
-    /// The hunt itself.
+    /// The hunt as JSON.
     pub json: PathBuf,
 }
 
-/// Writes `mutants.json` and `mutants.html` into a folder, which is made when it does not exist.
+/// Writes `mutants.json` and `mutants.html` into a folder, and creates the folder if it does not exist.
 ///
 /// # Errors
 /// Returns an error if the folder cannot be written to.
@@ -35,8 +35,8 @@ pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError
     Ok(WrittenHunt { html, json })
 }
 
-/// Totals, a table with a row per area, and the bugs that were only noticed, survived, or were
-/// seen by another area alone. Always ends in a newline.
+/// Returns a table with a row per area, the totals, and the bugs that were only noticed, survived, or were
+/// seen by other areas only. The text always ends in a newline.
 pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     let (table, _) = area_table().terminal(areas(hunt), options, &[]);
     let mut text = format!("{table}\n\n{}\n", totals(hunt));
@@ -62,7 +62,7 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     text
 }
 
-/// The page.
+/// Returns the page.
 fn html(hunt: &Hunt) -> String {
     let main = html! {
         (head(hunt))
@@ -122,7 +122,7 @@ fn head(hunt: &Hunt) -> Markup {
     }
 }
 
-/// The class that colours an outcome: a fixed letter.
+/// Returns the class that colours an outcome, a fixed letter.
 fn class(outcome: Catch) -> &'static str {
     match outcome {
         Catch::Caught => "p",
@@ -137,8 +137,8 @@ fn by_area(hunt: &Hunt) -> Markup {
         section {
             h2 { "By area" }
             p {
-                "Which area's cases see which bugs. A bug has one area that must see it alone; the last "
-                "column counts those that it does."
+                "The bugs that each area's cases see. Each bug has an area that must see it without the others; the last "
+                "column counts an area's bugs that it sees."
             }
             (area_table().page(areas(hunt)))
         }
@@ -220,18 +220,18 @@ fn sighting(first: &Sighting) -> Markup {
     }
 }
 
-/// One area's share in the hunt.
+/// The results of one area.
 struct AreaRow<'a> {
     area: &'a str,
-    /// Bugs that this area must catch by itself.
+    /// The number of bugs that this area must catch alone.
     own: usize,
-    /// Those of them whose outcome the area reaches by itself.
+    /// The number of these bugs whose outcome the area reaches alone.
     own_reached: usize,
-    /// Bugs of any area that it caught, noticed without catching, and passed.
+    /// The number of bugs of any area that it caught, noticed without catching, and passed.
     counts: [usize; 3],
 }
 
-/// The share of every area, in alphabetical order.
+/// Returns the results of all areas, in alphabetical order.
 fn areas(hunt: &Hunt) -> Vec<AreaRow<'_>> {
     let tallies = || hunt.mutants.iter().flat_map(|m| &m.areas);
     let names: BTreeSet<&str> = tallies().map(|t| t.area.as_str()).collect();
@@ -260,7 +260,7 @@ fn areas(hunt: &Hunt) -> Vec<AreaRow<'_>> {
     names.into_iter().map(row).collect()
 }
 
-/// The table of areas.
+/// Returns the table of areas.
 fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
     Table::new("")
         .head("area", |row: &AreaRow<'_>| row.area)
@@ -275,7 +275,7 @@ fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
 /// The text that a terminal shows below a bug.
 type Reason = fn(&MutantRecord) -> Option<&String>;
 
-/// Bugs to look at: noticed, survived, or caught by the cases of other areas only.
+/// Returns bugs to look at: noticed, survived, or caught only by cases of other areas.
 fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
     let found = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);
@@ -293,7 +293,7 @@ fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
     ]
 }
 
-/// The totals in one line.
+/// Returns the totals in one line.
 fn totals(hunt: &Hunt) -> String {
     let counted = |outcome: Catch| format!("{} {}", hunt.count(outcome) as u64, outcome.name());
     let mut parts = vec![

@@ -1,10 +1,10 @@
-//! Lists in the order in which their items are first met.
+//! Lists in the order in which their items first occur.
 
 use serde::{Serialize, Serializer};
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// The values, each once.
+/// Returns the values without repetitions.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut all = Vec::new();
     for value in values {
@@ -15,7 +15,7 @@ pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec
     all
 }
 
-/// The values by key; keys in the order in which they are first met.
+/// Groups the values by key. Keys are in the order in which they first occur.
 pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
     values: impl IntoIterator<Item = (K, V)>,
 ) -> Vec<(K, Vec<V>)> {
@@ -29,7 +29,7 @@ pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
     keys.values.into_iter().zip(groups).collect()
 }
 
-/// Moves one item of each kind before the second of any; else their order is kept.
+/// Moves one item of each kind before the second item of any kind, and otherwise keeps the order.
 pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     let mut seen: HashMap<K, usize> = HashMap::new();
     items.sort_by_cached_key(|item| {
@@ -39,7 +39,7 @@ pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     });
 }
 
-/// Values, each once, by the place at which they were first met.
+/// Distinct values, by the place at which they first occurred.
 pub(crate) struct Interner<T> {
     places: HashMap<T, usize>,
     pub(crate) values: Vec<T>,
@@ -61,12 +61,12 @@ impl<T: Serialize> Serialize for Interner<T> {
 }
 
 impl<T: Hash + Eq + Clone> Interner<T> {
-    /// True if the value has a place.
+    /// Returns true if the value has a place.
     pub(crate) fn has(&self, value: &T) -> bool {
         self.places.contains_key(value)
     }
 
-    /// The place of a value.
+    /// Returns the place of a value, and adds the value if it is new.
     pub(crate) fn place(&mut self, value: T) -> usize {
         if let Some(place) = self.places.get(&value) {
             return *place;

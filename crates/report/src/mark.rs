@@ -4,12 +4,12 @@ use crate::words::{self, Tone};
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
-/// A verdict as symbol and word.
+/// Returns a verdict as symbol and word.
 pub(crate) fn mark(verdict: Verdict, tone: Tone) -> Markup {
     html! { span.m { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) } }
 }
 
-/// The class that colours a verdict: a fixed letter, never taken from a record.
+/// Returns the class that colours a verdict, a fixed letter that never comes from a record.
 pub(crate) fn class(verdict: Verdict, tone: Tone) -> &'static str {
     let (_, [plain, excused]) = words::signs(verdict);
     match tone {

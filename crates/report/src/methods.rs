@@ -1,5 +1,5 @@
-//! Rendering methods: accuracy against speed, stability, and claims of the literature; and the accuracy
-//! of the drivers.
+//! Rendering methods: accuracy against speed, stability, and claims of the literature. Also the accuracy of
+//! drivers.
 
 mod breaks;
 mod claims;

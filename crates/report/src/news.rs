@@ -17,13 +17,13 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// Records that are unexpected and were not, the gravest first.
+    /// Records that are unexpected and were not before, the gravest first.
     pub broken: Vec<NewsEntry>,
-    /// Records that were unexpected and are not.
+    /// Records that were unexpected before and are not now.
     pub fixed: Vec<NewsEntry>,
     /// Records that are unexpected as before.
     pub old: Vec<NewsEntry>,
-    /// Records that are unexpected, and people said that it is real or does not matter. It does not count.
+    /// Unexpected records that triage settled as real or ignored. They do not count.
     pub triaged: Vec<NewsEntry>,
 }
 
@@ -32,11 +32,11 @@ pub struct News {
 pub struct Since {
     /// The adapter's name.
     pub adapter: String,
-    /// The run before, with its driver and commit; `None` where there is none to compare with.
+    /// The run before, with its driver and commit; `None` if there is no earlier run to compare with.
     pub run: Option<String>,
 }
 
-/// One record, and what is said of it.
+/// One record with a note.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NewsEntry {
     /// The case.
@@ -45,7 +45,7 @@ pub struct NewsEntry {
     pub adapter: String,
     /// The verdict of this run.
     pub verdict: String,
-    /// The verdict before, or the reason for which it does not count.
+    /// The verdict before, or the reason why the record does not count.
     pub note: String,
 }
 
@@ -55,7 +55,7 @@ impl News {
         (self.broken.len() + self.old.len()) as u64
     }
 
-    /// The run as reports show it: what triage settled is expected, for the reason that the entry gives.
+    /// Returns the run as reports show it: records that triage settled are expected, for the entry's reason.
     pub fn settle<'r>(&self, run: &'r Run) -> Cow<'r, Run> {
         if self.triaged.is_empty() {
             return Cow::Borrowed(run);
@@ -75,7 +75,7 @@ impl News {
         Cow::Owned(run)
     }
 
-    /// The kinds of entries in the order in which they are told, each with its title.
+    /// Returns the kinds of entries in the order of reports, each with its title.
     pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 4] {
         [
             ("broken since the last run", &self.broken),
@@ -86,7 +86,7 @@ impl News {
     }
 }
 
-/// The news for a terminal, what is new first. Always ends in a newline.
+/// Returns the news for a terminal, new entries first. Always ends in a newline.
 pub fn news_table(news: &News, options: TableOptions) -> String {
     let mut text = String::new();
     for since in &news.since {

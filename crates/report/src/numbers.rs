@@ -1,14 +1,14 @@
-//! Numbers as text. Measured values keep a fixed number of digits, so that columns line up and the
-//! precision shows; chosen values (axis ticks, limits) drop trailing zeros.
+//! Numbers as text. Measured values keep a fixed number of digits, so that columns line up and the precision
+//! is visible. Chosen values (axis ticks, limits) drop trailing zeros.
 
 use etalon_stats::quantile;
 
-/// `1 case`, `2 cases`.
+/// Returns `1 case` or `2 cases`.
 pub(crate) fn count(n: u64, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
-/// A measured time in four significant digits: `1.234 ms`.
+/// Returns a measured time with four significant digits: `1.234 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = scaled(seconds);
     match value.abs() {
@@ -19,13 +19,13 @@ pub(crate) fn duration(seconds: f64) -> String {
     }
 }
 
-/// A chosen time, as of a limit or an axis tick: `20 s`, `0.5 ms`.
+/// Returns a chosen time, such as a limit or an axis tick: `20 s`, `0.5 ms`.
 pub(crate) fn round_duration(seconds: f64) -> String {
     let (value, unit) = scaled(seconds);
     format!("{} {unit}", digits(value, 3))
 }
 
-/// A time in the unit that leaves one to three digits before the point.
+/// Returns a time in the unit that gives one to three digits before the decimal point.
 fn scaled(seconds: f64) -> (f64, &'static str) {
     match seconds.abs() {
         0.0 => (0.0, "s"),
@@ -36,12 +36,12 @@ fn scaled(seconds: f64) -> (f64, &'static str) {
     }
 }
 
-/// The ends of a range: `1 ms to 2 ms`.
+/// Returns the ends of a range: `1 ms to 2 ms`.
 pub(crate) fn between([low, high]: [f64; 2], text: impl Fn(f64) -> String) -> String {
     format!("{} to {}", text(low), text(high))
 }
 
-/// A ratio as a signed change: `+3.1 %`; as a factor from two on: `×2.50`.
+/// Returns a ratio as a signed change, `+3.1 %`, or as a factor if it is at least two, `×2.50`.
 pub(crate) fn change(ratio: f64) -> String {
     if !ratio.is_finite() {
         "∞".to_owned()
@@ -52,7 +52,7 @@ pub(crate) fn change(ratio: f64) -> String {
     }
 }
 
-/// A share with this many decimals: `12.3 %`. Only 0 and 1 become `0 %` and `100 %`.
+/// Returns a share with this many decimals: `12.3 %`. Only 0 and 1 become `0 %` and `100 %`.
 pub(crate) fn percent(share: f64, decimals: usize) -> String {
     match share {
         s if s <= 0.0 => "0 %".to_owned(),
@@ -65,12 +65,12 @@ pub(crate) fn percent(share: f64, decimals: usize) -> String {
     }
 }
 
-/// A part of a whole as [`percent`]; 0 of nothing.
+/// Returns a part of a whole as [`percent`] does; 0 % if the whole is 0.
 pub(crate) fn percent_of(part: u64, whole: u64) -> String {
     percent(part as f64 / whole.max(1) as f64, 1)
 }
 
-/// An error as a share of full brightness, in three significant digits: `0.25 %`.
+/// Returns an error as a share of full brightness, with three significant digits: `0.25 %`.
 pub(crate) fn share(value: f64) -> String {
     match value * 100.0 {
         0.0 => "0".to_owned(),
@@ -79,7 +79,7 @@ pub(crate) fn share(value: f64) -> String {
     }
 }
 
-/// A number in this many significant digits, without trailing zeros.
+/// Returns a number with this many significant digits, without trailing zeros.
 pub(crate) fn digits(value: f64, significant: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -92,14 +92,14 @@ pub(crate) fn digits(value: f64, significant: i32) -> String {
     trimmed(format!("{value:.decimals$}"))
 }
 
-/// A text with its first letter as a capital.
+/// Returns a text with its first letter in upper case.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().into_iter().flat_map(char::to_uppercase);
     first.chain(letters).collect()
 }
 
-/// A decimal number without trailing zeros behind its point.
+/// Returns a decimal number without trailing zeros after its point.
 pub(crate) fn trimmed(text: String) -> String {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -108,14 +108,14 @@ pub(crate) fn trimmed(text: String) -> String {
     }
 }
 
-/// The median of the values that are numbers; none of none.
+/// Returns the median of the finite values, or `None` if no value is finite.
 pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     quantile(&values, 0.5)
 }
 
-/// Digits in groups of three, with narrow no-break spaces.
+/// Returns digits in groups of three, separated by narrow no-break spaces.
 pub(crate) fn thousands(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
@@ -128,7 +128,7 @@ pub(crate) fn thousands(n: u64) -> String {
     text
 }
 
-/// A size in memory: `512 B`, `1.5 MB`.
+/// Returns a size in memory: `512 B`, `1.5 MB`.
 pub(crate) fn bytes(n: u64) -> String {
     match n {
         n if n < 10_000 => format!("{n}\u{a0}B"),

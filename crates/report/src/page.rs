@@ -1,6 +1,6 @@
-//! The shell of every page: one self-contained file that works offline. Its content security policy
-//! forbids all requests, also those of a hostile name in a record, and all scripts but the page's
-//! own, which it names by digest.
+//! The shell of every page: one self-contained file that works offline. Its content security policy forbids
+//! all requests, even if a name in a record is hostile, and all scripts except the page's own, which it names
+//! by digest.
 
 pub(crate) mod adapter;
 pub(crate) mod link;
@@ -20,12 +20,12 @@ pub(crate) struct Page<'a> {
     main: &'a Markup,
     styles: String,
     script: Option<&'static str>,
-    /// True if the page's own script loads others from the page's folder.
+    /// True if the page's script loads other scripts from the page's folder.
     beside: bool,
 }
 
 impl<'a> Page<'a> {
-    /// A page with the title of its window, its content, and the files that it was made from.
+    /// Returns a page with the title of its window, the files from which it was made, and its content.
     pub(crate) fn new(title: &'a str, source: &'a str, main: &'a Markup) -> Self {
         Self {
             title,
@@ -37,19 +37,20 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// Adds a style sheet to the one of all pages.
+    /// Adds a style sheet to the style sheet of all pages.
     pub(crate) fn style(mut self, style: &str) -> Self {
         self.styles.push_str(style);
         self
     }
 
-    /// Allows the script, which the content holds as [`script`], and those that it loads if there are any `beside`.
+    /// Allows this script, which the content includes by [`script`]. If `beside` is true, the script can load
+    /// others from the page's folder.
     pub(crate) fn script(mut self, script: &'static str, beside: bool) -> Self {
         (self.script, self.beside) = (Some(script), beside);
         self
     }
 
-    /// The HTML text.
+    /// Returns the HTML text.
     pub(crate) fn html(&self) -> String {
         html! {
             (DOCTYPE)
@@ -58,7 +59,8 @@ impl<'a> Page<'a> {
                     meta charset="utf-8";
                     meta http-equiv="Content-Security-Policy" content=(policy(self.script, self.beside));
                     @if let (Some(script), true) = (self.script, self.beside) {
-                        // Both policies hold: what the page's own script adds, and only from the page's place.
+                        // Both policies apply together: a script must be added by the page's script and come
+                        // from the page's folder.
                         meta http-equiv="Content-Security-Policy" content={ "script-src " (digest(script)) " 'self'" };
                     }
                     meta name="viewport" content="width=device-width, initial-scale=1";
@@ -77,7 +79,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Totals, which are the legend at the same time: class, number, name and meaning of each.
+/// Returns totals that are also a legend: the class, number, name and meaning of each.
 pub(crate) fn totals<N: Render>(
     items: impl IntoIterator<Item = (&'static str, u64, N, &'static str)>,
 ) -> Markup {
@@ -93,7 +95,7 @@ pub(crate) fn totals<N: Render>(
     }
 }
 
-/// The element of a page's own script.
+/// Returns the element of a page's script.
 pub(crate) fn script(text: &'static str) -> Markup {
     html! { script { (PreEscaped(text)) } }
 }

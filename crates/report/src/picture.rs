@@ -1,4 +1,4 @@
-//! Images of frames as PNG data URIs: the allowed codes, the actual ones, and their difference.
+//! Images of frames as PNG data URIs: the allowed codes, the actual codes, and their difference.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -8,11 +8,11 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use maud::{Markup, Render, html};
 
-/// The most texels a side that a picture shows; more are cut around the first wrong one.
+/// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
-/// The side of a texel in the page, in pixels, for images up to 20 texels.
+/// The largest side of a texel on the page, in pixels, which images of up to 20 texels have.
 const ENLARGED: u32 = 8;
-/// The page's width of a picture, roughly, that larger images are enlarged to.
+/// The approximate width to which images are enlarged on the page, in pixels.
 const TARGET: u32 = 160;
 
 const FAIL: [u8; 3] = [0xd5, 0x5e, 0x00];
@@ -22,9 +22,9 @@ const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
 /// One picture.
 pub(crate) struct Picture {
     pub(crate) label: String,
-    /// A `data:` address.
+    /// A `data:` URL.
     pub(crate) uri: String,
-    /// Width and height in the page.
+    /// Width and height on the page, in pixels.
     pub(crate) size: [u32; 2],
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct Strip {
 }
 
 impl Strip {
-    /// The bytes that the pictures take in a page.
+    /// Returns the bytes of the pictures on a page.
     pub(crate) fn bytes(&self) -> usize {
         self.pictures.iter().map(|p| p.uri.len()).sum()
     }
@@ -85,7 +85,7 @@ struct Canvas {
 }
 
 impl Canvas {
-    /// Draws the border of a square, as far as it lies inside.
+    /// Draws the border of a square. Parts outside the canvas are left out.
     fn frame(&mut self, left: i64, top: i64, side: i64, color: [u8; 4]) {
         for i in 0..side {
             for (x, y) in [
@@ -106,14 +106,14 @@ impl Canvas {
 /// Pictures of an image as PNG files with a ring around a sample.
 #[derive(Clone, Debug)]
 pub struct Ringed {
-    /// The least that is allowed, what came back, and their difference.
+    /// The lowest allowed codes, the actual codes, and their difference.
     pub pictures: [Vec<u8>; 3],
-    /// True if the first two show alpha as grey, since nothing else differs.
+    /// True if the first two show alpha as grey, because no other channel differs.
     pub alpha: bool,
 }
 
-/// Returns the pictures of an image with a ring around a sample (column, row and number). `None` when the image's lists
-/// do not fit its size.
+/// Returns the pictures of an image with a ring around a sample (column, row and number), or `None` if the
+/// image's lists do not fit its size.
 pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
     let view = View::of(image)?;
     let color = image.aspect == Aspect::Color;
@@ -141,12 +141,12 @@ pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
     })
 }
 
-/// The pictures of an image. `None` when the image's lists do not fit its size.
+/// Returns the pictures of an image, or `None` if its lists do not fit its size.
 pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
     named(image, ["allowed", "actual"], true)
 }
 
-/// The pictures of an image with the names of what is allowed and of what came.
+/// Returns the pictures of an image, with these names for the allowed and the actual codes.
 pub(crate) fn named(
     image: &FrameImage,
     [allowed, actual]: [&str; 2],
@@ -215,7 +215,8 @@ fn window(image: &FrameImage) -> Window {
     }
 }
 
-/// Stencil values are small numbers in a large range, so their grey spans what is there.
+/// Returns the values of black and white. Stencil values are small numbers in a large range, so grey spans
+/// the values that occur.
 fn range(image: &FrameImage) -> [f64; 2] {
     let ChannelEncoding::Uint(_) = image.channels[0] else {
         return [0.0, 1.0];
@@ -269,7 +270,7 @@ enum Look {
 }
 
 impl<'a> View<'a> {
-    /// The view of an image; `None` if its lists do not fit its size.
+    /// Returns the view of an image, or `None` if its lists do not fit its size.
     fn of(image: &'a FrameImage) -> Option<Self> {
         if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
             return None;
@@ -302,7 +303,7 @@ impl<'a> View<'a> {
         (t.clamp(0.0, 1.0) * 255.0).round() as u8
     }
 
-    /// One pixel per sample; samples of one texel lie in pictures of their own, side by side.
+    /// Draws one pixel per sample. Each sample of the texels has a separate tile, side by side.
     fn plain(&self, label: String, codes: &[u32], look: Look) -> Option<Picture> {
         self.draw(label, 1, |sample, _, _| self.texel(codes, sample, look))
     }
@@ -314,10 +315,10 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Blocks of pixels, so that a wrong texel can carry a mark.
+    /// Draws blocks of pixels, so that a wrong texel can show a mark.
     fn difference(&self) -> Option<Picture> {
         let block = self.scale;
-        // The pixels of a row follow each other sample by sample.
+        // The pixels of a row come sample by sample, so the last distance can be reused.
         let mut last = (usize::MAX, 0.0);
         self.draw("difference".to_owned(), block, |sample, x, y| {
             let (base, mark) = match self.image.wrong[sample] {
@@ -344,7 +345,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The distance of a sample from the allowed range, in codes on a logarithmic scale from 0 to 1.
+    /// Returns the distance of a sample from the allowed range, in codes on a logarithmic scale from 0 to 1.
     fn distance(&self, sample: usize) -> f64 {
         let n = self.image.channels.len();
         let channel = |(i, e): (usize, &ChannelEncoding)| {
@@ -420,7 +421,7 @@ impl<'a> View<'a> {
         let tile = w.width * block + if self.image.samples > 1 { block } else { 0 };
         let left = sample * tile + x.checked_sub(w.x)? * block;
         let top = y.checked_sub(w.y)? * block;
-        // White inside the texel, black around it: one of them shows on any colour.
+        // White inside the texel and black around it, so one of them is visible on any colour.
         canvas.frame(i64::from(left), i64::from(top), i64::from(block), [255; 4]);
         canvas.frame(
             i64::from(left) - 1,
@@ -462,14 +463,14 @@ impl<'a> View<'a> {
     }
 }
 
-/// A small picture of an image as it is, a `data:` address: colour as it is stored without a transfer function, depth
-/// and stencil as grey; of several samples their mean.
+/// Returns a small picture of an image as a `data:` URL. Colour is shown as stored, without a transfer
+/// function; depth and stencil are grey; several samples are averaged.
 pub(crate) fn thumbnail(image: &Image) -> Option<String> {
     let (pixels, [width, height]) = pixels(image)?;
     uri(&pixels, width, height)
 }
 
-/// The same as a PNG file, each texel as a block of pixels.
+/// Returns the same picture as a PNG file, with each texel as a block of pixels.
 pub(crate) fn enlarged(image: &Image) -> Option<Vec<u8>> {
     let (pixels, [width, height]) = pixels(image)?;
     let block = (512 / width.max(height).max(1)).clamp(1, 16);
@@ -521,7 +522,7 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
     Some(((0..texels).map(pixel).collect(), image.size))
 }
 
-/// The smallest of the PNG forms that hold the pixels.
+/// Returns the pixels as a `data:` URL, in the smallest suitable PNG format.
 fn uri(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<String> {
     let png = png(pixels, width, height)?;
     Some(format!("data:image/png;base64,{}", STANDARD.encode(&png)))

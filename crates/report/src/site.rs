@@ -1,7 +1,7 @@
-//! A site: the pages of recorded folders in one static folder, as a job publishes it.
+//! A site: the pages of recorded folders in one static folder, which a CI job can publish.
 //!
-//! Every link is relative and leads to a file of the site, so that the folder works from any place: a web server, an
-//! archive, the file system.
+//! All links are relative and lead to files of the site, so the folder works anywhere: on a web server, in an
+//! archive, on the file system.
 
 mod runs;
 mod start;

@@ -1,4 +1,4 @@
-//! Folders of pages: written beside their place, and renamed into it when they are whole.
+//! Folders of pages, which are written to a temporary folder and renamed when they are complete.
 
 use crate::error::ReportError;
 use etalon_record::is_marked;
@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 
 /// A kind of folder of pages.
 pub(crate) struct Kind {
-    /// The file by which a folder is known. It lists the files of the folder.
+    /// The file that marks such a folder. It lists the files of the folder.
     pub(crate) mark: &'static str,
-    /// All that is at the top beside it, of earlier folders, whose mark lists no files.
+    /// The top-level files and folders, for folders of earlier versions, whose mark lists no files.
     pub(crate) top: &'static [&'static str],
-    /// The name, and the name that tells the kind from others.
+    /// The name, and the name with its kind.
     pub(crate) names: [&'static str; 2],
 }
 
@@ -31,7 +31,8 @@ pub struct WrittenFolder {
     pub bytes: u64,
 }
 
-/// Checks that a place is empty, or has an earlier folder of the kind, with no other file, that may be replaced.
+/// Checks that a place is empty, or that it has only files of an earlier folder of this kind and may be
+/// replaced.
 fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     let path = to.to_owned();
     let unread = ReportError::unread(to);
@@ -69,7 +70,7 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     }
 }
 
-/// Collects the files below a folder, and the folders without any.
+/// Collects the files below a folder, and the empty folders.
 fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()> {
     let before = paths.len();
     for entry in fs::read_dir(folder.join(below))? {
@@ -87,7 +88,7 @@ fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()
     Ok(())
 }
 
-/// A folder in the making.
+/// A folder that is being written.
 pub(crate) struct Staged {
     kind: &'static Kind,
     to: PathBuf,
@@ -97,10 +98,10 @@ pub(crate) struct Staged {
 }
 
 impl Staged {
-    /// Begins a folder, which may `replace` an earlier one of its kind.
+    /// Begins a folder. With `replace`, it can replace an earlier folder of its kind.
     ///
     /// # Errors
-    /// Returns an error if the place has no name, cannot be read, or holds something else.
+    /// Returns an error if the place has no name, cannot be read, or has other files.
     pub(crate) fn begin(
         to: &Path,
         kind: &'static Kind,
@@ -141,11 +142,11 @@ impl Staged {
         Ok(())
     }
 
-    /// Writes the start page and the file by which the folder is known, with the files that it lists, and puts the folder
-    /// into its place. `about` is the rest of its content, which has the key `etalon`.
+    /// Writes the start page and the marking file, which lists all files, and moves the folder to its place.
+    /// `about` is the rest of the marking file's content, with the key `etalon`.
     ///
     /// # Errors
-    /// Returns an error if the system refuses; what was there before is back then.
+    /// Returns an error if the system refuses. The earlier folder is then restored.
     pub(crate) fn finish(
         mut self,
         start: &[u8],
@@ -180,7 +181,7 @@ impl Staged {
 
 impl Drop for Staged {
     fn drop(&mut self) {
-        // Gone if it was finished. Best effort: it is of no use to anyone.
+        // A finished folder no longer exists here. Best effort: nothing uses an unfinished one.
         let _ = fs::remove_dir_all(&self.beside);
     }
 }

@@ -17,7 +17,7 @@ const LONGEST: usize = 160;
 pub(crate) struct Cell {
     /// The content on a terminal; `None` if there is nothing to show.
     text: Option<String>,
-    /// The content on a page where it is more than the text.
+    /// The content on a page, if it is more than the text.
     html: Option<Markup>,
     attributes: Vec<(&'static str, String)>,
     color: Option<Color>,
@@ -45,7 +45,7 @@ impl Cell {
         self
     }
 
-    /// The content on a page, where it is more than the text.
+    /// Sets the content on a page, if it is more than the text.
     pub(crate) fn on_page(self, html: Markup) -> Self {
         let html = Some(html);
         Self { html, ..self }
@@ -100,12 +100,12 @@ macro_rules! from_text {
 }
 from_text!(String &String &str usize u32 u64);
 
-/// The name of a column that a page shows with its first letter as it is.
+/// Returns the name of a column whose first letter a page does not capitalise.
 pub(crate) fn as_is(name: &str) -> Cell {
     Cell::from(name).on_page(html! { (name) })
 }
 
-/// A count; nothing for none.
+/// Returns a count, or `None` for 0.
 pub(crate) fn some(count: u64) -> Option<u64> {
     (count > 0).then_some(count)
 }
@@ -164,7 +164,7 @@ impl<'a, R> Table<'a, R> {
         self
     }
 
-    /// The caption on a page for those who cannot see the table.
+    /// Sets the caption on a page for screen readers only.
     pub(crate) fn spoken(mut self, text: impl Into<String>) -> Self {
         self.caption = Some((text.into(), false));
         self
@@ -222,7 +222,8 @@ impl<'a, R> Table<'a, R> {
         }
     }
 
-    /// The table in Markdown, of which its texts are a part already: the lines of its head, and a line per row.
+    /// Returns the lines of the table's head in Markdown, and a line per row. The cells' texts must already
+    /// be Markdown.
     pub(crate) fn markdown(&self, rows: impl IntoIterator<Item = R>) -> (String, Vec<String>) {
         let line = |cell: &dyn Fn(&Column<'a, R>) -> Cell| {
             let cells = self
@@ -241,8 +242,8 @@ impl<'a, R> Table<'a, R> {
         (head, rows.collect())
     }
 
-    /// The table on a terminal. Leaves out columns in the order of `optional` until the others fit; returns the names of
-    /// those that it left out.
+    /// Returns the table on a terminal. Leaves out columns in the order of `optional` until the rest fits,
+    /// and returns the names of the columns left out.
     pub(crate) fn terminal(
         &self,
         rows: impl IntoIterator<Item = R>,
@@ -297,7 +298,7 @@ impl<'a, R> Table<'a, R> {
 }
 
 impl<R> Column<'_, R> {
-    /// The text of the name on a page: it begins with a capital letter unless it is given as it is.
+    /// Returns the text of the name on a page. It begins with a capital letter, unless [`as_is`] made it.
     fn page_name(&self) -> Option<String> {
         let text = self.name.text.as_deref();
         text.map(|text| match self.name.html {

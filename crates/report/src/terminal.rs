@@ -1,11 +1,12 @@
-//! Texts on a terminal.
+//! Texts for a terminal.
 
-/// The width and colours that a terminal report may use.
+/// The width and colours available to a terminal report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TableOptions {
-    /// Columns of the terminal. Tables leave out columns; only what is still too wide is wrapped.
+    /// The number of columns of the terminal. Tables leave out columns first, and wrap only if they are still
+    /// too wide.
     pub width: usize,
-    /// True if ANSI colours may be used. The caller knows `NO_COLOR` and whether this is a terminal.
+    /// True if ANSI colours can be used. The caller checks `NO_COLOR` and whether the output is a terminal.
     pub color: bool,
 }
 
@@ -19,12 +20,12 @@ impl Default for TableOptions {
 }
 
 impl TableOptions {
-    /// The columns that are left for text which is indented by this many, at least 20.
+    /// Returns the number of columns left for text that is indented by `indent`, at least 20.
     pub(crate) fn room(self, indent: usize) -> usize {
         self.width.saturating_sub(indent + 1).max(20)
     }
 
-    /// Text in an ANSI colour, given by its number; none if there is no number.
+    /// Returns text in an ANSI colour, given by its number, or unchanged text if the number is empty.
     pub(crate) fn paint(self, text: &str, color: &str) -> String {
         if self.color && !color.is_empty() {
             format!("\u{1b}[{color}m{text}\u{1b}[0m")
@@ -34,8 +35,8 @@ impl TableOptions {
     }
 }
 
-/// Lines of parts joined by commas, broken between parts where they do not fit, with what is before the first and
-/// so many spaces before the others.
+/// Joins parts by commas and breaks lines between parts if they do not fit. The first line begins with
+/// `before`, the others with `indent` spaces.
 pub(crate) fn listed(
     before: &str,
     parts: &[impl AsRef<str>],

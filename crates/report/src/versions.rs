@@ -15,7 +15,7 @@ use groups::{Course, Group, groups};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
-/// The page of a search over releases.
+/// The page of a search over releases, `versions.html`.
 pub const VERSIONS_PAGE: &str = "versions.html";
 
 /// Writes `versions.jsonl` and `versions.html` into a folder and returns the path of the page.
@@ -27,7 +27,8 @@ pub fn write_versions(folder: &Path, versions: &Versions) -> Result<PathBuf, Rep
     replace(folder, VERSIONS_PAGE, html(versions).as_bytes())
 }
 
-/// A table with a row per finding and span of releases, and the totals. Always ends in a newline.
+/// Returns a table with a row per finding and span of releases, and the totals. The text always ends in a
+/// newline.
 pub fn versions_table(versions: &Versions, options: TableOptions) -> String {
     let groups = groups(versions);
     let rows: Vec<_> = groups.iter().enumerate().filter(shown).collect();
@@ -51,7 +52,7 @@ fn end(release: Option<&ReleaseRecord>) -> String {
     release.map_or_else(String::new, |r| plain(&r.version, 40))
 }
 
-/// The page.
+/// Returns the page.
 fn html(versions: &Versions) -> String {
     let groups = groups(versions);
     let main = html! {
@@ -67,7 +68,7 @@ fn html(versions: &Versions) -> String {
     .html()
 }
 
-/// A row per group, by its number on the page.
+/// Returns a table with a row per group, which links to the group by its number on the page.
 fn findings<'a>() -> Table<'a, (usize, &'a Group<'a>)> {
     Table::new("figures")
         .head("finding", |(number, group): &(usize, &'a Group<'a>)| {
@@ -88,12 +89,12 @@ fn findings<'a>() -> Table<'a, (usize, &'a Group<'a>)> {
         .number("cases", |(_, group)| group.cases.len())
 }
 
-/// True if a group has rows of its own.
+/// Returns true if a group has rows in the table.
 fn shown((_, group): &(usize, &Group<'_>)) -> bool {
     matches!(group.course, Course::Bad | Course::Flaky)
 }
 
-/// The number of cases by course.
+/// Returns the number of cases by course.
 fn totals(groups: &[Group<'_>]) -> [u64; 4] {
     let mut totals = [0; 4];
     for group in groups {
@@ -125,8 +126,8 @@ fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
         header {
             h1 { (header.line) " over its releases" }
             p.lead {
-                "Each case is drawn with the oldest and the newest release and by halving between; what lies between two \
-                 releases of one standing is taken to have it, and is checked once in the middle."
+                "Each case is drawn with the oldest and the newest release, then by bisection between them. Releases between \
+                 two with the same standing are assumed to share it; one in the middle is checked."
             }
             dl.facts {
                 (origin!(header))
@@ -190,7 +191,7 @@ fn section(versions: &Versions, number: usize, group: &Group<'_>) -> Markup {
     }
 }
 
-/// True if a case is mended or broken between two releases.
+/// Returns true if a case was fixed or broken between two releases.
 fn changed(before: Option<Standing>, now: Option<Standing>) -> bool {
     let decided = |s: Option<Standing>| matches!(s, Some(Standing::Good | Standing::Bad));
     decided(before) && decided(now) && before != now

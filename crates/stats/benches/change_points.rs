@@ -1,4 +1,5 @@
-//! The cost of change points: series of growing length with a step every 100 runs, and one run more.
+//! The cost of finding change points: series of growing length with a step every 100 runs, and appending a
+//! run.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use etalon_stats::{Point, change_points};

@@ -1,4 +1,4 @@
-//! The backend over real browsers, each in a process of its own: the environment chooses the driver below them.
+//! The backend over real browsers, each in a separate process: the environment chooses the driver below them.
 
 mod drivers;
 mod pages;

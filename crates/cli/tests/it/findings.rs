@@ -1,4 +1,4 @@
-//! The findings of `ci/findings`: each is read, each is alive, and a page lists them.
+//! The findings of `ci/findings`: all can be read, all are alive, and a page lists them.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Set to anything, the list is written anew instead of compared.
+/// If this variable is set, the list is written anew instead of compared.
 const WRITE: &str = "ETALON_WRITE_FINDINGS";
 const BEGIN: &str = "<!-- findings: ETALON_WRITE_FINDINGS=1 cargo nextest run -p etalon the_page_lists_the_findings -->\n";
 const END: &str = "<!-- end of findings -->\n";
@@ -32,7 +32,7 @@ fn findings() -> Vec<(String, Finding)> {
     each.collect()
 }
 
-/// A numbered file holds the same bug on adapters that show it in other cases.
+/// A numbered file is about the same bug on adapters that show it in other cases.
 fn is_numbered(name: &str) -> bool {
     let last = name.rsplit('-').next().unwrap();
     last.len() == 1 && last.chars().all(|c| c.is_ascii_digit())
@@ -81,7 +81,7 @@ fn no_finding_is_dead() {
     .stderr(contains("dead").not());
 }
 
-/// The list: a table per driver, by the first word of the files' names.
+/// Returns the list: a table per driver, by the first word of the files' names.
 fn listed() -> String {
     let mut drivers: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (name, finding) in findings().iter().filter(|(name, _)| !is_numbered(name)) {
@@ -103,7 +103,7 @@ fn listed() -> String {
     tables.collect()
 }
 
-/// The releases that a finding is about, in words.
+/// Returns the releases that a finding is about, in words.
 fn releases(finding: &Finding) -> String {
     let single = finding.driver.trim_matches('*').rsplit(' ').next().unwrap();
     match &finding.versions {

@@ -1,4 +1,4 @@
-//! Failures of cases of one's own that are known by their look.
+//! Failures of a user's own cases that findings recognize by their look.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -39,7 +39,7 @@ fn a_failure_of_ones_own_case_is_known_by_its_look() {
     let record = run.records.first().unwrap();
     assert!(!record.unexpected() && record.verdict.is_bad());
     assert!(record.look.as_ref().unwrap().starts_with("blend/"));
-    // Nothing is known without findings.
+    // Without findings no failure is known.
     fs::write(folder.path().join("none.json"), "[]").unwrap();
     let none = folder.path().join("none.json");
     let only = ["--known-by-look", "--expect", none.to_str().unwrap()];

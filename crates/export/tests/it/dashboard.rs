@@ -74,7 +74,7 @@ fn named(query: &str) -> (Metrics, BTreeSet<String>) {
     (metrics, groups)
 }
 
-/// Every query of the dashboard, those of its variables too.
+/// Returns all queries of the dashboard, including those of its variables.
 fn queries(value: &Value) -> Vec<&str> {
     match value {
         Value::Object(object) => {

@@ -77,7 +77,7 @@ fn features(backend: &GlBackend) {
     assert_eq!(has(Feature::ConservativeDepth), caps.conservative_depth);
 }
 
-/// GL may round a viewport if it has no sub-pixel bits, so such a viewport must be refused.
+/// GL may round a viewport if it has no sub-pixel bits, so the backend must refuse this viewport.
 fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
     let bits = backend.context.caps.viewport_bits;
     let between = scene(json!({
@@ -92,7 +92,7 @@ fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
     assert_eq!(refused, bits.unwrap_or(0) == 0);
 }
 
-/// Debug output reports errors: without this, its silence elsewhere would prove nothing.
+/// Debug output must report errors: otherwise its silence elsewhere proves nothing.
 fn a_planted_mistake_is_told(backend: &GlBackend) {
     backend.context.make_current().expect("it becomes current");
     assert_eq!(backend.messages(), Vec::<String>::new());

@@ -1,4 +1,4 @@
-//! The contexts under test. A missing driver is a failure: nothing would have been tested.
+//! The contexts under test. A missing driver fails the test: without it nothing is tested.
 
 use etalon_backend::Backend;
 use etalon_conformance::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, known, variables};

@@ -1,5 +1,5 @@
-//! The backend on Mesa's software drivers, each context in a process of its own: the environment
-//! chooses the driver before libEGL is loaded.
+//! The backend on Mesa's software drivers, each context in a separate process: the environment chooses the
+//! driver before libEGL is loaded.
 
 mod capabilities;
 mod drivers;

@@ -1,4 +1,4 @@
-//! Two runs compared, and runs counted.
+//! Comparing two runs, and counting runs.
 
 use crate::made::{case, run, with};
 use etalon_history::{ChangeKind, History, RunId, Writer};

@@ -1,4 +1,4 @@
-//! Bench folders as they are written, cut off and damaged.
+//! Bench folders that are written, cut off and damaged.
 
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Done, Ended, Enough, FolderKind,
@@ -139,7 +139,7 @@ fn a_killed_bench_is_a_readable_prefix() {
     let bench = Bench::read(folder.path()).unwrap();
     assert!(bench.truncated);
     assert_eq!(bench.records[0].rounds.len(), 1);
-    // A damaged line in the middle is another matter.
+    // A damaged line in the middle is an error.
     let mut more = whole[..whole.len() - 30].to_vec();
     more.push(b'\n');
     more.extend_from_slice(b"{}\n");

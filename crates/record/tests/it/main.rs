@@ -1,4 +1,4 @@
-//! The wire format from outside: folders as they are written, cut off, damaged, resumed and replaced.
+//! The wire format from outside: folders that are written, cut off, damaged, resumed and replaced.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod bench_folder;

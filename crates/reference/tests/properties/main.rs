@@ -1,5 +1,5 @@
-//! Properties of the judge for any input: plain arithmetic lies inside judging arithmetic, the
-//! rasterizer's frames are legal, and wider rules never forbid what tighter ones allow.
+//! Properties of the judge for any input: judging arithmetic encloses plain arithmetic, the rasterizer's
+//! frames are legal, and wider rules never forbid what tighter rules allow.
 
 mod advanced;
 mod arithmetic;

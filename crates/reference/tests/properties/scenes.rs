@@ -7,7 +7,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// The inputs that a scene is made of.
+/// The inputs from which a scene is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Inputs {
     /// Anything.
@@ -63,7 +63,7 @@ fn depths(inputs: Inputs) -> BoxedStrategy<String> {
     }
 }
 
-/// A mesh, and true if it is made of loose vertices.
+/// A mesh, and whether it consists of loose vertices.
 fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
     let [w, h] = size;
     let values = || four(inputs, false);
@@ -167,7 +167,7 @@ pub(crate) fn stencil() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Nothing or a value of the strategy, as a piece of JSON.
+/// Returns nothing or a value of the strategy, as a piece of JSON.
 pub(crate) fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
     if enabled {
         prop_oneof![1 => Just(String::new()), 2 => some].boxed()
@@ -230,7 +230,7 @@ fn draw(
         .boxed()
 }
 
-/// The body of a scene: one pass of a few draws, everything read back.
+/// Returns the body of a scene: one pass of a few draws, with all attachments read back.
 pub(crate) fn body(inputs: Inputs) -> BoxedStrategy<String> {
     let sizes = select(vec![[4_u32, 4], [8, 8], [5, 3], [1, 1]]);
     let formats = select(vec![

@@ -1,4 +1,5 @@
-//! The charts of a bench: the ruler over its time, and the spread of one adapter's frame times as a strip in a table.
+//! The charts of a bench: the ruler over time, and the spread of one adapter's frame times as a strip in a
+//! table.
 
 use super::figures::Timed;
 use crate::chart::{HEIGHT, Plot, Scale, chart, n, polyline};
@@ -7,11 +8,11 @@ use etalon_record::Bench;
 use etalon_stats::quantile;
 use maud::{Markup, html};
 
-/// Places along the time axis at which the ruler is shown.
+/// The number of places along the time axis at which the ruler is shown.
 const PLACES: usize = 300;
 
-/// The ruler's time over the bench, relative to its median: the middle of what was measured at each
-/// place as a line, the smallest and largest as a band. Nothing without a round.
+/// Returns the chart of the ruler's time over the bench, relative to its median, or `None` without a round. A
+/// line joins the medians at each place; a band joins the smallest and largest times.
 pub(super) fn drift(bench: &Bench) -> Option<Markup> {
     let rounds = bench.records.iter().flat_map(|r| &r.rounds);
     let mut points: Vec<(f64, f64)> = rounds.map(|r| (r.at, r.ruler_time())).collect();
@@ -19,7 +20,8 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
     let mut times: Vec<f64> = points.iter().map(|p| p.1).collect();
     times.sort_by(f64::total_cmp);
     let median = quantile(&times, 0.5)?;
-    // The scale leaves single disturbed rounds outside, so that they do not flatten the rest.
+    // The scale excludes the outermost 2 % at each end, so that single disturbed rounds do not flatten the
+    // rest.
     let low = quantile(&times, 0.02)? / median;
     let high = quantile(&times, 0.98)? / median;
     let (low, high) = (low.min(0.99) - 0.005, high.max(1.01) + 0.005);
@@ -63,7 +65,7 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
 const STRIP_WIDTH: f64 = 180.0;
 const STRIP_HEIGHT: f64 = 22.0;
 
-/// The range of times that the strips of one table share; their scale is logarithmic.
+/// The range of times that all strips of a table share, on a logarithmic scale.
 #[derive(Clone, Copy)]
 pub(super) struct Times {
     low: f64,
@@ -71,14 +73,14 @@ pub(super) struct Times {
 }
 
 impl Times {
-    /// From the smallest sample to the largest 95th percentile.
+    /// Returns the range from the smallest sample to the largest 95th percentile.
     pub(super) fn of(rows: &[Timed<'_>]) -> Self {
         let low = rows
             .iter()
             .map(|t| t.wall.min)
             .fold(f64::INFINITY, f64::min);
         let high = rows.iter().map(|t| t.wall.p95).fold(low, f64::max);
-        // A tenth more at each end, so that equal times have a scale too.
+        // Widens the range by a tenth at each end, so that it is not empty if all times are equal.
         Self {
             low: low / 1.1,
             high: high * 1.1,
@@ -89,7 +91,7 @@ impl Times {
         Scale::log_between(self.low, self.high).at(time) * STRIP_WIDTH
     }
 
-    /// Both ends in words.
+    /// Returns both ends in words.
     pub(super) fn caption(self) -> String {
         format!(
             "{} to {}, logarithmic",
@@ -99,8 +101,8 @@ impl Times {
     }
 }
 
-/// The spread of a row: a dot for the median of each round, a line from the smallest sample to the 95th
-/// percentile, the interval as a bar, the median as a stroke.
+/// Returns the spread of a row: a dot for the median of each round, a line from the smallest sample to the
+/// 95th percentile, a bar for the interval and a stroke for the median.
 pub(super) fn strip(timed: &Timed<'_>, times: Times) -> Markup {
     let s = &timed.wall;
     let middle = STRIP_HEIGHT / 2.0;

@@ -7,11 +7,11 @@ use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
-/// Software and hardware adapters, which never share a ranking: the value of [`software`], and in words.
+/// Software and hardware adapters, which are ranked separately: the value of [`software`], and its name.
 pub(crate) const KINDS: [(bool, &str); 2] = [(true, "Software"), (false, "Hardware")];
 
-/// True if the adapter draws with the processor. An adapter that no header names counts as hardware, which is compared
-/// without the ruler.
+/// Returns true if the adapter draws with the processor. An adapter that no header names counts as hardware,
+/// which is compared without the ruler.
 pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
     adapter.is_some_and(|a| a.software)
 }
@@ -19,14 +19,14 @@ pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
 /// The figures of one case.
 pub(crate) struct CaseFigures<'a> {
     pub(crate) case: &'a str,
-    /// Timed on the processor, and on other devices; fastest first.
+    /// The adapters with times: software, then hardware; each fastest first.
     pub(crate) timed: [Vec<Timed<'a>>; 2],
-    /// Not timed: the picture is wrong, or could not be drawn, or there is no round yet.
+    /// The adapters without times: the picture is wrong, could not be drawn, or has no round yet.
     pub(crate) untimed: Vec<&'a BenchRecord>,
 }
 
 impl<'a> CaseFigures<'a> {
-    /// The adapters of a kind.
+    /// Returns the timed adapters of a kind.
     pub(crate) fn of_kind(&self, software: bool) -> &[Timed<'a>] {
         &self.timed[usize::from(!software)]
     }
@@ -35,10 +35,10 @@ impl<'a> CaseFigures<'a> {
 /// One case on one adapter.
 pub(crate) struct Timed<'a> {
     pub(crate) record: &'a BenchRecord,
-    /// Among adapters of its kind, from 1; adapters that do not differ provably share one.
+    /// The rank among adapters of its kind, from 1. Adapters without a proven difference share a rank.
     pub(crate) rank: usize,
     pub(crate) wall: Summary,
-    /// Other times, as far as they were measured.
+    /// Other times that were measured.
     pub(crate) others: BTreeMap<Time, Summary>,
     samples: Samples,
 }
@@ -48,26 +48,26 @@ impl Timed<'_> {
         &self.record.picture.adapter
     }
 
-    /// The median of another time, if it was measured.
+    /// Returns the median of another time, if it was measured.
     pub(crate) fn other(&self, time: Time) -> Option<String> {
         self.others
             .get(&time)
             .map(|summary| duration(summary.median))
     }
 
-    /// The number of rounds and the frames of each.
+    /// Returns the number of rounds and of frames in each.
     pub(crate) fn counted(&self, times: &str) -> String {
         let s = &self.wall;
         format!("{}{times}{}", s.rounds, s.samples / s.rounds.max(1))
     }
 
-    /// The median wall time of each round.
+    /// Returns the median wall time of each round.
     pub(crate) fn medians(&self) -> Vec<f64> {
         self.samples.medians()
     }
 }
 
-/// The figures of a bench by case, in the bench's order.
+/// Returns the figures of a bench by case, in the bench's order.
 pub(crate) fn figures(bench: &Bench) -> Vec<CaseFigures<'_>> {
     let records = bench.records.iter();
     let cases = grouped(records.map(|r| (r.picture.case.as_str(), r)));
@@ -90,7 +90,7 @@ pub(crate) fn figures(bench: &Bench) -> Vec<CaseFigures<'_>> {
     cases.collect()
 }
 
-/// The verdict of a record and its message: those of its end, else those of its picture.
+/// Returns the verdict and message of a record's end, or of its picture if it did not end early.
 pub(crate) fn end(record: &BenchRecord) -> (Verdict, &str) {
     match &record.ended {
         Some(ended) => (ended.verdict, &ended.message),
@@ -98,9 +98,9 @@ pub(crate) fn end(record: &BenchRecord) -> (Verdict, &str) {
     }
 }
 
-/// The samples of one time, with their ruler; `None` where it was not measured.
+/// Returns the samples of one time, with their ruler, or `None` if it was not measured.
 pub(crate) fn samples(record: &BenchRecord, time: Time) -> Option<Samples> {
-    // The reader lets no record through whose times are no samples.
+    // The reader refuses records whose times are not valid samples.
     let samples = Samples::new(&record.samples(time)).ok()?;
     samples.with_ruler(&record.rulers(time)).ok()
 }
@@ -118,7 +118,7 @@ fn timed(record: &BenchRecord) -> Option<Timed<'_>> {
     })
 }
 
-/// What a bench lacks, as a state of its pages.
+/// Returns the note on a bench that lacks rounds, for its pages.
 pub(crate) fn incomplete(bench: &Bench) -> Markup {
     let missing = bench.missing();
     html! {
@@ -128,7 +128,7 @@ pub(crate) fn incomplete(bench: &Bench) -> Markup {
     }
 }
 
-/// What ends a bench, as facts of its pages.
+/// Returns what ends a bench, as facts of its pages.
 pub(crate) fn limits(settings: &BenchSettings) -> Markup {
     html! {
         @if let Some(share) = settings.within { dt { "Enough" } dd { "intervals within " (percent(share, 1)) } }
@@ -136,8 +136,8 @@ pub(crate) fn limits(settings: &BenchSettings) -> Markup {
     }
 }
 
-/// Sorts by median, and gives a rank of its own only to what is slower than the first of the rank
-/// before by a comparison of their samples.
+/// Sorts by median and ranks the rows. A row gets a new rank only if a comparison of samples finds it slower
+/// than the first row of the current rank.
 fn rank(times: &mut [Timed<'_>]) {
     times.sort_by(|a, b| a.wall.median.total_cmp(&b.wall.median));
     let mut leader = 0;

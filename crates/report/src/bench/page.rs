@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 
 const OWN_STYLE: &str = include_str!("bench.css");
 
-/// The page.
+/// Returns the page.
 pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
     let main = html! {
         (head(bench, figures))
@@ -81,12 +81,12 @@ fn explanation() -> Markup {
             summary { "Reading this page" }
             p {
                 "A round prepares the scene anew, draws some frames of warm-up, which are counted and discarded, and "
-                "some timed frames, all of which count. Rounds of all cases and adapters interleave, so that drift "
+                "some timed frames, which all count. Rounds of all cases and adapters interleave, so that drift "
                 "affects all alike."
             }
             p {
                 b { "Median" } " is the median of the rounds' medians; the " b { "interval" }
-                " holds it with a confidence of " (CONFIDENCE * 100.0) " %, by drawing rounds with replacement (at least "
+                " contains it with a confidence of " (CONFIDENCE * 100.0) " %, by drawing rounds with replacement (at least "
                 (MIN_ROUNDS) " rounds). " b { "p50" } " and " b { "p95" } " are over all frames. "
                 b { "Visible" } " is the smallest change that a diff with another bench like this one "
                 "finds with a probability of " (POWER) "."
@@ -102,7 +102,7 @@ fn explanation() -> Markup {
     }
 }
 
-/// Medians of all cases on all adapters of a kind.
+/// Returns a table of the medians of all cases on all adapters of a kind.
 fn overview(figures: &[CaseFigures<'_>], kind: bool, title: &str) -> Markup {
     let timed = figures.iter().flat_map(|c| c.of_kind(kind));
     let adapters: BTreeSet<&str> = timed.map(Timed::adapter).collect();
@@ -189,7 +189,7 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
     table.text(spread, |row| strip(row, scale)).page(rows)
 }
 
-/// The share of the picture that was asserted.
+/// Returns the share of the picture that was asserted, in words.
 fn share(record: &BenchRecord) -> String {
     format!("{} asserted", percent(record.picture.asserted, 1))
 }

@@ -17,7 +17,7 @@ const HTML: &str = "index.html";
 const MATRIX: &str = "matrix.html";
 const MATRIX_CSV: &str = "matrix.csv";
 
-/// The files that [`write_bench`] made.
+/// The files that [`write_bench`] wrote.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenBench {
     /// The page.
@@ -26,13 +26,13 @@ pub struct WrittenBench {
     pub bencher: PathBuf,
     /// Wall times for github-action-benchmark, tool `customSmallerIsBetter`.
     pub action: PathBuf,
-    /// The page of the performance matrix and its cells as CSV, of a bench that has cells.
+    /// The page of the performance matrix and its cells as CSV; `None` if the bench has no cells.
     pub matrix: Option<[PathBuf; 2]>,
 }
 
 /// Writes `index.html`, `bencher.json` and `benchmark-action.json` into a bench folder, and `matrix.html` and
-/// `matrix.csv` where it has cells of the performance matrix. Each is
-/// written beside its place and then renamed, so that a reader never sees half a report.
+/// `matrix.csv` if it has cells of the performance matrix. Each is written to a temporary file and then
+/// renamed, so a reader never sees half a report.
 ///
 /// # Errors
 /// Returns an error if the folder holds no readable bench, or cannot be written to.
@@ -59,13 +59,13 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     })
 }
 
-/// All that was timed, in the order of the figures.
+/// Returns all timed cases and adapters, in the order of the figures.
 fn benchmarks(figures: &[CaseFigures<'_>]) -> Vec<Benchmark> {
     let each = |(case, timed): (&str, &Timed<'_>)| {
         let wall = [(Time::Wall, figure(&timed.wall))].into_iter();
         let others = timed.others.iter().map(|(time, s)| (*time, figure(s)));
         Benchmark {
-            // Ids and adapters hold no spaces.
+            // Ids and adapter names contain no spaces.
             name: format!("{case} {}", timed.adapter()),
             times: wall.chain(others).collect(),
             extra: extra(timed),

@@ -1,18 +1,18 @@
-//! Texts beside the points of a chart.
+//! Text labels next to the points of a chart.
 
 use super::plot::{BOTTOM, LEFT, RIGHT, TOP};
 
-/// The distance in which a line is sampled, in chart units.
+/// The distance between the samples of a line, in chart units.
 const STEP: f64 = 4.0;
 
-/// Texts beside points, each where it covers neither a point, a line nor another text; a text that finds no
-/// such place is left out, since the legend, hover text and table have it too.
+/// Places labels so that each covers no point, line or other label. A label without such a place is left out:
+/// the legend, hover text and table show it too.
 pub(crate) struct Labels {
     taken: Vec<[f64; 4]>,
 }
 
 impl Labels {
-    /// Labels of a chart with points at these places.
+    /// Prepares labels for a chart with points at these places.
     pub(crate) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
         Self {
@@ -33,7 +33,7 @@ impl Labels {
         }
     }
 
-    /// The place of a text that belongs to a point: its left end and its base line.
+    /// Returns the place of a point's label: its left end and its baseline.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let width: f64 = text.chars().map(advance).sum();
         let places = [
@@ -63,7 +63,7 @@ impl Labels {
     }
 }
 
-/// The width that a letter takes at most, in sans-serif fonts of the size of labels.
+/// Returns an upper bound of a letter's width, in sans-serif fonts of the size of labels.
 fn advance(letter: char) -> f64 {
     match letter {
         'm' | 'w' => 9.5,
@@ -93,7 +93,7 @@ mod tests {
         let free = Labels::new([(200.0, 150.0)]).place("method", (200.0, 150.0));
         let (left, base) = free.unwrap();
         let mut labels = Labels::new([(200.0, 150.0)]);
-        // A step of a front right through where the text would stand.
+        // A step of a front runs right through the label's usual place.
         labels.avoid(&[(200.0, base - 4.0), (300.0, base - 4.0), (300.0, 40.0)]);
         let (x, y) = labels.place("method", (200.0, 150.0)).unwrap();
         assert_ne!((x, y), (left, base));

@@ -3,11 +3,11 @@
 use super::plot::n;
 use maud::{Markup, html};
 
-/// The number of colours, shapes and line patterns; as many methods are told apart by each of them alone.
+/// The number of colours, shapes and line patterns. Each alone distinguishes this number of methods.
 pub(crate) const STYLES: usize = 14;
 
-/// Outlines around the origin, about as heavy as each other, which no two methods of a chart share:
-/// colours are lost in grey and to some eyes.
+/// Outlines around the origin, of about the same visual weight, one for each method of a chart. Colours alone
+/// are lost in greyscale and to some eyes.
 const SHAPES: [&str; STYLES] = [
     "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0z",
     "M-4-4H4V4H-4z",
@@ -48,18 +48,18 @@ const DASHES: [&str; STYLES] = [
     "1 1.5",
 ];
 
-/// The classes of the `index`-th method: its colour, and the name by which a legend finds it.
+/// Returns the classes of the `index`-th method: its colour, and the name by which a legend finds it.
 pub(crate) fn color(index: usize) -> String {
     let index = index % STYLES;
     format!("k{index} m{index}")
 }
 
-/// The line pattern of the `index`-th method, as `stroke-dasharray`.
+/// Returns the line pattern of the `index`-th method, as `stroke-dasharray`.
 pub(crate) fn dash(index: usize) -> &'static str {
     DASHES[index % STYLES]
 }
 
-/// The marker of the `index`-th method, with a text to hover over.
+/// Returns the marker of the `index`-th method, with hover text.
 pub(crate) fn marker(index: usize, (x, y): (f64, f64), small: bool, hover: &str) -> Markup {
     let shape = SHAPES[index % STYLES];
     let place = if small {
@@ -74,7 +74,7 @@ pub(crate) fn marker(index: usize, (x, y): (f64, f64), small: bool, hover: &str)
     }
 }
 
-/// The marker with a piece of its line, for legends.
+/// Returns the marker for legends.
 pub(crate) fn key(index: usize) -> Markup {
     html! {
         svg.keymark viewBox="-7 -7 14 14" width="14" height="14" aria-hidden="true" {
@@ -83,7 +83,7 @@ pub(crate) fn key(index: usize) -> Markup {
     }
 }
 
-/// The marker on its line, for legends of curves.
+/// Returns the marker on its line, for legends of curves.
 pub(crate) fn line_key(index: usize) -> Markup {
     html! {
         svg.keymark viewBox="-19 -7 38 14" width="38" height="14" aria-hidden="true" {

@@ -1,18 +1,18 @@
-//! The frame of a chart: its place, box, grid, ticks and axis names.
+//! The frame of a chart: its size, box, grid, ticks and axis names.
 
 use super::scale::Scale;
 use maud::{Markup, html};
 
-/// Width and height of a chart in its own units, which are pixels at full size.
+/// The width and height of a chart in its own units, which are pixels at full size.
 pub(crate) const WIDTH: f64 = 400.0;
 pub(crate) const HEIGHT: f64 = 280.0;
-/// The plot's place within.
+/// The edges of the plot within the chart.
 pub(crate) const LEFT: f64 = 74.0;
 pub(crate) const RIGHT: f64 = WIDTH - 22.0;
 pub(crate) const TOP: f64 = 10.0;
 pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
 
-/// Height of the band for pictures that are exactly right: none where there are no such pictures.
+/// Returns the height of the band for pictures without error, or 0 if there are no such pictures.
 pub(crate) fn zero_band(mut errors: impl Iterator<Item = f64>) -> f64 {
     if errors.any(|e| e == 0.0) { 20.0 } else { 0.0 }
 }
@@ -22,7 +22,7 @@ pub(crate) fn zero_band(mut errors: impl Iterator<Item = f64>) -> f64 {
 pub(crate) struct Plot {
     pub(crate) x: Scale,
     pub(crate) y: Scale,
-    /// Height of a band below the scale for what is exactly zero.
+    /// The height of a band below the scale for values that are exactly zero.
     pub(crate) zero: f64,
 }
 
@@ -39,7 +39,7 @@ impl Plot {
         bottom - self.y.at(value) * (bottom - TOP)
     }
 
-    /// The box, the grid lines and the tick labels.
+    /// Returns the box, the grid lines and the tick labels.
     pub(crate) fn frame(
         &self,
         x_label: impl Fn(f64) -> String,
@@ -70,7 +70,7 @@ impl Plot {
     }
 }
 
-/// A line through these places.
+/// Returns a line through these places.
 pub(crate) fn polyline(places: &[(f64, f64)]) -> String {
     let place = |(i, (x, y)): (usize, &(f64, f64))| {
         let pen = if i == 0 { 'M' } else { 'L' };
@@ -79,7 +79,8 @@ pub(crate) fn polyline(places: &[(f64, f64)]) -> String {
     places.iter().enumerate().map(place).collect()
 }
 
-/// One chart: an image with a description for screen readers below its title, which may take several lines.
+/// Returns one chart: an image with a description for screen readers, below a title that can take several
+/// lines.
 pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
     let view = format!("0 0 {WIDTH} {height}");
     html! {
@@ -93,7 +94,7 @@ pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Mar
     }
 }
 
-/// A coordinate with one decimal at most.
+/// Returns a coordinate with at most one decimal.
 pub(crate) fn n(value: f64) -> String {
     let text = format!("{value:.1}");
     match text.strip_suffix(".0") {

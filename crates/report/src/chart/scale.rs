@@ -1,6 +1,6 @@
 //! Scales: from a value to its place on an axis, and the ticks of the axis.
 
-/// From values to a place between 0 and 1.
+/// A map from values to places between 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     /// Between two values.
@@ -10,7 +10,7 @@ pub(crate) enum Scale {
 }
 
 impl Scale {
-    /// A linear scale with all values inside.
+    /// Returns a linear scale that includes all values.
     pub(crate) fn linear(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = ends(values).unwrap_or((0.0, 1.0));
         let pad = match high - low {
@@ -20,8 +20,8 @@ impl Scale {
         Self::Linear(low - pad, high + pad)
     }
 
-    /// A logarithmic scale with all values, which must be positive, inside, over a factor of two at
-    /// least.
+    /// Returns a logarithmic scale that includes all values, over at least a factor of two. The values must
+    /// be positive.
     pub(crate) fn log(values: impl IntoIterator<Item = f64>) -> Self {
         let logs = values.into_iter().map(f64::log10);
         let (low, high) = ends(logs).unwrap_or((0.0, 1.0));
@@ -31,12 +31,12 @@ impl Scale {
         Self::Log(low - pad, high + pad)
     }
 
-    /// A logarithmic scale between two positive values.
+    /// Returns a logarithmic scale between two positive values.
     pub(crate) fn log_between(low: f64, high: f64) -> Self {
         Self::Log(low.log10(), high.log10())
     }
 
-    /// Logarithmic where positive values lie far apart, else linear.
+    /// Returns a logarithmic scale if all values are positive and span a factor of 20, else a linear one.
     pub(crate) fn fitting(values: &[f64]) -> Self {
         match ends(values.iter().copied()) {
             Some((low, high)) if low > 0.0 && high / low >= 20.0 => {
@@ -46,7 +46,7 @@ impl Scale {
         }
     }
 
-    /// The place of a value.
+    /// Returns the place of a value.
     pub(crate) fn at(self, value: f64) -> f64 {
         let (low, high, value) = match self {
             Self::Linear(low, high) => (low, high, value),
@@ -55,7 +55,7 @@ impl Scale {
         ((value - low) / (high - low)).clamp(0.0, 1.0)
     }
 
-    /// Round values inside, about as many as asked for and never more than twice as many.
+    /// Returns round values within the scale: about `count`, and never more than twice as many.
     pub(crate) fn ticks(self, count: usize) -> Vec<f64> {
         match self {
             Self::Linear(low, high) => linear_ticks(low, high, count),
@@ -86,7 +86,7 @@ impl Scale {
     }
 }
 
-/// A digit times a power of ten, as exactly as 64 bits hold it.
+/// Returns a digit times a power of ten, rounded to the nearest `f64`.
 fn power(digit: f64, exponent: f64) -> f64 {
     format!("{digit}e{exponent}")
         .parse()

@@ -1,22 +1,22 @@
-//! The comparison of two runs: of two drivers, two versions of one, two commits. Changes of verdicts, pixels
-//! and times as data, for a terminal, and as a page.
+//! The comparison of two runs: two drivers, two versions of a driver, or two commits. Changes of verdicts,
+//! pixels and times as data, for a terminal, and as a page.
 //!
-//! Records are matched by case and adapter. *Worse*, which `etalon diff` exits with 1 for, is
+//! Records are matched by case and adapter. `etalon diff` exits with 1 if anything is *worse*:
 //!
-//! - a record that is unexpected and whose partner in the first run is not;
-//! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) that became a
-//!   wrong one (all bad verdicts, Open among them), and a wrong one that became one of a greater
+//! - a record is unexpected and its partner in the first run is not;
+//! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) became a wrong one
+//!   (all bad verdicts, including Open), or a wrong one became one of a greater
 //!   [`Verdict::severity`](etalon_record::Verdict::severity), expected or not;
-//! - a case that was drawn, right or wrong, and is Blocked;
-//! - a case that was right and is not supported any more;
-//! - a case that both runs select, by their lists of cases, and the second one holds no record of;
-//! - an adapter of the first run that the second one lacks, unless the pair to compare was named.
+//! - a case was drawn, right or wrong, and is now Blocked;
+//! - a case was right and is no longer supported;
+//! - both runs select a case, by their lists of cases, and the second has no record of it;
+//! - the second run lacks an adapter of the first, unless the pair to compare was named.
 //!
-//! *Better* is the way back: wrong to right or to a smaller severity, not supported to right. All else is
-//! neither: Pass to Imprecise, which is legal; Blocked to wrong, which may have been so before; wrong to
-//! not supported; right to skipped, which is intended; a case that one run does not select; and other
-//! pixels, counters or distances under the same verdict.
-//! Times decide nothing, since a run's are taken once and beside other work.
+//! *Better* is the reverse: wrong to right or to a smaller severity, not supported to right. All else is
+//! neither: Pass to Imprecise, which is legal; Blocked to wrong, which might have been wrong before; wrong to
+//! not supported; right to skipped, which is intended; a case that one run does not select; and other pixels,
+//! counters or distances under the same verdict. Times decide nothing, because a run takes each once and
+//! while doing other work.
 
 mod compare;
 mod data;
@@ -44,9 +44,10 @@ use std::cmp::Reverse;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Compares the run in the second folder with the one in the first. With `adapters`, compares the records of
-/// the one in the first run with those of the other in the second; else, if each run has one adapter, those
-/// two; else those of the same name.
+/// Compares the run in the second folder with the run in the first.
+///
+/// `adapters` names the adapter of the first run and the adapter of the second to compare. Without it, runs
+/// of one adapter each are compared with each other, and other runs by adapters of the same name.
 ///
 /// # Errors
 /// Returns an error if a folder holds no readable run, a named adapter is in no record or header, or the runs
@@ -96,7 +97,7 @@ pub fn diff(
     Ok(found)
 }
 
-/// Worse, better, other; the gravest first; by case file and case.
+/// The sort key: worse, better, other; the gravest first; then by case file and case.
 fn order(change: &Change) -> (Direction, Reverse<u8>, &str, &str, &[String; 2]) {
     let severity = match change.direction {
         Direction::Better => change.verdict[0],
@@ -150,13 +151,13 @@ fn of_pair(
     found.pairs.push(pair);
 }
 
-/// The cases that the second run was to draw.
+/// The cases that the second run should draw.
 enum Selection {
-    /// Those of the first run.
+    /// The cases of the first run.
     Same,
-    /// Those of a list and a shard.
+    /// The cases of a list and a shard.
     Listed(HashSet<String>, Option<Shard>),
-    /// The selections differ, and the second run does not list its own.
+    /// The selections differ, and the second run does not list its cases.
     Unknown,
 }
 
@@ -175,7 +176,7 @@ impl Selection {
         }))
     }
 
-    /// True if the second run was to hold a record of a case.
+    /// Returns true if the second run should have a record of a case.
     fn has(&self, case: &str) -> bool {
         match self {
             Self::Same => true,
@@ -188,7 +189,7 @@ impl Selection {
     }
 }
 
-/// The reasons for which the runs are incomplete.
+/// Returns the reasons why the runs are incomplete.
 fn untold(runs: &[Run; 2]) -> Vec<String> {
     let each = runs.iter().zip(["first", "second"]);
     let each = each.filter_map(|(run, which)| {
@@ -198,7 +199,7 @@ fn untold(runs: &[Run; 2]) -> Vec<String> {
     each.collect()
 }
 
-/// Reasons for which the comparison may mislead.
+/// Returns reasons why the comparison can mislead.
 fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
     let untold = untold(runs).into_iter();
     let mut warnings: Vec<String> = untold.map(|why| format!("{}.", capital(&why))).collect();

@@ -1,7 +1,7 @@
 //! `ctrf.json`, in the Common Test Report Format (<https://ctrf.io>, specification 0.0).
 //!
-//! One test per case and adapter, its suite the adapter, the area and the case file, and a last one that
-//! fails when the run is empty or incomplete. `rawStatus` is the verdict; the status is
+//! There is one test per case and adapter; its suite is the adapter, the area and the case file. A last test
+//! fails if the run is empty or incomplete. `rawStatus` is the verdict. The status is
 //!
 //! | status | records |
 //! |---|---|
@@ -10,9 +10,8 @@
 //! | `other` | Measured, which is no judgement, and bad verdicts that the expectations name or triage settled |
 //! | `skipped` | NotSupported and Skipped |
 //!
-//! `flaky` marks the verdict Flaky. Records hold no time of day, so tests have durations alone, and the
-//! run's end is its start and the sum of those, which is too late where several adapters drew at the
-//! same time.
+//! `flaky` marks the verdict Flaky. Records have no time of day, so tests have only durations. The run's end
+//! is its start plus the sum of the durations, which is too late if several adapters drew at the same time.
 
 use crate::error::ReportError;
 use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
@@ -23,7 +22,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::time::UNIX_EPOCH;
 
-/// The version of the specification that is kept to.
+/// The version of the specification that the file follows.
 const SPEC_VERSION: &str = "0.0.0";
 
 #[derive(Serialize)]
@@ -111,7 +110,7 @@ struct Environment<'a> {
     extra: Value,
 }
 
-/// The file.
+/// Returns the file.
 pub(crate) fn json(run: &Run, grid: &Grid<'_>) -> Result<Vec<u8>, ReportError> {
     let h = &run.header;
     let mut summary = Summary {
@@ -218,7 +217,7 @@ fn test(record: &Record) -> Test<'_> {
     }
 }
 
-/// The facts of a record that the format has no field for.
+/// Returns the facts of a record that the format has no field for.
 fn extra(record: &Record) -> Map<String, Value> {
     let channels: u64 = record.assertions.iter().map(|a| a.channels).sum();
     let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
@@ -247,7 +246,7 @@ fn extra(record: &Record) -> Map<String, Value> {
     }
 }
 
-/// A list that is not empty.
+/// Returns a list if it is not empty.
 fn listed<T>(list: &[T]) -> Option<&[T]> {
     (!list.is_empty()).then_some(list)
 }
@@ -267,17 +266,18 @@ fn completeness(incomplete: Option<String>) -> Test<'static> {
     }
 }
 
-/// The format knows no test without a name.
+/// Returns a test's name: the case, or a placeholder, because the format requires a name.
 fn named(case: &str) -> &str {
     if case.is_empty() { "(no name)" } else { case }
 }
 
 fn milliseconds(seconds: f64) -> u64 {
-    // A cast of what is too large for an integer saturates; a JSON reader with 64-bit floats keeps 2^53.
+    // The cast saturates if the number is too large. JSON readers with 64-bit floats represent integers up to
+    // 2^53.
     ((seconds * 1e3).round() as u64).min(1 << 53)
 }
 
-/// The start of a run in milliseconds since 1970; 0 if the header has none.
+/// Returns the start of a run in milliseconds since 1970, or 0 if the header has none.
 fn milliseconds_of(started: &str) -> u64 {
     let time = humantime::parse_rfc3339(started).ok();
     let since = time.and_then(|t| t.duration_since(UNIX_EPOCH).ok());

@@ -1,11 +1,10 @@
-//! `results/<adapter>.csv`, as deqp-runner writes and reads it: `case,status,seconds`.
+//! `results/<adapter>.csv`, in the format that deqp-runner writes and reads: `case,status,seconds`.
 //!
-//! A list of deqp-runner is one driver's, so there is one per adapter, sorted by case. Lines that begin
-//! with `#` are comments. deqp-runner knows no quoting: it takes everything before the first comma for
-//! the name, and refuses a whole list for one line that it cannot read or for one name that comes twice.
-//! A record whose id it would misread (a comma, a line break or another control character, a `#` at the
-//! front, nothing at all) is therefore left out, and the first comment says how many were. Ids of the
-//! suite's own cases hold none of this.
+//! A deqp-runner list belongs to one driver, so there is one list per adapter, sorted by case. Lines that
+//! begin with `#` are comments. deqp-runner supports no quoting: it takes everything before the first comma
+//! as the name, and refuses a whole list for one unreadable line or duplicate name. Records whose id it would
+//! misread (an id with a comma or a control character, an id that begins with `#`, an empty id) are therefore
+//! left out, and the first comment gives their number. Ids of the suite's cases need no such care.
 //!
 //! | status | records |
 //! |---|---|
@@ -14,12 +13,12 @@
 //! | `Fail` | Fail, RequiredByCts, Disputed, Blocked, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
 //! | `Crash` | Crash, DeviceLost |
 //! | `Timeout` | Timeout |
-//! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected one fails the run |
+//! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected flake fails the run |
 //! | `KnownFlake` | Flaky, and expected |
 //! | `ExpectedFail` | any other bad verdict that is expected, and a selftest that fails as it should |
 //! | `UnexpectedImprovement(…)` | better than expected, with its status |
 //! | `Skip` | NotSupported, Skipped, and Measured, which judges nothing |
-//! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
+//! | `Missing` | selected without a record, if the folder keeps the selected ids |
 
 use crate::export::status::seconds;
 use crate::files::file_name;
@@ -38,7 +37,7 @@ pub(crate) struct List {
     pub(crate) text: String,
 }
 
-/// A list per adapter of the run.
+/// Returns a list per adapter of the run.
 pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<List> {
     let selected = selected(folder, run);
     let mut names = BTreeSet::new();
@@ -88,14 +87,14 @@ fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> Strin
     text
 }
 
-/// True if deqp-runner reads the id unchanged.
+/// Returns true if deqp-runner reads the id unchanged.
 fn readable(case: &str) -> bool {
     !case.is_empty()
         && !case.starts_with('#')
         && !case.contains(|c: char| c == ',' || c.is_control())
 }
 
-/// The status in deqp-runner's words.
+/// Returns the status in deqp-runner's words.
 fn status(record: &Record) -> String {
     let plain = match record.verdict {
         Verdict::Pass => "Pass",
@@ -113,7 +112,7 @@ fn status(record: &Record) -> String {
         Verdict::NotSupported | Verdict::Skipped | Verdict::Measured => "Skip",
     };
     if record.unexpected() {
-        // A selftest that was due to fail has a good verdict and is unexpected all the same.
+        // A selftest that should have failed has a good verdict and is still unexpected.
         return if record.verdict.is_bad() {
             plain
         } else {
@@ -129,12 +128,13 @@ fn status(record: &Record) -> String {
     }
 }
 
-/// The ids that the run is about, where it lacks records of some and the folder keeps the list.
+/// Returns the ids that the run selected, if it lacks records and the folder keeps the list. Else the list is
+/// empty.
 fn selected(folder: &Path, run: &Run) -> Vec<String> {
     if run.missing() == 0 {
         return Vec::new();
     }
-    // A list that is damaged or another run's is of no use; the comment then counts the missing records.
+    // A damaged list, or a list of another run, is ignored; the comment then counts the missing records.
     let mut ids = read_cases(folder, &run.header)
         .ok()
         .flatten()

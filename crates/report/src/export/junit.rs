@@ -1,12 +1,15 @@
 //! `junit.xml`, for continuous integration.
 //!
-//! One suite per adapter, one test case per case. Unexpected records are failures (Fail, RequiredByCts,
-//! Disputed, Open, Flaky and a selftest that did not fail) or errors (Blocked, Crash and the like, which
-//! have no frame); NotSupported and Skipped are skipped. A bad verdict that was expected, due or settled by triage is a
-//! success with a note, since a viewer shows skipped cases as not run, and these did run. The loss of a process, the
-//! verdicts of repetitions, the cases that must be drawn before and validation messages are part of the failure, or of
-//! `system-out` without one; the standard error of a lost process is `system-err`. A last suite, `etalon`,
-//! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
+//! There is one suite per adapter and one test case per case. Unexpected records are failures (Fail,
+//! RequiredByCts, Disputed, Open, Flaky and a selftest that did not fail) or errors (Blocked, Crash and other
+//! verdicts without a frame). NotSupported and Skipped are skipped. A bad verdict that was expected, due or
+//! settled by triage is a success with a note, because viewers show skipped cases as not run, and these did
+//! run.
+//!
+//! The loss of a process, the verdicts of repetitions, the cases that must be drawn before and validation
+//! messages are part of the failure, or of `system-out` without a failure. The standard error of a lost
+//! process is `system-err`. A last suite, `etalon`, has one case that fails if the run is empty or
+//! incomplete, so that an unfinished run does not look green.
 
 use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
 use crate::run::grid::Grid;

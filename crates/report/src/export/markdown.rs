@@ -29,12 +29,12 @@ struct Text {
 }
 
 impl Text {
-    /// Begins a section that may fill the text up to so many bytes.
+    /// Begins a section that can fill the text up to `until` bytes.
     fn section(&mut self, until: usize) {
         self.until = until.min(LIMIT - 4096);
     }
 
-    /// Adds a line, or nothing where it has no room.
+    /// Adds a line if there is room for it.
     fn line(&mut self, line: &str) -> bool {
         let fits = self.text.len() + line.len() < self.until;
         if fits {
@@ -62,7 +62,7 @@ impl Text {
         }
     }
 
-    /// Adds as many lines as there is room for, at most so many, and says how many more there are.
+    /// Adds at most `most` lines while there is room, and the number of the lines left out.
     fn lines<T>(&mut self, items: &[T], most: usize, line: impl Fn(&T) -> String) {
         let shown = items
             .iter()
@@ -70,7 +70,7 @@ impl Text {
             .take_while(|item| self.line(&line(item)));
         let left = items.len() - shown.count();
         if left > 0 {
-            // The room behind the sections is there for this.
+            // The room after the sections is reserved for this line.
             self.text += &format!("\n{left} more left out of this summary.\n");
         }
     }
@@ -144,7 +144,7 @@ fn head(text: &mut Text, run: &Run, news: Option<&News>) {
     text.line(&format!("{}\n", code(&h.command.join(" "), 2000)));
 }
 
-/// Writes the news, then all that is as it was.
+/// Writes the news, then the runs with which this run was compared.
 fn told(text: &mut Text, news: &News) {
     for (title, entries) in news.sections() {
         if entries.is_empty() {
@@ -287,8 +287,8 @@ fn absent(text: &mut Text, run: &Run) {
     });
 }
 
-/// Text that means nothing in Markdown, in HTML or to the filters that GitHub lays over both: references
-/// of characters are no markup, and a mention, an issue or an emoji is none with a word joiner inside.
+/// Returns text without a meaning in Markdown, in HTML or for GitHub's filters. Character references are not
+/// markup, and a word joiner keeps mentions, issues and emoji from being recognized.
 fn escaped(text: &str, longest: usize) -> String {
     let mut result = String::new();
     for c in plain(text, longest).chars() {

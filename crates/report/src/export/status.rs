@@ -1,4 +1,4 @@
-//! The conclusion of a record in files for other programs, and the texts beside its verdict.
+//! The conclusion of a record in files for other programs, and the texts that go with its verdict.
 
 use crate::numbers::count;
 use crate::words::{name, plain, process_end, repetitions, story_text};
@@ -7,13 +7,13 @@ use etalon_record::{Record, Run, Verdict};
 /// The conclusion that continuous integration draws from a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Conclusion {
-    /// Right by what the API's text allows.
+    /// Right by what the API's specification allows.
     Passed,
     /// A selftest that was due to fail, and failed.
     Due,
     /// A bad verdict that the expectations name.
     Excused,
-    /// Drawn, and not judged.
+    /// Drawn but not judged.
     Measured,
     /// Not drawn.
     Skipped,
@@ -47,19 +47,19 @@ impl Conclusion {
     }
 }
 
-/// The seconds of drawing and judging a case, from 0 to a year, also of a damaged record.
+/// Returns the seconds of drawing and judging a case, from 0 to a year, even for a damaged record.
 pub(crate) fn seconds(record: &Record) -> f64 {
     const YEAR: f64 = 366.0 * 86_400.0;
     let both = record.seconds.draw + record.seconds.judge;
-    // What is no number is no time either.
+    // NaN counts as 0.
     if both > 0.0 { both.min(YEAR) } else { 0.0 }
 }
 
-/// The reason why the run is incomplete, or `None` if it is complete: a case that was not run must not look
+/// Returns the reason why the run is incomplete, or `None` if it is complete. An incomplete run must not look
 /// green.
 pub(crate) fn incomplete(run: &Run) -> Option<String> {
     let missing = run.missing();
-    // A shard may have no case: others have them.
+    // A shard can be without cases if the other shards have them all.
     let empty_shard = run.header.settings.shard.is_some() && run.header.cases == 0;
     if run.records.is_empty() && !empty_shard {
         Some("no case was run".to_owned())
@@ -75,7 +75,7 @@ pub(crate) fn incomplete(run: &Run) -> Option<String> {
     }
 }
 
-/// A remark on an expected record that is no plain pass.
+/// Returns a remark on an expected record, unless it is a plain pass.
 pub(crate) fn note(record: &Record) -> Option<String> {
     match (&record.expected, record.improves) {
         (Some(expected), _) => Some(format!("expected: {}", expected.reason)),
@@ -89,8 +89,8 @@ pub(crate) fn note(record: &Record) -> Option<String> {
     }
 }
 
-/// The facts of a record beside its verdict, message and texels, one line each: the loss of its process,
-/// the verdicts of repetitions, the cases that must be drawn before, validation messages.
+/// Returns the facts of a record other than its verdict, message and texels, one line each: the loss of its
+/// process, the verdicts of repetitions, the cases that must be drawn before, and validation messages.
 pub(crate) fn particulars(record: &Record) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(end) = &record.process {
@@ -111,7 +111,7 @@ pub(crate) fn particulars(record: &Record) -> Vec<String> {
     lines
 }
 
-/// All facts of an unexpected record, for people.
+/// Returns all facts of an unexpected record, for people.
 pub(crate) fn account(record: &Record) -> String {
     let mut parts = Vec::new();
     if !record.message.is_empty() {

@@ -1,4 +1,4 @@
-//! The course of every case on one timeline: spans of equal looks, runs without a record, and what happened.
+//! The course of each case on one timeline: spans of equal looks, runs without a record, and events.
 
 use super::looks::Looks;
 use super::places::Line;
@@ -7,16 +7,16 @@ use etalon_history::{History, HistoryError};
 use etalon_stats::{Class, Happening, happenings};
 use std::collections::HashMap;
 
-/// The course of one case on one timeline. Runs are places in the timeline.
+/// The course of one case on one timeline. Runs are indices into the timeline.
 #[derive(Default)]
 pub(super) struct Course {
     /// The first run that has a record.
     pub(super) first: u32,
-    /// The last one.
+    /// The last run that has a record.
     pub(super) last: u32,
     /// The first run of each span and its look.
     pub(super) spans: Vec<(u32, u32)>,
-    /// The runs between that have no record: a number of [`Gaps`].
+    /// The runs in between without a record: a number of a list in [`Gaps`], 0 for none.
     pub(super) gaps: u32,
     /// True if all whole runs have a record.
     pub(super) is_common: bool,
@@ -24,13 +24,13 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// The look in a run that has a record.
+    /// Returns the look in a run that has a record.
     pub(super) fn look(&self, run: u32) -> u32 {
         let next = self.spans.partition_point(|(from, _)| *from <= run);
         self.spans[next.saturating_sub(1)].1
     }
 
-    /// The spans with the run behind the last.
+    /// Returns the spans: first run, the run after the last, and look.
     pub(super) fn ended(&self) -> impl Iterator<Item = (u32, u32, u32)> {
         let ends = self.spans.iter().skip(1).map(|(from, _)| *from);
         let ends = ends.chain([self.last + 1]);
@@ -41,10 +41,12 @@ impl Course {
     }
 }
 
-/// Runs without a record, each list once: those of a run that left an area out are the same for many cases.
+/// Lists of runs without a record. Cases share lists: a run that left an area out gives the same list to
+/// many.
 #[derive(Default)]
 pub(super) struct Gaps {
-    /// The list before, the first run and the number of runs; list 0 is empty.
+    /// The number of the list that this one extends, then the first run and the number of runs added. List 0
+    /// is empty.
     all: Interner<(u32, u32, u32)>,
 }
 
@@ -53,7 +55,7 @@ impl Gaps {
         self.all.place((than, from, runs)) as u32 + 1
     }
 
-    /// The gaps of a list, first run and number of runs, in order.
+    /// Returns the gaps of a list, each the first run and the number of runs, in order.
     pub(super) fn list(&self, mut number: u32) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
         while let Some((before, from, runs)) = number
@@ -70,13 +72,14 @@ impl Gaps {
 
 /// All courses of a timeline.
 pub(super) struct Courses {
-    /// By the case's number less one; `None` without a record.
+    /// The course of each case, by the case's number minus one; `None` without a record.
     pub(super) of: Vec<Option<Course>>,
     pub(super) gaps: Gaps,
 }
 
 impl Courses {
-    /// Reads all records of a timeline and finds what happened to every case. `each` is called with run, case less one, and look.
+    /// Reads all records of a timeline and finds the events of each case. Calls `each` with the run, the
+    /// case's number minus one, and the look.
     pub(super) fn read(
         history: &History,
         line: &Line<'_>,
@@ -114,7 +117,7 @@ impl Courses {
                 }
             }
         }
-        // True by list of gaps if a whole run is in it.
+        // For each list of gaps, whether a complete run is in it.
         let mut holed: HashMap<u32, bool> = HashMap::new();
         let whole = |run: &u32| line.runs[*run as usize].whole;
         let runs = line.runs.len() as u32;
@@ -138,7 +141,7 @@ impl Courses {
 }
 
 impl Course {
-    /// Returns the classes of a case by run, without those that say nothing.
+    /// Returns the classes of a case by run, without undecided ones.
     fn classes(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Class)> {
         let mut all: Vec<Option<u32>> = vec![None; line.runs.len()];
         for (from, end, look) in self.ended() {

@@ -1,7 +1,7 @@
-//! The data of the scripts beside the page.
+//! The data of the scripts that accompany the page.
 //!
-//! Each file calls one function with its name and a value. Texts of the history are strings in lists: never keys,
-//! which could name a prototype.
+//! Each file calls one function with its name and a value. Texts of the history are strings in lists and
+//! never keys, because a key could name a prototype.
 
 use super::courses::{Course, Courses};
 use super::model::{Model, Timeline};
@@ -15,16 +15,16 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The bytes at which a file ends and the next begins.
+/// The number of bytes at which a file ends and the next begins.
 const FILE: usize = 100_000;
 
-/// The text of a file.
+/// Returns the text of a file.
 pub(super) fn file(name: &str, value: &str) -> String {
-    // A name is one of ours and needs no escape.
+    // The suite chooses the names, which need no escapes.
     format!("etalonHistory(\"{name}\",{value});\n")
 }
 
-/// Texts in lists of so many bytes that each makes a file; a text is never divided.
+/// Packs texts into files of about [`FILE`] bytes, without dividing a text.
 #[derive(Default)]
 pub(super) struct Files {
     /// The number of the first text of each file.
@@ -48,7 +48,7 @@ impl Files {
     }
 }
 
-/// All runs, timelines, drivers, machines and looks.
+/// Returns all runs, timelines, drivers, machines and looks.
 pub(super) fn runs(model: &Model<'_>) -> Value {
     let places = model.places;
     let (mut drivers, mut machines) = (Interner::default(), Interner::default());
@@ -106,7 +106,8 @@ pub(super) fn runs(model: &Model<'_>) -> Value {
     })
 }
 
-/// The ids of all cases in the given order; each as the length that it shares with the one before, and the rest.
+/// Returns the ids of all cases in the given order, each as the length of the prefix it shares with the id
+/// before, and the rest.
 pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     let mut before: Vec<char> = Vec::new();
     let all = order.iter().map(|case| {
@@ -121,27 +122,29 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     all.collect()
 }
 
-/// Files of courses. Cases of one file that went the same way share a text, which most do.
+/// Files of courses. Cases of a file with the same course share a text, as most do.
 #[derive(Default)]
 pub(super) struct CaseFiles {
-    /// The place of the first case of each file among all cases, but of the first file.
+    /// The place of the first case of each file except the first, among all cases.
     first: Vec<usize>,
     files: Vec<String>,
     now: CaseFile,
 }
 
-/// A file in the making.
+/// The file being filled.
 #[derive(Default)]
 struct CaseFile {
     courses: Interner<String>,
     of: Vec<usize>,
-    /// The place of a case within the file, the file of its times or -1, and what people said.
+    /// Entries of cases with times or triage: the case's place within the file, the file of its times or -1,
+    /// and the triage entries.
     more: Vec<Value>,
     bytes: usize,
 }
 
 impl CaseFiles {
-    /// Adds the case at this place: its course on all timelines, the file of its times, what people said.
+    /// Adds the case at this place: its course on all timelines, the file of its times, and its triage
+    /// entries.
     pub(super) fn push(
         &mut self,
         place: usize,
@@ -174,7 +177,7 @@ impl CaseFiles {
         now.of.push(now.courses.place(text));
     }
 
-    /// The first case of each file, and the texts of all files.
+    /// Returns the first case of each file, and the texts of all files.
     pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
         self.files.push(self.now.text());
         self.first.insert(0, 0);
@@ -189,7 +192,7 @@ impl CaseFile {
     }
 }
 
-/// Timeline, first and last run, spans, and gaps and events as far as there are any.
+/// Returns the timeline, the first and last run, and spans; then gaps and events if there are any.
 fn course_data(line: usize, course: &Course, courses: &Courses) -> Value {
     let flat = |pairs: &[(u32, u32)]| -> Vec<u32> {
         pairs
@@ -226,7 +229,7 @@ fn entry_data(entry: &TriageEntry) -> Value {
     ])
 }
 
-/// The series of a case.
+/// Returns the series of a case.
 pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
     let series_data: Vec<Value> = series
         .iter()
@@ -294,7 +297,7 @@ fn timed(timed: &Timed) -> Value {
     ])
 }
 
-/// Ascending numbers as first number and length of each stretch.
+/// Returns ascending numbers as the first number and length of each stretch.
 fn ranges(numbers: &[usize]) -> Vec<usize> {
     let stretches = numbers.chunk_by(|a, b| a + 1 == *b);
     stretches
@@ -302,7 +305,7 @@ fn ranges(numbers: &[usize]) -> Vec<usize> {
         .collect()
 }
 
-/// A number in four digits.
+/// Returns a number with four digits.
 fn number(value: f64) -> Value {
     if !value.is_finite() || value == 0.0 {
         return json!(0);
@@ -316,7 +319,8 @@ fn number(value: f64) -> Value {
     }
 }
 
-/// Returns the events of each run, by place: timeline, kind, cases by their places in the list of all.
+/// Returns the events of each run, by the run's place: timeline, kind, and cases as places in the list of all
+/// cases.
 pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
     for (line, timeline) in model.timelines.iter().enumerate() {
@@ -345,7 +349,7 @@ pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, Stri
 /// The most lines of news that are kept.
 const NEWS: usize = 5_000;
 
-/// All lines of news.
+/// Returns all lines of news.
 pub(super) fn news(news: &News) -> Value {
     let lines = news.items.iter().take(NEWS).map(|item| {
         json!([

@@ -1,17 +1,17 @@
-//! Families of cases: those of one case file, as far as ids tell; and their areas.
+//! Families of cases, which share a case file as their ids suggest, and the areas of the families.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The families and areas of all cases.
 pub(super) struct Families {
-    /// Sorted.
+    /// The names of the families, sorted.
     pub(super) names: Vec<String>,
-    /// Sorted.
+    /// The names of the areas, sorted.
     pub(super) areas: Vec<String>,
     /// The area of each family.
     pub(super) area_of: Vec<usize>,
-    /// The family of each case, by the case's number less one.
+    /// The family of each case, by the case's number minus one.
     pub(super) of: Vec<u32>,
 }
 
@@ -34,12 +34,12 @@ impl Families {
     }
 }
 
-/// The first part of an id.
+/// Returns the first part of an id.
 fn area(id: &str) -> &str {
     id.split('/').next().unwrap_or(id)
 }
 
-/// The parts of an id before the first axis; of an id without axes, all but the last.
+/// Returns the parts of an id before the first axis; without axes, all parts except the last.
 fn family(id: &str) -> &str {
     let mut end = 0;
     for part in id.split('/') {

@@ -1,5 +1,5 @@
-//! Looks: the part of an outcome that a page shows, the verdict, and whether it was expected. Numbers do not begin a new
-//! span.
+//! Looks: the part of an outcome that a page shows, which is the verdict and whether it was expected. Other
+//! differences between outcomes do not begin a new span.
 
 use crate::lists::Interner;
 use crate::mark::class;
@@ -11,10 +11,11 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// The verdict, the reason why it is expected, the one that was, whether it is due to fail and whether it was inferred.
+/// The verdict, the reason why it is expected, the verdict that was expected instead, whether it is due to
+/// fail, and whether it was inferred.
 type Look = (Verdict, Option<String>, Option<Verdict>, bool, bool);
 
-/// All looks of a history, by number in the order in which they were met.
+/// All looks of a history, numbered in the order in which they were found.
 #[derive(Default)]
 pub(super) struct Looks {
     /// The first outcome of each look.
@@ -24,7 +25,7 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// The number of an outcome's look.
+    /// Returns the number of an outcome's look.
     pub(super) fn of(
         &mut self,
         history: &History,
@@ -59,24 +60,25 @@ impl Looks {
         }
     }
 
-    /// True if the case was left out for a reason of the run, so that the driver is not the matter.
+    /// Returns true if the case was left out for a reason of the run and not of the driver.
     pub(super) fn is_undecided(&self, look: u32) -> bool {
         self.class(look) == Class::Missing && self.outcome(look).verdict != Verdict::NotSupported
     }
 
-    /// True if the verdict counts against a run.
+    /// Returns true if the verdict counts against a run.
     pub(super) fn is_unexpected(&self, look: u32) -> bool {
         self.outcome(look).unexpected()
     }
 
-    /// The words of a look: `✗ fail (expected)`.
+    /// Returns the words of a look: `✗ fail (expected)`.
     pub(super) fn text(&self, look: u32) -> String {
         let outcome = self.outcome(look);
         let (symbol, name) = (words::symbol(outcome.verdict), words::name(outcome.verdict));
         format!("{symbol} {name}{}", tone(outcome).suffix())
     }
 
-    /// All looks for the script: words, colour, the reason of the expectation, whether it was inferred.
+    /// Returns all looks for the script: words, colour, the reason of the expectation, whether it was
+    /// inferred, and whether it counts against a run.
     pub(super) fn data(&self) -> Vec<Value> {
         let data = |(number, outcome): (usize, &Rc<Outcome>)| {
             let reason = match outcome.improves {

@@ -1,4 +1,4 @@
-//! Areas against versions, one table per timeline: the share of good cases.
+//! The share of good cases by area and version, one table per timeline.
 
 use super::families::Families;
 use super::model::{Model, Timeline};
@@ -13,7 +13,8 @@ use serde_json::{Value, json};
 /// The most columns of a table on the start page.
 const COLUMNS: usize = 8;
 
-/// The runs that stand for the versions, the last whole one of each; of a driver that never changed, all whole runs.
+/// Returns the runs that represent the versions: the last whole run of each version, or all whole runs if the
+/// driver never changed.
 fn columns(line: &Line<'_>) -> Vec<usize> {
     let whole: Vec<usize> = (0..line.runs.len())
         .filter(|run| line.runs[*run].whole)
@@ -29,7 +30,7 @@ fn columns(line: &Line<'_>) -> Vec<usize> {
     }
 }
 
-/// The table of a timeline.
+/// Returns the table of a timeline.
 pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
     let (places, families, timeline) = (model.places, &model.families, &model.timelines[number]);
     let line = timeline.line;
@@ -70,8 +71,8 @@ pub(super) fn table(model: &Model<'_>, number: usize) -> Markup {
         details open[number < 3] {
             summary { h3 { (breakable(&line.name)) } " " small { (of_all(shown_runs.len(), shown.len())) } }
             p.cap {
-                "Large: good of the " (thousands(common as u64))
-                " cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. "
+                "Large: the good share of the " (thousands(common as u64))
+                " cases with a verdict in all whole runs of this adapter. Small: of all cases of that run. "
                 a href={ "#adapter=" (crate::page::link::encoded(&line.name)) } { "Every run" } "."
             }
             (table.page(areas.into_iter().chain([all_areas])))
@@ -117,15 +118,15 @@ fn cell(both: &Both, before: Option<Score>) -> Cell {
         .with("style", shade(both.common))
 }
 
-/// From the colour of good cases to that of bad ones, over the tenth in which scores differ.
+/// Returns a shade between the colours of bad and good cases, over shares from 90 % to 100 %.
 fn shade(score: Score) -> Option<String> {
     let share = score.share()?;
     let good = ((share - 0.9) * 1000.0).round().clamp(0.0, 100.0);
     Some(format!("--s:{good}%"))
 }
 
-/// The scores of every whole run for the script, newest first: place of the run in the timeline, then by area good and all of the common
-/// set, good and all of the run's own.
+/// Returns the scores of all whole runs for the script, newest first: the run's place in the timeline, then
+/// for each area the good cases and all cases of the common set, and the good cases and all cases of the run.
 pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
     let whole = (0..timeline.line.runs.len())
         .rev()

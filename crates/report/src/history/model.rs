@@ -1,4 +1,4 @@
-//! What all pages of a history are made from.
+//! The data from which all pages of a history are made.
 
 use super::courses::Courses;
 use super::families::Families;
@@ -9,7 +9,7 @@ use super::times::{self, Series};
 use etalon_history::{History, HistoryError, TriageStates};
 use std::rc::Rc;
 
-/// What all pages of a history are made from.
+/// The data from which all pages of a history are made.
 pub(super) struct Model<'a> {
     pub(super) history: &'a History,
     pub(super) places: &'a Places<'a>,
@@ -21,7 +21,7 @@ pub(super) struct Model<'a> {
     pub(super) states: TriageStates,
 }
 
-/// A timeline and what is known of it.
+/// A timeline with its courses and scores.
 pub(super) struct Timeline<'a> {
     pub(super) line: &'a Line<'a>,
     pub(super) courses: Courses,
@@ -31,7 +31,7 @@ pub(super) struct Timeline<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Reads all records of some runs.
+    /// Reads all records of the runs.
     pub(super) fn read(history: &'a History, places: &'a Places<'a>) -> Result<Self, HistoryError> {
         let cases = history.cases()?;
         let families = Families::new(cases);
@@ -64,7 +64,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// The name of a timeline.
+    /// Returns the name of a timeline.
     pub(super) fn name(&self, line: usize) -> &str {
         &self.timelines[line].line.name
     }

@@ -1,4 +1,4 @@
-//! The changes since the last run: per adapter against its run before, worst first.
+//! The changes since the last run: each adapter compared with its run before, worst first.
 
 use super::model::Model;
 use super::times::{Series, Timed};
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// The most lines of news on the start page.
 const LINES: usize = 24;
-/// A change of times stays news for so many runs, unless somebody looked at it.
+/// The number of runs for which a change of times stays news, unless triage settles it.
 const RECENT: usize = 20;
 
 /// The kind of a line, worst first.
@@ -21,11 +21,12 @@ pub(super) enum Kind {
     Set,
     Fixed,
     Times,
-    /// Somebody said that it does not matter, or that it is known.
+    /// Triage says that it does not matter or is known.
     Known,
 }
 
-/// The kinds, each with the class that colours its lines, and the most lines where there are many of others.
+/// The kinds, each with the class that colours its lines, and the most lines it gets if other kinds need
+/// room.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Broken, "f", 10),
     (Kind::Flaky, "o", 3),
@@ -51,15 +52,15 @@ pub(super) struct Item {
     pub(super) subject: String,
     /// True if the subject is a family.
     pub(super) is_family: bool,
-    /// The event, and its adapters.
+    /// The event and its adapters.
     pub(super) text: String,
-    /// The state of triage with its reason, or that it is expected.
+    /// The state of triage with its reason, or `expected`.
     pub(super) chip: String,
     /// The order within the kind.
     rank: i64,
 }
 
-/// The news, and what is counted of them per timeline.
+/// The news and their counts per timeline.
 pub(super) struct News {
     /// All lines, worst first.
     pub(super) items: Vec<Item>,
@@ -67,7 +68,8 @@ pub(super) struct News {
     pub(super) counts: Vec<[u64; 5]>,
 }
 
-/// The events in the order of [`News::counts`] and of files, each with the kind and the word of its lines.
+/// The events in the order of [`News::counts`] and of the data files, each with the kind and the word of its
+/// lines.
 const EVENTS: [(Event, Kind, &str); 5] = [
     (Event::Broken, Kind::Broken, "✗ broken"),
     (Event::Flaky, Kind::Flaky, "⇄ flaky"),
@@ -76,7 +78,7 @@ const EVENTS: [(Event, Kind, &str); 5] = [
     (Event::Gone, Kind::Set, "− gone"),
 ];
 
-/// The place of an event in [`EVENTS`].
+/// Returns the place of an event in [`EVENTS`].
 pub(super) fn number(event: Event) -> usize {
     let place = EVENTS.iter().position(|(known, ..)| *known == event);
     place.unwrap_or_default()
@@ -134,7 +136,8 @@ impl News {
         Self { items, counts }
     }
 
-    /// The lines for a screen: of each kind its share, and of the worst what room is left.
+    /// Returns the lines for a screen: each kind gets its share, and the worst kinds get the room that is
+    /// left.
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
@@ -174,7 +177,7 @@ fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[Hit]) -> Item {
         None if kind < 2 && !unexpected => "expected".to_owned(),
         None => String::new(),
     };
-    // Adapters with the same change share a mention.
+    // Adapters with the same change are listed together.
     let texts = grouped(hits.iter().map(|hit| (&*hit.text, model.name(hit.line))));
     let texts = texts.iter();
     let texts: Vec<String> = texts
@@ -211,7 +214,7 @@ fn of_set(model: &Model<'_>, kind: usize, family: &str, lines: &BTreeMap<usize, 
     }
 }
 
-/// The state of triage with its reason.
+/// Returns the state of triage with its reason.
 fn said(entry: &TriageEntry) -> String {
     let reason = if entry.reason.is_empty() { "" } else { ": " };
     format!("{}{reason}{}", entry.state.name(), entry.reason)
@@ -226,10 +229,10 @@ fn named(names: &[&str]) -> String {
     }
 }
 
-/// The changes of one series that are news.
+/// Returns the changes of one series that are news.
 fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
     let line = &model.timelines[series.line].line.runs;
-    // The end of a series that nobody measures any more is no news.
+    // The end of a series that is no longer measured is not news.
     let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
     let recent = |point: &ChangePoint| {
         let place = timed.runs[point.index];
@@ -286,7 +289,7 @@ fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
     items
 }
 
-/// A probability in two digits, or as a bound where it is very small.
+/// Returns a probability with few digits, or a bound if it is very small.
 pub(super) fn probability(p: f64) -> String {
     match p {
         p if p < 1e-9 => "< 1e-9".to_owned(),

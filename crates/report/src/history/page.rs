@@ -11,7 +11,7 @@ use crate::table::{Cell, Table};
 use etalon_stats::Score;
 use maud::{Markup, PreEscaped, html};
 
-/// In one function, so that the page has no global names but the browser's.
+/// The script, inside one function so that the page adds no global names.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../page/base.js"),
@@ -24,7 +24,7 @@ const SCRIPT: &str = concat!(
     "})();\n",
 );
 
-/// The HTML of the start page. `index` has the numbers by which the script finds files, as JSON.
+/// Returns the HTML of the start page. `index` has the numbers by which the script finds files, as JSON.
 pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
     let places = model.places;
     let (first, last) = (places.day(0), places.day(places.runs.len() - 1));
@@ -43,7 +43,7 @@ pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
                 input id="q" type="search" autocomplete="off" spellcheck="false" placeholder="words of an id";
                 span.soft { kbd { "/" } " searches, " kbd { "j" } " and " kbd { "k" } " go through links, " kbd { "Esc" } " goes back" }
             }
-            noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. What follows needs none." } }
+            noscript { p.state.bad { "The pages of cases, runs and adapters need scripts, which are disabled here. The rest of this page does not." } }
             (news(found))
             (last_runs(model, found))
             section id="over-time" {
@@ -54,7 +54,7 @@ pub(super) fn page(model: &Model<'_>, found: &News, index: &str) -> String {
         }
         article id="view" aria-labelledby="view-title" hidden {}
         p id="view-state" role="status" {}
-        // A string of JSON in which nothing can end the element.
+        // The JSON contains no `<`, so nothing in it can end the element.
         script type="application/json" id="index" { (PreEscaped(index.replace('<', "\\u003c"))) }
         (page::script(SCRIPT))
     };
@@ -97,7 +97,7 @@ fn line(item: &Item) -> Markup {
     }
 }
 
-/// The last run of every adapter, and what changed in numbers.
+/// Returns the last run of each adapter, with counts of its changes.
 fn last_runs(model: &Model<'_>, news: &News) -> Markup {
     let places = model.places;
     let run = |line: &Timeline<'_>, index: usize| {
@@ -131,14 +131,14 @@ fn last_runs(model: &Model<'_>, news: &News) -> Markup {
         .page(model.timelines.iter().zip(&news.counts))
 }
 
-/// The last run that shows an event.
+/// Returns the last run that shows an event.
 fn last_change(line: &Timeline<'_>) -> Option<usize> {
     let courses = line.courses.of.iter().flatten();
     let events = courses.flat_map(|course| &course.events);
     events.map(|event| event.at as usize).max()
 }
 
-/// A curve per family and adapter. Families that never moved are folded away.
+/// Returns a curve per family and adapter. Families that never moved are folded away.
 fn families(model: &Model<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..model.families.names.len())
         .map(|family| {
@@ -157,7 +157,7 @@ fn families(model: &Model<'_>) -> Markup {
     html! {
         section id="families" {
             h2 { "Families" }
-            p.cap { "Good of the cases that all whole runs of an adapter have, from the first run to the last; the height is from the least to the most." }
+            p.cap { "The share of good cases among those that all whole runs of an adapter have, from the first run to the last. The height spans a curve's lowest and highest value." }
             @if !moving.is_empty() { (curves(model, &scores, &moving, "Families whose score moved")) }
             @if !still.is_empty() {
                 details {

@@ -1,15 +1,16 @@
-//! The runs of a history in order, and those of each timeline.
+//! The runs of a history in order, and the runs of each timeline.
 
 use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Runs before and after one within which the longest tells what the whole suite was.
+/// The number of neighbouring runs on each side that are searched for the longest, which gives the size of
+/// the suite.
 const AROUND: usize = 40;
 
 /// The runs of a history, and its timelines.
 pub(super) struct Places<'a> {
-    /// By time, without those that were resumed later.
+    /// By time, without runs that were resumed later.
     pub(super) runs: Vec<&'a RunInfo>,
     /// By name.
     pub(super) timelines: Vec<Line<'a>>,
@@ -28,12 +29,13 @@ pub(super) struct LineRun<'a> {
     /// The place of the run.
     pub(super) place: usize,
     pub(super) part: &'a AdapterRun,
-    /// True if the run is of the whole suite and came to its end, so that a case without a record is missing.
+    /// True if the run covers the whole suite and came to its end, so that a case without a record is
+    /// missing.
     pub(super) whole: bool,
 }
 
 impl<'a> Places<'a> {
-    /// The runs that have all of these labels.
+    /// Returns the runs that have all of these labels.
     pub(super) fn new(history: &'a History, only: &Labels) -> Self {
         let runs: Vec<&RunInfo> = history
             .runs()
@@ -73,20 +75,21 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// The place of a run; `None` of one that was resumed later.
+    /// Returns the place of a run; `None` if the run was resumed later.
     pub(super) fn of(&self, run: RunId) -> Option<usize> {
         self.of.get(&run).copied()
     }
 
-    /// The day of a run: `2026-11-24`.
+    /// Returns the day of a run: `2026-11-24`.
     pub(super) fn day(&self, place: usize) -> String {
         self.runs[place].day()
     }
 }
 
 impl Line<'_> {
-    /// A run is whole if it came to its end and has nine tenths of the records of the longest around it. The history does
-    /// not know which cases a run was to draw.
+    /// Marks the whole runs: those that came to their end and have at least nine tenths of the records of the
+    /// longest run nearby. If no run qualifies, all count as whole. The history does not record which cases a
+    /// run should have drawn.
     fn mark_whole(&mut self, runs: &[&RunInfo]) {
         let records: Vec<u64> = self
             .runs
@@ -105,7 +108,7 @@ impl Line<'_> {
         }
     }
 
-    /// The last run that says what the driver draws: a bench does where there is nothing else.
+    /// Returns the last run that shows what the driver draws, or the last bench if there is no such run.
     pub(super) fn last(&self, runs: &[&RunInfo]) -> usize {
         let is_run = |run: &LineRun<'_>| runs[run.place].kind != Kind::Bench;
         let last = self.runs.iter().rposition(is_run);

@@ -1,4 +1,5 @@
-//! Scores of families over the runs of a timeline: over what all whole runs have, and over what each has.
+//! Scores of families over the runs of a timeline: over the cases that all whole runs have, and over all
+//! cases of each run.
 
 use super::courses::Courses;
 use super::families::Families;
@@ -8,9 +9,9 @@ use etalon_stats::{Class, Score};
 
 /// The scores of a timeline, by family, then by run.
 pub(super) struct Scores {
-    /// Of what all whole runs have a verdict of; known of whole runs.
+    /// Over the cases with a verdict in all whole runs.
     common: Vec<Vec<Score>>,
-    /// All of each run.
+    /// Over all cases of each run.
     own: Vec<Vec<Score>>,
 }
 
@@ -28,7 +29,7 @@ impl Scores {
         count(&mut self.own[family as usize][run], class);
     }
 
-    /// Finds what all whole runs have, and counts it.
+    /// Finds the cases that all whole runs have, and counts them.
     pub(super) fn compare(
         &mut self,
         courses: &Courses,
@@ -55,12 +56,12 @@ impl Scores {
         }
     }
 
-    /// The score of a family in a whole run over what all of them have.
+    /// Returns the score of a family in a run over the cases that all whole runs have.
     pub(super) fn common(&self, family: usize, run: usize) -> Score {
         self.common[family][run]
     }
 
-    /// The sums over families.
+    /// Returns the sums over families.
     pub(super) fn sum(
         &self,
         families: impl Iterator<Item = usize>,

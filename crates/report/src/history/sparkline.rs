@@ -7,15 +7,15 @@ use maud::{Markup, html};
 
 const WIDTH: usize = 120;
 const HEIGHT: f64 = 18.0;
-/// The most points of a curve; of the runs between, the worst counts.
+/// The most points of a curve. A point shows the worst of the runs it stands for.
 const POINTS: usize = 60;
 
-/// True if a score is not the same in all runs.
+/// Returns true if the score differs between runs.
 pub(super) fn moves(scores: &[Score]) -> bool {
     scores.windows(2).any(|pair| pair[0].good != pair[1].good)
 }
 
-/// The curve of scores that have the same denominator, oldest first, from its own least to its own most.
+/// Returns the curve of scores with the same denominator, oldest first, from the lowest to the highest.
 pub(super) fn sparkline(scores: &[Score]) -> Markup {
     let good = |score: &Score| score.good;
     let (low, high) = (
@@ -38,7 +38,7 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
         let (x, y) = (n(i as f64 * step), n(y(*good)));
         match before {
             None => path.push_str(&format!("M{x} {y}")),
-            // A step, since a score holds until the next run; a level needs no point.
+            // A step, because a score is valid until the next run. A level needs no point.
             Some(last) if last == *good => {}
             Some(_) => path.push_str(&format!("H{x}V{y}")),
         }
@@ -54,7 +54,7 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
     }
 }
 
-/// The same in words.
+/// Returns the curve in words.
 fn words(scores: &[Score]) -> String {
     let share = |score: Option<&Score>| {
         let share = score.and_then(|score| score.share());

@@ -1,4 +1,4 @@
-//! Series of frame times with their change points, and what people said of these.
+//! Series of frame times with their change points and triage.
 
 use super::places::Places;
 use crate::threads::on_threads;
@@ -8,19 +8,19 @@ use etalon_history::{
 use etalon_record::Time;
 use etalon_stats::{ChangePoint, Changes, Point, change_points};
 
-/// The times of which series are shown.
+/// The times that are shown as series.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
-/// A change so many runs ago or less may have been found with the last run.
+/// The number of last runs in which a change can count as found with the last run.
 const RECENT: usize = 40;
 
-/// The times of one case on one adapter and one machine, all beside the same ruler.
+/// The times of one case on one adapter, one machine and one ruler.
 pub(super) struct Series {
-    /// The case's number less one.
+    /// The case's number minus one.
     pub(super) case: usize,
-    /// The place of the timeline.
+    /// The index of the timeline.
     pub(super) line: usize,
     pub(super) machine: MachineId,
-    /// The description of the ruler; `None` where no ruler was timed.
+    /// The description of the ruler; `None` if no ruler was timed.
     pub(super) ruler: Option<String>,
     pub(super) times: Vec<Timed>,
 }
@@ -32,9 +32,9 @@ pub(super) struct Timed {
     pub(super) runs: Vec<usize>,
     pub(super) points: Vec<Point>,
     pub(super) changes: Changes,
-    /// The last entry of triage, by change.
+    /// The last entry of triage of each change.
     pub(super) states: Vec<Option<TriageEntry>>,
-    /// True by change if the last run showed it.
+    /// Whether each change was found only with the last run.
     pub(super) fresh: Vec<bool>,
 }
 
@@ -74,7 +74,7 @@ pub(super) fn read(
             });
         }
     }
-    // Changes take nearly all of the time. All points were checked, so there is no error.
+    // Finding the changes takes nearly all of the time. All points were checked, so no error can occur.
     let found = on_threads(&measured, Measured::timed);
     for (key, timed) in measured.iter().zip(found) {
         all[key.series].times.extend(timed);
@@ -85,13 +85,13 @@ pub(super) fn read(
 
 /// One time of a series.
 struct Measured<'a> {
-    /// The place of the series.
+    /// The index of the series.
     series: usize,
     time: Time,
     /// The places of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    /// People's words on its steps, by the place of the run.
+    /// Triage of its steps, by the place of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
 
@@ -108,7 +108,8 @@ impl Measured<'_> {
         })
     }
 
-    /// The entry about the first run after a change, else the one about the last run within its ends.
+    /// Returns the entry about the first run after a change, else the entry about the last run within its
+    /// bounds.
     fn state(&self, change: &ChangePoint) -> Option<TriageEntry> {
         let [after, by] = change.between.map(|at| self.runs.get(at).copied());
         let first = self.runs.get(change.index).copied();
@@ -123,7 +124,7 @@ impl Measured<'_> {
     }
 }
 
-/// The entries about the steps of a series: the time, the place of the run, the entry.
+/// Returns the entries about the steps of a series: the time, the place of the run, and the entry.
 fn said<'a>(
     history: &History,
     key: &SeriesKey,
@@ -145,7 +146,7 @@ fn said<'a>(
 }
 
 impl Timed {
-    /// The changes with what people said of each, and whether the last run showed them.
+    /// Returns the changes, each with its triage and whether it was found only with the last run.
     pub(super) fn told(&self) -> impl Iterator<Item = (&ChangePoint, Option<&TriageEntry>, bool)> {
         let points = self.changes.points.iter().zip(&self.states);
         points
@@ -154,7 +155,7 @@ impl Timed {
     }
 }
 
-/// True by change if it was not found without the last run.
+/// Returns whether each change was found only with the last run.
 fn fresh(points: &[Point], changes: &Changes) -> Vec<bool> {
     let recent = |change: &&ChangePoint| change.index + RECENT >= points.len();
     let before = match changes.points.last().filter(recent) {

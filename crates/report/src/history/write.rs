@@ -15,20 +15,21 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::rc::Rc;
 
-/// The file by which a folder is known to be the page of a history.
+/// The file that marks a folder as the page of a history.
 pub const HISTORY_PAGE_FILE: &str = "history.json";
-/// The kind of such a folder.
+/// The kind of this folder.
 const FOLDER: Kind = Kind {
     mark: HISTORY_PAGE_FILE,
     top: &["index.html", "data"],
     names: ["page", "page of a history"],
 };
 
-/// Writes the pages of the runs of a history that have these labels, or of all where there are none, into a folder. An earlier page in it is replaced, and stays as it is if an error is
-/// returned.
+/// Writes the pages of the runs of a history into a folder. With labels, only runs that have them all are
+/// shown. An earlier page in the folder is replaced, unless an error is returned.
 ///
 /// # Errors
-/// Returns an error if the history cannot be read or has no such run, or the folder holds something else or cannot be written to.
+/// Returns an error if the history cannot be read or has no such run, or the folder has other files or cannot
+/// be written to.
 pub fn write_history(
     history: &History,
     only: &Labels,
@@ -66,7 +67,7 @@ pub fn write_history(
     folder.finish(html.as_bytes(), about)
 }
 
-/// Cases as the script sorts them, which compares ids in UTF-16, and the rank of each.
+/// Cases in the order of the script, which compares ids in UTF-16, and the rank of each.
 struct Order {
     cases: Vec<usize>,
     ranks: Vec<usize>,
@@ -84,7 +85,7 @@ impl Order {
     }
 }
 
-/// The files of cases, of their frame times and of the events of runs, and the first case or run of each file.
+/// The files of cases, of frame times and of events of runs, and the first case or run of each file.
 type Packed = ([(&'static str, Vec<String>); 3], Value);
 
 fn packed(model: &Model<'_>, order: &Order) -> Result<Packed, ReportError> {

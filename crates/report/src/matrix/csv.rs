@@ -7,7 +7,7 @@ use etalon_record::CellRate;
 const HEAD: &str =
     "adapter,cell,unit,rate,low,high,of_base,of_clear,work,time,rounds,state,message";
 
-/// The lines, the names of the columns first. Rates are in the unit, shares are of 1.
+/// Returns the lines, with the names of the columns first. Rates are in the unit; shares are fractions of 1.
 pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
     let mut text = format!("{HEAD}\r\n");
     for adapter in &matrix.adapters {
@@ -30,7 +30,7 @@ pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
     text
 }
 
-/// Unit, rate, ends of the interval, work, time and rounds.
+/// Returns the unit, the rate, the ends of the interval, the work, the time and the rounds.
 fn figures(times: Option<&CellRate>) -> [String; 7] {
     let Some(times) = times else {
         return Default::default();
@@ -49,7 +49,7 @@ fn figures(times: Option<&CellRate>) -> [String; 7] {
     ]
 }
 
-/// The state of a cell in a word, and a message.
+/// Returns the state of a cell in a word, and a message.
 pub(super) fn state(outcome: &CellOutcome) -> (String, String) {
     match outcome {
         CellOutcome::Rate(_) => ("measured".to_owned(), String::new()),
@@ -59,12 +59,12 @@ pub(super) fn state(outcome: &CellOutcome) -> (String, String) {
     }
 }
 
-/// All digits of a number, so that what is read is what was written; empty for none.
+/// Returns all digits of a number, so that it reads back exactly, or an empty text for `None`.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |v| v.to_string())
 }
 
-/// A field on one line, in quotes where it needs them.
+/// Returns a field on one line, in quotes if it needs them.
 fn field(text: &str) -> String {
     let text = plain(text, 1000);
     if text.contains([',', '"']) {

@@ -1,4 +1,4 @@
-//! The cells of a bench: their rates, and what they are held against.
+//! The cells of a bench: their rates, and the rates they are compared with.
 
 use crate::bench::figures::{end, software};
 use crate::lists::{distinct, grouped};
@@ -10,17 +10,17 @@ pub(crate) struct Matrix<'a> {
     pub(crate) bench: &'a Bench,
     /// In the order of the bench.
     pub(crate) cells: Vec<Cell>,
-    /// The adapters that have one, in the order of the bench.
+    /// The adapters that have a cell, in the order of the bench.
     pub(crate) adapters: Vec<&'a str>,
 }
 
 /// A cell on all adapters.
 pub(crate) struct Cell {
-    /// The id of its cases without the layers.
+    /// The id of its cases without the number of layers.
     pub(crate) name: String,
     /// The name of its case file.
     pub(crate) group: String,
-    /// Axes and their values, but for the size.
+    /// Axes and their values, except the size.
     pub(crate) axes: BTreeMap<String, String>,
     /// The size of its attachments.
     pub(crate) size: String,
@@ -31,26 +31,26 @@ pub(crate) struct Cell {
 /// A cell on one adapter.
 pub(crate) struct Entry {
     pub(crate) outcome: CellOutcome,
-    /// Its rate as a share of the base cell's, where both count texels.
+    /// Its rate as a share of the base cell's, if both count texels.
     pub(crate) of_base: Option<f64>,
     /// Its rate as a share of the rate of clearing.
     pub(crate) of_clear: Option<f64>,
 }
 
-/// The rate of a cell on an adapter, or why it has none.
+/// The rate of a cell on an adapter, or the reason why it has none.
 pub(crate) enum CellOutcome {
     /// It was measured.
     Rate(CellRate),
-    /// The work takes less time than times scatter.
+    /// The work takes less time than the scatter of single times.
     Below(CellRate),
-    /// One of its pictures may not be timed.
+    /// One of its pictures must not be timed.
     Untimed(Verdict, String),
-    /// There is no round of both cases, or only one of the cases was drawn.
+    /// No round timed both cases, or only one of the cases was drawn.
     Incomplete,
 }
 
 impl CellOutcome {
-    /// The rate in units per second.
+    /// Returns the rate in units per second.
     pub(crate) fn rate(&self) -> Option<f64> {
         match self {
             Self::Rate(rate) => rate.slope.rate(),
@@ -58,7 +58,7 @@ impl CellOutcome {
         }
     }
 
-    /// The times, whether they give a rate or not.
+    /// Returns the times, even if they give no rate.
     pub(crate) fn times(&self) -> Option<&CellRate> {
         match self {
             Self::Rate(rate) | Self::Below(rate) => Some(rate),
@@ -86,7 +86,7 @@ impl CellOutcome {
     }
 }
 
-/// The cell that others are held against: an opaque fill of the commonest format with all tests off.
+/// The cell that others are compared with: an opaque fill of the most common format with all tests off.
 const BASE: (&str, &[(&str, &str)]) = (
     "fill",
     &[
@@ -116,7 +116,7 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// The sizes of attachments, in the order of the bench.
+    /// Returns the sizes of attachments, in the order of the bench.
     pub(crate) fn sizes(&self) -> Vec<&str> {
         distinct(self.cells.iter().map(|c| c.size.as_str()))
     }
@@ -150,12 +150,12 @@ impl Cell {
         }
     }
 
-    /// The value of an axis.
+    /// Returns the value of an axis.
     pub(crate) fn axis(&self, name: &str) -> Option<&str> {
         self.axes.get(name).map(String::as_str)
     }
 
-    /// The name without the area and the size.
+    /// Returns the name without the area and the size.
     pub(crate) fn short(&self) -> String {
         let axes = self
             .axes
@@ -170,7 +170,7 @@ impl Cell {
     }
 }
 
-/// Computes the shares of base cell and clear.
+/// Computes each rate's share of the base cell's and of clearing.
 fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
     let sizes = distinct(cells.iter().map(|c| c.size.as_str()));
     let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();
@@ -195,7 +195,7 @@ fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
     }
 }
 
-/// The unit of a rate, and by how much a rate in units per second is divided.
+/// Returns the unit of a rate, and the divisor from units per second to it.
 pub(crate) fn unit(measure: Measure) -> (&'static str, f64) {
     match measure {
         Measure::Triangles => ("Mtri/s", 1e6),

@@ -1,4 +1,4 @@
-//! The layout of heat maps: which cells stand in one, and where.
+//! The layout of heat maps: the cells of each and their places.
 
 use super::data::Cell;
 use crate::lists::distinct;
@@ -29,7 +29,7 @@ const MAPS: [(&str, &[&str], &[&str]); 3] = [
 ];
 
 impl<'a> Heat<'a> {
-    /// The heat maps of the cells of one size.
+    /// Returns the heat maps of the cells of one size.
     pub(super) fn all(cells: &[&'a Cell]) -> Vec<Self> {
         let maps = MAPS.iter().map(|(title, groups, row_axes)| {
             let in_groups = |cell: &&&Cell| groups.contains(&cell.group.as_str());
@@ -49,7 +49,7 @@ impl<'a> Heat<'a> {
         maps.filter(|m| !m.cells.is_empty()).collect()
     }
 
-    /// The cells that stand in no heat map, by group.
+    /// Returns the cells that are in no heat map, by group.
     pub(super) fn rest(cells: &[&'a Cell]) -> Vec<(&'a str, Vec<&'a Cell>)> {
         let is_rest = |c: &&&Cell| !MAPS.iter().any(|m| m.1.contains(&c.group.as_str()));
         let others: Vec<&Cell> = cells.iter().filter(is_rest).copied().collect();
@@ -74,7 +74,7 @@ impl<'a> Heat<'a> {
         cells.find(place).copied()
     }
 
-    /// The tests of the columns, each with its number of columns.
+    /// Returns the tests of the columns, each with its number of columns.
     pub(super) fn heads(&self) -> Vec<(&str, usize)> {
         let tests = distinct(self.columns.iter().map(|(tests, _)| tests.as_str()));
         let width = |t: &str| self.columns.iter().filter(|c| c.0 == t).count();
@@ -104,7 +104,7 @@ fn column<'a>(cell: &'a Cell, row_axes: &[&str]) -> (String, &'a str) {
     (tests, cell.axis("samples").unwrap_or("1"))
 }
 
-/// The place of the first cell with some tests.
+/// Returns the place of the first cell with these tests.
 fn place(cells: &[&Cell], tests: &str, row_axes: &[&str]) -> Option<usize> {
     cells.iter().position(|c| column(c, row_axes).0 == tests)
 }

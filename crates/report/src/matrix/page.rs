@@ -1,7 +1,7 @@
 //! `matrix.html`: heat maps of the performance matrix.
 //!
-//! Every adapter has tables of the same shape, so that a script can hold two of them against each other, place
-//! by place. Without it the page lacks that comparison and nothing else.
+//! Every adapter has tables of the same shape, so a script can compare two of them place by place. Without
+//! scripts the page lacks only this comparison.
 
 use super::csv::state;
 use super::data::{Cell, CellOutcome, Entry, Matrix, unit};
@@ -25,7 +25,7 @@ const SCRIPT: &str = concat!(
     "})();\n",
 );
 
-/// The page.
+/// Returns the page.
 pub(crate) fn page(matrix: &Matrix<'_>) -> String {
     let main = html! {
         (head(matrix))
@@ -89,7 +89,7 @@ fn head(matrix: &Matrix<'_>) -> Markup {
     }
 }
 
-/// The range of the processors' clock around the rounds.
+/// Returns the range of the processors' clock around the rounds.
 fn clock(matrix: &Matrix<'_>) -> Option<String> {
     let rounds = matrix.bench.records.iter().flat_map(|r| &r.rounds);
     let mut clocks: Vec<f64> = rounds.filter_map(|r| r.clock).flatten().collect();
@@ -108,20 +108,20 @@ fn explanation() -> Markup {
         details {
             summary { "Reading this page" }
             p {
-                "A cell is drawn with two numbers of layers. Its rate is the work between them over the time between "
-                "them, so that what a frame costs beside its layers cancels. Each round gives one rate; the cell shows their "
-                "median, and its samples an interval of order statistics with a confidence of at least "
+                "A cell is drawn with two numbers of layers. Its rate is the difference in work over the difference in "
+                "time, so the fixed cost of a frame cancels. Each round gives one rate. The cell shows their "
+                "median; its samples show an interval of order statistics with a confidence of at least "
                 (RATE_CONFIDENCE * 100.0) " %."
             }
             p {
-                b { "Gpix/s" } " are texels that triangles cover, that are cleared, resolved or read back: once each, "
-                "whatever the samples and attachments; those that a test or the shader rejects count too. "
-                b { "Mtri/s" } " are triangles of 1,024 texels or fewer. "
+                b { "Gpix/s" } " counts texels that are covered by triangles, cleared, resolved or read back, once each "
+                "regardless of samples and attachments. Texels that a test or the shader rejects count too. "
+                b { "Mtri/s" } " counts triangles of 1,024 texels or fewer. "
                 "The second number of a cell is its share of the base cell: rgba8unorm filled without blending and tests."
             }
             p {
-                b { "Below" } ": the work between takes less time than single times scatter, or the interval holds none at "
-                "all, so there is no rate. Many layers that no one sees may cost nothing."
+                b { "Below" } ": the additional work takes less time than the scatter of single times, or the interval contains no "
+                "rate. Many hidden layers can cost nothing."
             }
         }
     }
@@ -175,7 +175,7 @@ fn map(heat: &Heat<'_>, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup
     }
 }
 
-/// A cell of a heat map.
+/// Returns a cell of a heat map.
 fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
     let Some(entry) = cell.results.get(adapter) else {
         return html! { td.soft { "–" } };
@@ -188,7 +188,7 @@ fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup 
     }
 }
 
-/// The cell with the interval of its rate.
+/// Returns the cell's name with the interval of its rate.
 fn words(cell: &Cell, entry: &Entry) -> String {
     let times = entry.outcome.times();
     let interval = times.and_then(|t| Some((unit(t.measure), t.slope.rate_interval()?)));
@@ -201,7 +201,8 @@ fn words(cell: &Cell, entry: &Entry) -> String {
     }
 }
 
-/// The background of a share of the base cell: full at twice its rate, none at a thirty-second.
+/// Returns the background of a share of the base cell: strongest from twice its rate on, none up to a
+/// thirty-second.
 fn shade(share: f64) -> String {
     let place = ((share.log2() + 5.0) / 6.0).clamp(0.0, 1.0);
     format!("--h:{:.0}%", place * 60.0)
@@ -219,7 +220,7 @@ fn value(entry: &Entry) -> String {
     }
 }
 
-/// The cells of a group that is no heat map.
+/// Returns the cells of a group without a heat map.
 fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
     let measure = cells
         .iter()
@@ -256,7 +257,7 @@ fn half(entry: &Entry) -> Option<String> {
     Some(format!("{} %", digits(share * 100.0, 2)))
 }
 
-/// The samples of a cell on an adapter, or why there are none.
+/// Returns the samples of a cell on an adapter, or the reason why it lacks them.
 fn samples(cell: &Cell, adapter: &str, id: &str) -> Markup {
     let Some(entry) = cell.results.get(adapter) else {
         return html! {};

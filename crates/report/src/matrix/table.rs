@@ -8,7 +8,7 @@ use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::Bench;
 
-/// A row per cell with its rate on each adapter; empty where the bench has no cell.
+/// Returns a row per cell with its rate on each adapter; empty if the bench has no cell.
 pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
     let matrix = Matrix::new(bench);
     let mut text = String::new();
@@ -29,13 +29,13 @@ pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
     if !text.is_empty() {
         text.push_str(
             "Rate between two numbers of layers, the larger half of its 95 % interval, and the share of the plain fill's rate.\n\
-             below: less time than single times scatter.\n",
+             below: less time than the scatter of single times.\n",
         );
     }
     text
 }
 
-/// The group and the axes in which its cells differ.
+/// Returns the group and the axes in which its cells differ.
 fn short(cell: &Cell, cells: &[&Cell]) -> String {
     let differ = |axis: &str| {
         let mut same = cells.iter().filter(|c| c.group == cell.group);
@@ -64,7 +64,7 @@ fn figures(entry: &Entry) -> String {
     text
 }
 
-/// The share of a rate by which the farther end of its interval differs from it.
+/// Returns the half width of an interval as a share of the rate: the distance of its farther end.
 pub(super) fn half_width(interval: Option<[f64; 2]>, rate: f64) -> Option<f64> {
     let ends = interval?.map(|end| (end / rate - 1.0).abs());
     Some(ends[0].max(ends[1]))

@@ -1,20 +1,20 @@
-//! The value of its parameter at which a method leaves an error of one percent.
+//! The parameter values at which a method's error crosses one percent.
 
 use crate::numbers::digits;
 
-/// The error that counts as broken: one percent of full brightness.
+/// The largest tolerated error: one percent of full brightness.
 pub(super) const LIMIT: f64 = 0.01;
-/// Stands for an error of zero, which has no logarithm.
+/// Replaces an error of zero, which has no logarithm.
 const LEAST: f64 = 1e-6;
 
-/// The position of an error along a parameter relative to [`LIMIT`].
+/// The behaviour of an error along a parameter, relative to [`LIMIT`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Break {
     /// At or below it everywhere.
     Never,
     /// Above it everywhere.
     Always,
-    /// It crosses, in order of the parameter.
+    /// It crosses the limit; the crossings are in order of the parameter.
     Crossings(Vec<Crossing>),
 }
 
@@ -23,21 +23,21 @@ pub(super) enum Break {
 pub(super) struct Crossing {
     /// The parameter's value, interpolated between the logarithms of the errors on both sides.
     pub(super) value: f64,
-    /// True if the error is above the limit behind it.
+    /// True if the error is above the limit after the crossing.
     pub(super) leaves: bool,
-    /// The values of the parameter on both sides that were measured.
+    /// The measured values of the parameter on both sides.
     pub(super) between: [f64; 2],
 }
 
 impl Crossing {
-    /// The value in as many digits as an interpolation is good for.
+    /// Returns the value with as many digits as the interpolation justifies.
     pub(super) fn text(self) -> String {
         digits(self.value, 2)
     }
 }
 
-/// Finds the break of a curve of value and error in the order of values; `None` for fewer than two
-/// values. `log` says that the parameter grows by factors.
+/// Finds the break of a curve of value and error in the order of values, or `None` for fewer than two values.
+/// If `log` is true, values are interpolated by their logarithms.
 pub(super) fn find(curve: &[(f64, f64)], log: bool) -> Option<Break> {
     if curve.len() < 2 {
         return None;
@@ -73,7 +73,7 @@ pub(super) fn find(curve: &[(f64, f64)], log: bool) -> Option<Break> {
 }
 
 impl Break {
-    /// The break in words: `weighted-blended leaves 1 % RMSE at alpha 0.63`.
+    /// Returns the break in words: `weighted-blended leaves 1 % RMSE at alpha 0.63`.
     pub(super) fn sentence(&self, method: &str, parameter: &str, range: &str) -> String {
         match self {
             Self::Never => format!("{method} is never beyond 1\u{a0}% RMSE, {range}"),

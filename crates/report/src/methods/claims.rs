@@ -15,7 +15,7 @@ use outcome::{Figure, Holds, Reproduction};
 
 /// The table of claims.
 pub(super) fn section(methods: &Methods<'_>) -> Markup {
-    // What nothing was measured for tells nothing, and goes behind the rest.
+    // Claims without any measurement are listed after the others.
     let (drawn, others): (Vec<Checked<'_>>, Vec<_>) = claims()
         .map(|c| check(c, methods))
         .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()));

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The records of methods.
 pub(crate) struct Methods<'a> {
-    /// Adapters that drew some method, in the header's order.
+    /// Adapters that drew a method, in the header's order.
     pub(crate) adapters: Vec<Adapter<'a>>,
     /// By name.
     pub(crate) questions: Vec<Question<'a>>,
@@ -19,14 +19,14 @@ pub(crate) struct Adapter<'a> {
     pub(crate) kind: Kind,
 }
 
-/// The device that an adapter draws with; kinds never share a ranking.
+/// The device that an adapter draws with. Kinds are ranked separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// The processor.
     Software,
-    /// A device of its own.
+    /// A separate device.
     Hardware,
-    /// The run has no facts of the adapter.
+    /// Unknown, because the run has no facts of the adapter.
     Unknown,
 }
 
@@ -39,7 +39,7 @@ impl Kind {
         }
     }
 
-    /// The kind of an adapter of a run.
+    /// Returns the kind of an adapter of a run.
     pub(crate) fn of(run: &Run, adapter: &str) -> Self {
         match run.header.adapter(adapter) {
             Some(a) if a.software => Self::Software,
@@ -53,24 +53,24 @@ impl Kind {
 pub(crate) struct Question<'a> {
     pub(crate) name: &'a str,
     pub(crate) scenes: Vec<SceneSeries<'a>>,
-    /// Method names in order: a method looks the same in all charts of its question.
+    /// Method names in order. A method looks the same in all charts of its question.
     pub(crate) methods: Vec<&'a str>,
 }
 
-/// One family of cases: a scene, drawn by many methods along one parameter at most. Two families may
-/// draw the same scene along two parameters.
+/// One family of cases: a scene, drawn by many methods along at most one parameter. Two families can draw the
+/// same scene along two parameters.
 pub(crate) struct SceneSeries<'a> {
     pub(crate) question: &'a str,
-    /// The last part of the case file's name, which is that of the scene but for a suffix.
+    /// The last part of the case file's name: the scene's name, with a suffix or without.
     pub(crate) name: &'a str,
     /// In the order of methods and variants.
     pub(crate) series: Vec<Series<'a>>,
 }
 
-/// A method with its settings, along a parameter where it has one.
+/// A method with its settings, along a parameter if it has one.
 pub(crate) struct Series<'a> {
     pub(crate) method: &'a str,
-    /// Axis values beyond the method and the parameter that are not the same in the whole scene:
+    /// Axis values, other than the method and the parameter, that differ within the scene:
     /// `format=rgba16float`.
     pub(crate) variant: String,
     /// The parameter's name.
@@ -81,7 +81,7 @@ pub(crate) struct Series<'a> {
 
 /// One record.
 pub(crate) struct Point<'a> {
-    /// Position in [`Methods::adapters`].
+    /// The index in [`Methods::adapters`].
     pub(crate) adapter: usize,
     /// The parameter's value.
     pub(crate) value: Option<f64>,
@@ -89,8 +89,8 @@ pub(crate) struct Point<'a> {
     pub(crate) measured: &'a Measured,
 }
 
-/// The parameters of a scene at which methods are held against each other: only what was drawn at the same
-/// ones is compared.
+/// The parameters of a scene at which methods are compared. Points are compared only if their settings are
+/// equal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Setting<'a> {
     /// As [`Series::variant`].
@@ -100,7 +100,7 @@ pub(crate) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// The setting in words: `alpha 0.4, address=repeat`; empty where the scene has no parameter.
+    /// Returns the setting in words: `alpha 0.4, address=repeat`; empty if the scene has no parameter.
     pub(crate) fn text(&self) -> String {
         let parameter = self
             .parameter
@@ -110,7 +110,7 @@ impl Setting<'_> {
         parts.join(", ")
     }
 
-    /// The setting behind a name: ` at alpha 0.4`; empty where the scene has no parameter.
+    /// Returns the setting as a suffix of a name: ` at alpha 0.4`; empty if the scene has no parameter.
     pub(crate) fn at(&self) -> String {
         match self.text() {
             text if text.is_empty() => text,
@@ -126,20 +126,20 @@ pub(crate) struct Shown<'s, 'a> {
     pub(crate) scene: &'s SceneSeries<'a>,
     /// The id of the element that holds its charts.
     pub(crate) anchor: String,
-    /// Every setting that some method was drawn at.
+    /// All settings at which a method was drawn.
     pub(crate) settings: Vec<Setting<'a>>,
-    /// The place of the setting that stands for the scene.
+    /// The index of the setting that represents the scene.
     pub(crate) main: usize,
 }
 
 impl Shown<'_, '_> {
-    /// The class of what is shown at a setting only.
+    /// Returns the classes of an element that is shown at one setting only.
     pub(crate) fn class(&self, class: &str, setting: usize) -> String {
         let off = if setting == self.main { "" } else { " off" };
         format!("{class} at{off}")
     }
 
-    /// The position of a method in its question, which gives it its colour and its shape.
+    /// Returns the position of a method in its question, which determines its colour and shape.
     pub(crate) fn style(&self, method: &str) -> usize {
         self.question.style(method)
     }
@@ -148,25 +148,25 @@ impl Shown<'_, '_> {
 /// The records of a family of cases.
 type Family<'a> = Vec<(&'a Record, &'a Measured)>;
 
-/// Numbers that a chart can show; a run folder may hold any.
+/// Returns true if a chart can show the number. A run folder can contain any number.
 pub(crate) fn usable(value: f64) -> bool {
     value.is_finite() && value.abs() <= 1e12
 }
 
 impl Point<'_> {
-    /// The error, where it is a number that can be drawn.
+    /// Returns the error, if a chart can show it.
     pub(crate) fn error(&self) -> Option<f64> {
         let rmse = self.measured.distance.rmse;
         (usable(rmse) && rmse >= 0.0).then_some(rmse)
     }
 
-    /// The frame time in seconds, where there is one that can be drawn.
+    /// Returns the frame time in seconds, if there is one and a chart can show it.
     pub(crate) fn wall(&self) -> Option<f64> {
         let wall = self.measured.time?.wall;
         (usable(wall) && wall >= 1e-12).then_some(wall)
     }
 
-    /// The interval of the frame time, where there is one around it that can be drawn.
+    /// Returns the interval of the frame time, if it contains the time and a chart can show it.
     pub(crate) fn interval(&self) -> Option<[f64; 2]> {
         let wall = self.wall()?;
         let [low, high] = self.measured.time?.interval?;
@@ -176,7 +176,7 @@ impl Point<'_> {
 }
 
 impl<'a> Series<'a> {
-    /// The setting of one of its points.
+    /// Returns the setting of one of its points.
     pub(crate) fn setting(&self, point: &Point<'a>) -> Setting<'a> {
         Setting {
             variant: self.variant.clone(),
@@ -184,7 +184,7 @@ impl<'a> Series<'a> {
         }
     }
 
-    /// Method and variant in one text.
+    /// Returns method and variant in one text.
     pub(crate) fn name(&self) -> String {
         match self.variant.as_str() {
             "" => self.method.to_owned(),
@@ -192,19 +192,19 @@ impl<'a> Series<'a> {
         }
     }
 
-    /// The parameter's values in order, each once.
+    /// Returns the parameter's values in order, without repetitions.
     pub(crate) fn values(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.points.iter().filter_map(|p| p.value).collect();
         values.dedup();
         values
     }
 
-    /// The points of one adapter in the order of values.
+    /// Returns the points of one adapter in the order of values.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &Point<'a>> {
         self.points.iter().filter(move |p| p.adapter == adapter)
     }
 
-    /// Along the parameter: value and error on one adapter.
+    /// Returns value and error along the parameter on one adapter.
     pub(crate) fn curve(&self, adapter: usize) -> Vec<(f64, f64)> {
         self.on(adapter)
             .filter_map(|p| Some((p.value?, p.error()?)))
@@ -213,7 +213,7 @@ impl<'a> Series<'a> {
 }
 
 impl<'a> SceneSeries<'a> {
-    /// Every setting that some method was drawn at: by variant, then along the parameter.
+    /// Returns all settings at which a method was drawn, by variant, then along the parameter.
     pub(crate) fn settings(&self) -> Vec<Setting<'a>> {
         let settings_of = |series: &Series<'a>| -> Vec<Setting<'a>> {
             series.points.iter().map(|p| series.setting(p)).collect()
@@ -230,8 +230,8 @@ impl<'a> SceneSeries<'a> {
         settings
     }
 
-    /// The setting that stands for the scene where only one can: of those at which most methods were
-    /// measured, the middle one of the first variant.
+    /// Returns the setting that represents the scene. Of the settings at which the most methods were
+    /// measured, it is the middle one of the first variant.
     pub(crate) fn main(&self) -> Option<Setting<'a>> {
         let settings = self.settings();
         let measured = |s: &Setting<'a>| self.measured(s).len();
@@ -256,7 +256,7 @@ impl<'a> SceneSeries<'a> {
         })
     }
 
-    /// The methods that have an error at a setting on some adapter, each once.
+    /// Returns the methods that have an error at a setting on some adapter, without repetitions.
     pub(crate) fn measured(&self, setting: &Setting<'a>) -> Vec<&'a str> {
         let some = self.at(setting).filter(|(_, p)| p.error().is_some());
         let mut names: Vec<&str> = some.map(|(s, _)| s.method).collect();
@@ -264,15 +264,15 @@ impl<'a> SceneSeries<'a> {
         names
     }
 
-    /// The methods that the run drew of the scene at any setting, each once.
+    /// Returns the methods that drew the scene at any setting, without repetitions.
     pub(crate) fn methods(&self) -> Vec<&'a str> {
         let mut names: Vec<&str> = self.series.iter().map(|s| s.method).collect();
         names.dedup();
         names
     }
 
-    /// The methods that were drawn at another setting or on another adapter, but not at this one on this
-    /// adapter.
+    /// Returns the methods that were drawn at another setting or on another adapter, but not at this setting
+    /// on this adapter.
     pub(crate) fn unmeasured(&self, setting: &Setting<'a>, adapter: usize) -> Vec<&'a str> {
         let here = |method: &str| {
             self.at(setting)
@@ -285,14 +285,14 @@ impl<'a> SceneSeries<'a> {
 }
 
 impl Question<'_> {
-    /// The position of a method, which gives it its colour and its shape.
+    /// Returns the position of a method, which determines its colour and shape.
     pub(crate) fn style(&self, method: &str) -> usize {
         self.methods.iter().position(|m| *m == method).unwrap_or(0)
     }
 }
 
 impl<'a> Methods<'a> {
-    /// The method records of a run; `None` where it has none.
+    /// Returns the method records of a run; `None` if it has none.
     pub(crate) fn of(run: &'a Run) -> Option<Self> {
         let measured: Vec<(&Record, &Measured)> = run
             .records
@@ -340,7 +340,7 @@ impl<'a> Methods<'a> {
         })
     }
 
-    /// Every scene as the page shows it.
+    /// Returns all scenes as the page shows them.
     pub(crate) fn shown(&self) -> Vec<Shown<'_, 'a>> {
         let mut shown = Vec::new();
         for (q, question) in self.questions.iter().enumerate() {
@@ -361,18 +361,18 @@ impl<'a> Methods<'a> {
         shown
     }
 
-    /// Every scene of every question.
+    /// Returns all scenes of all questions.
     pub(crate) fn scenes(&self) -> impl Iterator<Item = &SceneSeries<'a>> {
         self.questions.iter().flat_map(|q| &q.scenes)
     }
 
-    /// The kinds of adapters there are, in order.
+    /// Returns the kinds of adapters that occur, in order.
     pub(crate) fn kinds(&self) -> BTreeSet<Kind> {
         self.adapters.iter().map(|a| a.kind).collect()
     }
 }
 
-/// The family that a record belongs to.
+/// Returns the family that a record belongs to.
 fn family<'a>(record: &'a Record, m: &'a Measured) -> &'a str {
     let file = record.case_file();
     match file.rsplit_once('/') {
@@ -387,7 +387,7 @@ fn scene<'a>(
     records: &[(&'a Record, &'a Measured)],
     adapters: &[Adapter<'a>],
 ) -> SceneSeries<'a> {
-    // An axis with one value in the whole scene is no variant.
+    // An axis with one value in the whole scene is not part of the variant.
     let mut values: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (axis, value) in records.iter().flat_map(|(record, m)| settings(record, m)) {
         values.entry(axis).or_default().insert(value);
@@ -422,7 +422,7 @@ fn scene<'a>(
                 let (a, b) = (place(a), place(b));
                 a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
             });
-            // A run has one record per case and adapter; should it have two, the first one counts.
+            // A run has one record per case and adapter. If a damaged one has two, the first counts.
             points.dedup_by(|a, b| place(a) == place(b));
             Series {
                 method,
@@ -438,7 +438,7 @@ fn scene<'a>(
     }
 }
 
-/// The axis values of a case's id beyond its method and its parameter.
+/// Returns the axis values of a case's id, except its method and its parameter.
 fn settings<'a>(record: &'a Record, m: &'a Measured) -> impl Iterator<Item = (&'a str, &'a str)> {
     let axes = record
         .case
@@ -498,7 +498,7 @@ mod tests {
     fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
         let setting_of =
             |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
-        // A covering array: each method at a value of its own, two of them at 4.
+        // A covering array: each method has its own value, and two share 4.
         let run = run(&[
             setting_of("a", 1.0),
             setting_of("b", 2.0),

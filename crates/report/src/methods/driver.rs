@@ -1,4 +1,4 @@
-//! The accuracy of drivers: the distance of their codes from the ideal ones, beside their speed.
+//! The accuracy of drivers, which is the distance of their codes from the ideal codes, and their speed.
 
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
 use crate::numbers::{digits, duration, median, share};
@@ -14,11 +14,11 @@ use std::collections::BTreeMap;
 /// The accuracy of one adapter's frames of one area and aspect.
 #[derive(Clone, Copy, Default)]
 struct Figures<'a> {
-    /// Of frames that are legal.
+    /// The accuracy of legal frames.
     legal: Option<Accuracy>,
-    /// The case of the largest of those distances.
+    /// The case with the largest of these distances.
     farthest: &'a str,
-    /// Of frames that are not; their distances would drown all others.
+    /// The accuracy of wrong frames, whose distances would hide all others.
     wrong: Option<Accuracy>,
 }
 
@@ -39,7 +39,8 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// A line of the table: an area's aspect in an encoding on every adapter. Codes of two encodings are never added.
+/// The rows of the table: for each area, aspect and encoding, the figures of each adapter. Codes of different
+/// encodings are never added.
 type Rows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<Figures<'a>>>;
 
 fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
@@ -69,7 +70,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
     rows
 }
 
-/// True if a chart can show the numbers of a record; a run folder may hold any.
+/// Returns true if a chart can show the numbers of a record. A run folder can contain any number.
 fn drawable(a: &Accuracy) -> bool {
     let fine = |v: f64| v.is_finite() && (0.0..=1e12).contains(&v);
     a.channels > 0 && fine(a.mean) && fine(a.max)
@@ -78,9 +79,9 @@ fn drawable(a: &Accuracy) -> bool {
 /// The speed of an adapter in the run.
 struct Speed {
     cases_per_second: Option<f64>,
-    /// Median of drawing and reading back over all cases that were judged.
+    /// The median time of drawing and reading back, in seconds, over all judged cases.
     draw: Option<f64>,
-    /// Median frame time of method cases.
+    /// The median frame time of method cases, in seconds.
     frame: Option<f64>,
 }
 
@@ -98,7 +99,7 @@ fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
     }
 }
 
-/// The section of `index.html`; `None` where no record has a distance.
+/// Returns the section of `index.html`; `None` if no record has a distance.
 pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
     let rows = rows(grid);
     if rows.is_empty() {
@@ -129,10 +130,10 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
                 summary { "Table and command" }
                 p.again { "Drawn by " code { (grid.run.header.command.join(" ")) } }
                 p.note {
-                    "Mean and, behind a stroke, the largest distance in codes of legal frames, and below both as shares of the range. An ideal value "
-                    "halfway between two codes leaves either of them half a code away. In brackets, where there "
-                    "are any, the largest of frames that failed. A draw time is of one case, drawing and reading "
-                    "back, its pipelines made anew; a frame time is of a method case that was drawn again and again. Hover "
+                    "The mean / the largest distance of legal frames in codes, and below as shares of the range. An ideal value "
+                    "halfway between two codes is half a code away from both. In brackets, if there "
+                    "are any: the largest distance of frames that failed. A draw time covers drawing and reading "
+                    "back one case with new pipelines. A frame time is that of a method case that was drawn many times. Hover "
                     "over a cell for the case that is farthest off: a depth bias counts in steps that a driver may double, which "
                     "is legal and millions of codes away."
                 }
@@ -187,13 +188,13 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     table.page(lines)
 }
 
-/// Codes as a share of an encoding's range; none where it is not known.
+/// Returns codes as a share of an encoding's range; `None` if the encoding is not known.
 fn of_range(codes: f64, encoding: Option<ChannelEncoding>) -> Option<f64> {
     let part = codes / encoding?.range();
     part.is_finite().then_some(part)
 }
 
-/// A share of a range; beyond all of it, no more than that is told.
+/// Returns a share of a range in words, `over 100 %` if it is more than all of it.
 fn part(value: f64) -> String {
     if value > 1.0 {
         "over 100\u{a0}%".to_owned()
@@ -228,7 +229,7 @@ struct Shares {
     max: f64,
 }
 
-/// The shares of each area and adapter; areas whose encodings are not known have none.
+/// Returns the shares of each area and adapter. Areas without a known encoding have none.
 fn shares<'a>(
     rows: &Rows<'a>,
     aspect: Aspect,
@@ -255,7 +256,7 @@ fn shares<'a>(
     result
 }
 
-/// A row per area, a mark per adapter at its mean distance.
+/// Returns a chart with a row per area and a mark per adapter at its mean distance.
 fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
@@ -297,7 +298,7 @@ fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
             @if i > 0 { path.grid d={ "M" (n(start)) " " (n(y - ROW / 2.0)) "H" (n(RIGHT)) } {} }
             @for (adapter, f) in figures.iter().enumerate() {
                 @if let Some(legal) = f {
-                    // Marks of equal means lie one below the other.
+                    // Marks of equal means are shifted apart vertically.
                     @let shift = (adapter as f64 + 0.5) / figures.len() as f64 - 0.5;
                     @let text = format!("{}, {area}: mean {}, largest {} of the range", grid.adapters[adapter], part(legal.mean), part(legal.max));
                     (marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))

@@ -1,7 +1,7 @@
 //! The Pareto front of two costs.
 
-/// The points that no other point beats: none is as good in both costs and better in one. In the order of
-/// the first cost; of equal points only the first one.
+/// Returns the points that no other point beats, in the order of the first cost. A point beats another if it
+/// is as good in both costs and better in one. Of equal points, only the first is returned.
 pub(super) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| {

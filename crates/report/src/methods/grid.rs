@@ -1,4 +1,4 @@
-//! Break points in one picture: a row for each method with a parameter, a cell for each of its values.
+//! Break points in one picture: a row for each method with a parameter, and a cell for each value.
 
 use super::breaks::LIMIT;
 use super::data::{Series, Shown};
@@ -8,18 +8,18 @@ use crate::numbers::share;
 use crate::table::{Cell, Table};
 use maud::{Markup, html};
 
-/// The errors at which the colours of cells change: each is the least of its colour.
+/// The smallest error of each colour of cells.
 const STEPS: [f64; 5] = [0.0, 1e-9, 0.001, LIMIT, 0.1];
 
 /// A method along its parameter in a scene.
 struct Row<'s, 'a> {
     shown: &'s Shown<'s, 'a>,
     series: &'s Series<'a>,
-    /// Each value with the largest error of all adapters.
+    /// The parameter's values, each with the largest error of all adapters.
     errors: Vec<(f64, f64)>,
 }
 
-/// The picture of all scenes; nothing where no method was drawn at several values.
+/// Returns the picture of all scenes; empty if no method was drawn at several values.
 pub(super) fn picture(shown: &[Shown<'_, '_>]) -> Markup {
     let rows: Vec<Row<'_, '_>> = shown.iter().flat_map(rows).collect();
     if rows.is_empty() {
@@ -62,7 +62,7 @@ fn rows<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Row<'s, 'a>> {
         .collect()
 }
 
-/// Each value of a series with the largest error of all adapters.
+/// Returns the values of a series, each with the largest error of all adapters.
 fn errors(series: &Series<'_>) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = Vec::new();
     for point in &series.points {
@@ -76,7 +76,7 @@ fn errors(series: &Series<'_>) -> Vec<(f64, f64)> {
     errors
 }
 
-/// The cells of a row. A line stands between two of which one is beyond the limit.
+/// Returns the cells of a row. A line separates neighbouring cells on different sides of the limit.
 fn strip(row: &Row<'_, '_>) -> Markup {
     let parameter = row.series.parameter.unwrap_or_default();
     let before = [None]
@@ -92,7 +92,7 @@ fn strip(row: &Row<'_, '_>) -> Markup {
     }
 }
 
-/// The colour of an error.
+/// Returns the colour of an error, as an index into [`STEPS`].
 fn step(error: f64) -> usize {
     STEPS.iter().rposition(|least| error >= *least).unwrap_or(0)
 }

@@ -17,7 +17,7 @@ const MARGIN: f64 = 9.0;
 /// A frame time in seconds that leaves most of a frame to others.
 const SHORT: f64 = 0.001;
 
-/// A method as it was timed on an adapter, at the setting that stands for its scene.
+/// A method's time and error on an adapter, at the setting that represents its scene.
 struct Timed<'a> {
     method: &'a str,
     adapter: usize,
@@ -103,7 +103,7 @@ fn card(
     }
 }
 
-/// The methods of a scene at the setting that stands for it.
+/// Returns the methods of a scene at the setting that represents it.
 fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
     let Some(setting) = shown.settings.get(shown.main) else {
         return Vec::new();
@@ -174,7 +174,7 @@ fn chart(
     }
 }
 
-/// What one takes: the best within a short time, and the best of all.
+/// Returns the recommended methods: the best within a short time, and the best of all.
 fn answer(all: &[Timed<'_>], adapter: usize) -> String {
     let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();

@@ -20,7 +20,7 @@ use std::path::Path;
 
 const STYLE: &str = include_str!("page/methods.css");
 
-/// The sliders, the legend's pins and the enlarged pictures. All else needs no script.
+/// The script of the sliders, the legend's pins and the enlarged pictures. Nothing else needs a script.
 const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("../page/base.js"),
@@ -30,7 +30,7 @@ const SCRIPT: &str = concat!(
     include_str!("page/budget.js"),
 );
 
-/// The whole page. Pictures are read from the folder as they are needed.
+/// Returns the whole page. Pictures are read from the folder when they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let mut pictures = Pictures::new(folder);
     let shown = methods.shown();
@@ -113,7 +113,7 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// The profile of the run, and what it leaves out.
+/// Returns the profile of the run, and what it leaves out.
 fn profile(run: &Run) -> Markup {
     let settings = &run.header.settings;
     let left = settings.left_out.unwrap_or(0);
@@ -130,7 +130,7 @@ fn profile(run: &Run) -> Markup {
     }
 }
 
-/// Every break point in one table; curves that never cross are listed beside their charts.
+/// Returns a table of all break points. Curves that never cross the limit are listed with their charts.
 fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
     let found = |shown| {
         stability::found(shown)
@@ -165,7 +165,7 @@ fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
     }
 }
 
-/// A break in a scene.
+/// A break and its scene.
 type Broken<'m, 'a> = (&'m Shown<'m, 'a>, CurveBreak<'a>);
 
 fn broken_table<'m, 'a>() -> Table<'m, Broken<'m, 'a>> {
@@ -181,13 +181,13 @@ fn broken_table<'m, 'a>() -> Table<'m, Broken<'m, 'a>> {
         .text("Adapters", |(shown, found)| stability::who(shown.methods, found))
 }
 
-/// The number of series with a parameter of which there is one value.
+/// Returns the number of series with a parameter that were drawn at only one value.
 fn single_values(methods: &Methods<'_>) -> u64 {
     let series = methods.scenes().flat_map(|s| &s.series);
     series.filter(|s| s.values().len() == 1).count() as u64
 }
 
-/// Links to the pictures on both sides of crossings.
+/// Returns links to the pictures on both sides of crossings.
 fn beside(shown: &Shown<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
     html! {
         @for (i, pair) in between.iter().enumerate() {
@@ -201,7 +201,7 @@ fn beside(shown: &Shown<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
     }
 }
 
-/// The methods of a question: how each works, and where and why it fails.
+/// Returns how each method of a question works, and where and why it fails.
 fn explained(question: &Question<'_>) -> Markup {
     let of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
     let known: Vec<&Lesson> = question.methods.iter().filter_map(of).collect();
@@ -230,7 +230,7 @@ fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &Shown<'_, '_>) -> Ma
         .fold(0.0, f64::max);
     let (speed, curves) = (scatter::charts(shown), stability::charts(shown));
     let together = speed.len() == 1;
-    // One chart leaves room beside it on a wide page, two of them for a few pictures.
+    // On a wide page, one chart leaves room for pictures at its side; two charts leave room for a few.
     let shots = pictures.of(shown);
     let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
     let few = scene.methods().len() <= 4;
@@ -273,7 +273,8 @@ fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &Shown<'_, '_>) -> Ma
     }
 }
 
-/// The setting that charts and pictures show, and the slider to others. Without scripts it stays where it is.
+/// Returns the setting of the charts and pictures, and the slider to other settings. Without scripts the
+/// setting is fixed.
 fn slider(shown: &Shown<'_, '_>) -> Markup {
     let names: Vec<String> = shown.settings.iter().map(Setting::text).collect();
     let input = format!("{}-at", shown.anchor);
@@ -292,7 +293,7 @@ fn slider(shown: &Shown<'_, '_>) -> Markup {
     }
 }
 
-/// The methods of the scene that have no error, or no time, at a setting.
+/// Returns the methods of the scene without an error, or without a time, at a setting.
 fn unmeasured(shown: &Shown<'_, '_>, setting: &Setting<'_>, index: usize) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
     let drew = |i: &usize| scene.series.iter().any(|s| s.on(*i).next().is_some());

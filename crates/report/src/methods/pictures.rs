@@ -1,4 +1,4 @@
-//! The pictures of a scene: the truth, and what each method drew at each setting.
+//! The pictures of a scene: the truth, and the picture of each method at each setting.
 
 use super::data::{Point, Setting, Shown};
 use crate::chart::color;
@@ -9,11 +9,11 @@ use etalon_record::Run;
 use maud::{Markup, html};
 use std::path::Path;
 
-/// The most bytes of one picture, and of all pictures together, that the page holds.
+/// The most bytes of one picture, and of all pictures of the page together.
 const PICTURE: u64 = 256 << 10;
 const PICTURES: usize = 12 << 20;
 
-/// Pictures below the run folder, as far as there is room for them in the page.
+/// Pictures below the run folder, up to the number of bytes that the page has room for.
 pub(super) struct Pictures<'a> {
     folder: &'a Path,
     room: usize,
@@ -27,7 +27,7 @@ struct Shot<'s, 'a> {
 }
 
 impl<'f> Pictures<'f> {
-    /// The pictures of a run folder.
+    /// Returns the pictures of a run folder.
     pub(super) fn new(folder: &'f Path) -> Self {
         Self {
             folder,
@@ -35,8 +35,8 @@ impl<'f> Pictures<'f> {
         }
     }
 
-    /// The truth and what each method drew, at each setting; the first adapter's that has a picture. The
-    /// differences of the two are computed in the page.
+    /// Returns the truth and each method's picture at each setting, from the first adapter that has a
+    /// picture. The page computes the differences.
     pub(super) fn of(&mut self, shown: &Shown<'_, '_>) -> Markup {
         let mut groups = Vec::new();
         for (index, setting) in shown.settings.iter().enumerate() {
@@ -77,7 +77,7 @@ impl<'f> Pictures<'f> {
         }
     }
 
-    /// A picture as a link that holds it. One that cannot be read has no place in a page of numbers.
+    /// Returns a picture as a `data:` URL, or `None` if it cannot be read or the page has no room for it.
     fn read(&mut self, path: &str) -> Option<String> {
         let bytes = Run::read_picture(self.folder, path, PICTURE).ok()??;
         self.room = self.room.checked_sub(bytes.len())?;

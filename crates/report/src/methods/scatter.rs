@@ -1,4 +1,4 @@
-//! Accuracy against speed: a chart per scene and adapter, with a front for each setting.
+//! Accuracy against speed: a chart per scene and adapter, with a Pareto front for each setting.
 
 use super::data::{Kind, Point, Setting, Shown};
 use super::front::front;
@@ -9,31 +9,31 @@ use crate::chart::{
 use crate::numbers::{between, duration, round_duration, share};
 use maud::{Markup, html};
 
-/// The error of rounding to 8 bits alone where values lie anywhere between two codes: the standard
-/// deviation of a uniform distribution one code wide.
+/// The RMSE that rounding to 8 bits causes if values are spread evenly between codes: the standard deviation
+/// of a uniform distribution one code wide.
 pub(super) const ROUNDING: f64 = 1.0 / (255.0 * 3.464_101_615_137_754_4);
 
 /// One point of a chart.
 struct Dot<'s, 'a> {
     point: &'s Point<'a>,
-    /// Position of the method in its question.
+    /// The index of the method in its question.
     style: usize,
-    /// Position of its setting.
+    /// The index of its setting.
     setting: usize,
     time: f64,
     error: f64,
 }
 
-/// The charts of one kind of adapters.
+/// The charts of one kind of adapter.
 pub(super) struct OfKind {
-    /// A line above them, where there are several kinds.
+    /// The heading above the charts, if there are several kinds.
     pub(super) heading: Option<&'static str>,
     /// One chart per adapter.
     pub(super) panels: Vec<Markup>,
 }
 
-/// All charts of a scene: software and hardware adapters apart. The axes hold all settings, so that a
-/// method's mark moves on them from setting to setting.
+/// Returns all charts of a scene, with software and hardware adapters apart. All settings share the axes, so
+/// a method's mark moves on them from setting to setting.
 pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<OfKind> {
     let methods = shown.methods;
     let dots = dots(shown);
@@ -127,7 +127,7 @@ fn panel(
     chart(HEIGHT, title, &about, &body)
 }
 
-/// The marks and fronts of one setting, and the front in words.
+/// Returns the marks and fronts of one setting, and the front in words.
 fn at_setting(
     plot: &Plot,
     same: &[&Dot<'_, '_>],
@@ -161,7 +161,7 @@ fn at_setting(
         labels.avoid(&[(LEFT, plot.y(level)), (RIGHT, plot.y(level))]);
     }
     let lines = [(every.clone(), "group"), (mine.clone(), "front")];
-    // A single point is no front: nothing was held against it.
+    // A single point is not a front, because nothing was compared with it.
     let lines: Vec<(Vec<(f64, f64)>, &str)> = lines
         .into_iter()
         .filter(|(points, class)| points.len() > 1 && (*class == "front" || every != mine))
@@ -176,7 +176,7 @@ fn at_setting(
             labels.avoid(&[(plot.x(low), y), (plot.x(high), y)]);
         }
     }
-    // Leaders first: where there is no room for all names, the front keeps its own.
+    // Leaders first: if there is no room for all names, the names of the front are kept.
     let others = line.iter().copied();
     let others = others.filter(|d| !leaders.iter().any(|l| std::ptr::eq(*l, *d)));
     let named: Vec<(&Dot<'_, '_>, Option<(f64, f64)>)> = leaders
@@ -207,7 +207,7 @@ fn at_setting(
     (about, body)
 }
 
-/// A time with its interval: `1.2 ms (1.1 ms to 1.4 ms)`.
+/// Returns a time with its interval: `1.2 ms (1.1 ms to 1.4 ms)`.
 pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
     match interval {
         Some(ends) => format!("{} ({})", duration(time), between(ends, duration)),
@@ -215,7 +215,8 @@ pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
     }
 }
 
-/// The corners of the front as steps: between two of its points nothing better than the faster one is known.
+/// Returns the corners of the front as steps: between two of its points, the best known method is the faster
+/// one.
 pub(super) fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut corners: Vec<(f64, f64)> = Vec::new();
     for index in front(points) {
@@ -232,7 +233,7 @@ pub(super) fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     corners
 }
 
-/// The explanation of the charts of accuracy against speed.
+/// Returns the explanation of the charts of accuracy against speed.
 pub(super) fn caption() -> Markup {
     html! {
         p {
@@ -254,7 +255,7 @@ pub(super) fn caption() -> Markup {
     }
 }
 
-/// A dotted line at an error, where the plot shows it.
+/// Returns a dotted line at an error, if the error is within the plot.
 pub(super) fn line_at(plot: &Plot, error: f64, class: &str) -> Markup {
     let y = plot.y(error);
     let shown = y > TOP + 1.0 && y < BOTTOM - plot.zero - 1.0;

@@ -105,7 +105,7 @@ fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
     pairs.collect()
 }
 
-/// All charts of a scene; none where no method has several values of a parameter.
+/// Returns all charts of a scene; empty if no method has several values of a parameter.
 pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
     let mut panels = Vec::new();
     for parameter in parameters(shown.scene) {
@@ -161,7 +161,7 @@ pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
     }
 }
 
-/// Adapters whose curves cannot be told apart in a chart, together.
+/// Groups adapters whose curves look the same in a chart.
 fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
     let lines = |adapter: usize| -> Vec<Vec<(f64, f64)>> {
         series.iter().map(|s| s.curve(adapter)).collect()
@@ -238,7 +238,7 @@ fn panel(
         Some(Break::Crossings(crossings)) => crossings,
         _ => Vec::new(),
     };
-    // Breaks before names: a name stands in the legend too.
+    // Breaks before names, because the legend has the names too.
     let rings: Vec<Vec<_>> = series
         .iter()
         .map(|s| {

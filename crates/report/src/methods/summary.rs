@@ -29,9 +29,9 @@ struct Best<'a> {
 enum Fast<'a> {
     /// The method, its time and its adapter.
     Method(&'a str, f64, &'a str),
-    /// No method is within.
+    /// No method is within one percent.
     Nothing,
-    /// One method alone is neither the most accurate nor the fastest.
+    /// Only one method was measured, so nothing can be compared.
     Alone,
 }
 
@@ -147,7 +147,7 @@ pub(crate) fn section(methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// A line per scene for the terminal; empty where there are no methods.
+/// Returns a line per scene for the terminal; empty if there are no methods.
 pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
     let mut text = String::from(
         "\nMethods at the same parameters: the most accurate, and the fastest within 1 % RMSE\n",
@@ -188,7 +188,7 @@ mod tests {
                 .at("opening", opening)
                 .off(error)
         };
-        // `none` looks best in a scene of its own.
+        // `none` looks best at a setting where nothing else was drawn.
         let mixed = run(&[
             candidate("none", 24.0, 0.001),
             candidate("msaa-4", 4.0, 0.02),

@@ -1,4 +1,4 @@
-//! What a run tells that the last run of each adapter did not, and what of it counts.
+//! Finds what changed since the last run of each adapter, and which changes count.
 
 use super::{News, NewsEntry, Since};
 use etalon_history::{
@@ -13,10 +13,10 @@ use std::rc::Rc;
 /// The label by which runs follow each other.
 const BRANCH: &str = "branch";
 
-/// The run that is compared, among those of a history.
+/// The run to compare with the runs of a history.
 struct Now<'r> {
     run: &'r Run,
-    /// When it began; the end of time where its header has none.
+    /// The start; `i64::MAX` if the header has none.
     started: i64,
 }
 
@@ -176,10 +176,10 @@ fn told(info: &RunInfo, part: &AdapterRun) -> String {
 
 /// Returns the entry for which a bad verdict does not count, if there is one.
 ///
-/// What is ignored stays so until somebody says otherwise. What is real stays so until a later run draws the case right:
-/// when it breaks again, that is another change. Both speak of wrong pictures, and of another bad verdict only where the
-/// history has that one of this case, too: a Fail that is now a Crash is news. It may have it of this run, if somebody
-/// said it since. Later runs say nothing.
+/// An ignored case stays settled until triage changes it. A real one stays settled until a later run draws the case
+/// right; if it breaks again, that is another change. Both settle wrong pictures. They settle another bad verdict only
+/// if the history has it for this case too, so a Fail that is now a Crash is news. The history's record of this run
+/// counts if the entry is newer than the run's start. Later runs do not count.
 fn settled<'s>(
     history: &History,
     states: &'s TriageStates,

@@ -6,7 +6,7 @@ use etalon_frame::{Limits, TextureFormat};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use maud::{Markup, PreEscaped, html};
 
-/// A name that may break after each of its colons.
+/// Returns a name with an optional line break after each colon.
 pub(crate) fn breakable(name: &str) -> Markup {
     html! {
         @for (i, part) in name.split(':').enumerate() {
@@ -16,12 +16,12 @@ pub(crate) fn breakable(name: &str) -> Markup {
     }
 }
 
-/// A cell of a table with an adapter's name.
+/// Returns a table cell with an adapter's name.
 pub(crate) fn adapter(name: &str) -> Cell {
     Cell::from(name).on_page(breakable(name))
 }
 
-/// The adapters of a recording, and the remedies for absent ones.
+/// Returns the adapters of a recording, and the remedies for absent ones.
 pub(crate) fn section(adapters: &[AdapterRecord], absent: &[AbsentAdapter]) -> Markup {
     html! {
         section id="adapters" {

@@ -1,8 +1,8 @@
-// What the scripts of all pages share. Texts of records become text nodes and nothing else: nothing here makes HTML
-// out of one.
+// Functions that the scripts of all pages share. Texts of records become text nodes; nothing here turns them
+// into HTML.
 const $ = id => document.getElementById(id);
 
-// An element; the names of elements and attributes are literals wherever this is called.
+// Returns an element. All callers pass literals as the names of elements and attributes.
 const make = (name, attributes, ...children) => filled(document.createElement(name), attributes, children);
 
 function filled(element, attributes, children) {
@@ -26,13 +26,13 @@ function cells(first, ...others) {
   return make("tr", {}, make("th", { scope: "row" }, ...[first].flat()), ...others.map(one => make("td", {}, ...[one].flat())));
 }
 
-// Facts as pairs of name and content; a name that is the one before stands once.
+// Returns facts as pairs of name and content. A name that repeats the one before is left out.
 function facts(pairs) {
   const names = pairs.map(([name], i) => i && pairs[i - 1][0] === name ? [] : [make("dt", {}, name)]);
   return make("dl", { class: "facts" }, ...pairs.flatMap(([, content], i) => [...names[i], make("dd", {}, content)]));
 }
 
-// A list that is made when it is opened.
+// Returns a list that is filled when it is opened.
 function folded(summary, fill) {
   const details = make("details", {}, make("summary", {}, summary));
   details.addEventListener("toggle", () => {
@@ -49,14 +49,14 @@ function decoded(text) {
   }
 }
 
-// Ids stay readable in addresses.
+// Keeps ids readable in URLs.
 function encoded(text) {
   return encodeURIComponent(text.toWellFormed()).replace(/%(2F|3A|3D|2C)/g, decodeURIComponent);
 }
 
 const addressOf = id => "#case=" + encoded(id);
 
-// The parameters behind `#`; none for the address of an element, which has no `=`.
+// Returns the parameters after `#`. An element's id has no `=` and gives none.
 function parameters() {
   const found = new Map();
   for (const part of location.hash.slice(1).split("&")) {
@@ -66,8 +66,9 @@ function parameters() {
   return found;
 }
 
-// Shows the view that the address names instead of the page that all views lead back to; `back` is called where it names
-// none, with true if a view was shown before. A view makes of the text behind its name what leads back, its title, its heading where that is more, and its content.
+// Shows the view that the URL names in place of the start page. If the URL names no view, calls `back`, with
+// true if a view was shown before. A view is a function from the text after its name to the links back, the
+// title, the heading if it differs from the title, and the content.
 function router(home, view, views, back) {
   const title = document.title;
   let turn = 0;
@@ -81,17 +82,18 @@ function router(home, view, views, back) {
     [home.hidden, view.hidden] = [Boolean(made), !made];
     if (!made) return back(wasAway);
     const heading = make("h1", { id: view.id + "-title", tabindex: "-1" }, made.heading ?? made.title);
-    // What is in use, as the field of a search, stays where it is.
+    // An element in use, such as the search field, keeps its place.
     const leads = made.leads();
     for (const child of [...view.children]) if (!leads.includes(child)) child.remove();
     view.append(...leads.filter(lead => lead.parentElement !== view), heading, ...made.content);
     (made.focus ?? heading).focus({ preventScroll: true });
     if (!made.focus) scrollTo(0, 0);
-    // For those who measure.
+    // A mark for measurements.
     performance.mark("etalon-shown");
   };
 }
-// For each word of a search, a function that is true of a text in lower case that contains it; `*` matches anything.
+// Returns a function for each word of a search: whether a lower-case text contains the word. `*` matches
+// anything.
 function wordsOf(search) {
   return search.toLowerCase().split(/\s+/).filter(Boolean).map(word => text => {
     let at = 0;
@@ -104,19 +106,19 @@ function wordsOf(search) {
   });
 }
 
-// A link to an entry opens the groups that hold it; browsers that do so by themselves lose nothing.
+// Opens the groups around the target of a link. Browsers that do this themselves lose nothing.
 function reveal(id) {
   const target = id && $(id);
   for (let e = target; e; e = e.parentElement) if (e.tagName === "DETAILS") e.open = true;
   if (target) target.scrollIntoView();
 }
 
-// True of a key that belongs to the browser.
+// Returns true for a key that belongs to the browser.
 const foreign = event => event.ctrlKey || event.metaKey || event.altKey || event.isComposing;
 const typing = target => target.closest("input:not([type=checkbox]), textarea, select");
 
-// Scripts beside the page, loaded when something in them is to be seen: each calls the function `global` with its name
-// and what it holds. The result is a function from a name to what its script holds; null where it cannot be loaded.
+// Loads neighbouring scripts on demand. Each script calls the function `global` with its name and its value.
+// Returns a function from a name to a promise of the script's value, or of null if it cannot be loaded.
 function beside(global, address) {
   const [held, waiting] = [new Map(), new Map()];
   Object.defineProperty(window, global, { value: (name, value) => { held.set(name, value); } });

@@ -1,16 +1,16 @@
-//! Links within the page: to the view of one case, and to a filter of all cases.
+//! Links within the page: to the view of a case, and to a filter of all cases.
 
-/// The link to a case's view: `#case=` and its id. The script reads it with `decodeURIComponent`.
+/// Returns the link to a case's view: `#case=` and its id. The script reads it with `decodeURIComponent`.
 pub(crate) fn case(id: &str) -> String {
     format!("#case={}", encoded(id))
 }
 
-/// The link to the cases of one adapter whose ids contain a text.
+/// Returns the link to the cases of one adapter whose ids contain a text.
 pub(crate) fn filter(text: &str, adapter: &str) -> String {
     format!("#q={}&on={}", encoded(text), encoded(adapter))
 }
 
-/// A text as part of a fragment. What ids are made of stays readable.
+/// Returns a text as part of a fragment. The characters of ids stay readable.
 pub(crate) fn encoded(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     for byte in text.bytes() {

@@ -1,10 +1,10 @@
-//! The first facts of a page: where its data comes from.
+//! The first facts of a page: the origin of its data.
 
 use crate::words::machine;
 use etalon_record::Machine;
 use maud::{Markup, html};
 
-/// The facts of a header's origin: start, command, machine and suite.
+/// Returns the facts of a header's origin: start, command, machine and suite.
 macro_rules! origin {
     ($header:expr) => {{
         let header = &$header;
@@ -14,7 +14,7 @@ macro_rules! origin {
 }
 pub(crate) use origin;
 
-/// Returns the entries for a list of facts; the suite is its version and, where it is known, its commit.
+/// Returns the entries for a list of facts. The suite is its version and, if it is known, its commit.
 pub(crate) fn facts(
     started: &str,
     command: &[String],

@@ -4,10 +4,10 @@ use crate::numbers::count;
 use crate::words::plain;
 use etalon_record::{Dead, DeadKind};
 
-/// The most lines of a kind.
+/// The most lines of each kind.
 const LISTED: usize = 5;
 
-/// The meaning of a kind.
+/// Returns the meaning of a kind.
 pub(crate) fn meaning(kind: DeadKind) -> &'static str {
     match kind {
         DeadKind::NoCase => "no case matches",
@@ -18,7 +18,8 @@ pub(crate) fn meaning(kind: DeadKind) -> &'static str {
     }
 }
 
-/// Dead expectations for a terminal: their number, then by kind at most five of each. Without a newline at its end.
+/// Returns the dead expectations for a terminal: their number, then at most five of each kind. The text does
+/// not end in a newline.
 pub fn dead_lines(dead: &[Dead]) -> String {
     let mut text = count(dead.len() as u64, "dead expectation");
     for kind in DeadKind::ALL {

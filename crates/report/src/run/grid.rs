@@ -35,7 +35,7 @@ pub(crate) struct CaseFile<'a> {
 /// One case on all adapters.
 pub(crate) struct CaseRow<'a> {
     pub(crate) id: &'a str,
-    /// The record on each adapter of [`Grid::adapters`], where there is one.
+    /// The record on each adapter of [`Grid::adapters`], if there is one.
     pub(crate) records: Vec<Option<usize>>,
 }
 
@@ -142,11 +142,11 @@ pub(crate) fn rate(records: &[&Record]) -> Option<f64> {
 /// Counts of records by verdict.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// Counts, the gravest first: what was not expected before what was.
+    /// Counts, the gravest first: unexpected verdicts before expected ones.
     counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
     /// The number of unexpected records.
     pub(crate) unexpected: u64,
-    /// The gravest of those; a selftest that was missed counts as a Fail.
+    /// The gravest unexpected verdict. A missed selftest counts as a Fail.
     pub(crate) worst: Option<Verdict>,
     /// Records in all.
     pub(crate) total: u64,
@@ -181,7 +181,7 @@ impl Tally {
         self.counts.iter().map(|((_, _, v, t), n)| (*v, *t, *n))
     }
 
-    /// The records of one verdict that are to be taken as it says.
+    /// Returns the number of records of one verdict that were neither expected nor due.
     pub(crate) fn plain(&self, verdict: Verdict) -> u64 {
         self.entries()
             .filter(|(v, t, _)| *v == verdict && *t != Tone::Excused)

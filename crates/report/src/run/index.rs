@@ -29,7 +29,7 @@ use maud::{Markup, html};
 use std::path::Path;
 
 const CASES_STYLE: &str = include_str!("index/cases.css");
-/// In one function, so that the page has no global names but the browser's.
+/// The script, inside one function so that the page adds no global names.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../page/base.js"),
@@ -42,7 +42,7 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/route.js"),
     "})();\n"
 );
-/// The page. Frame files are read from the folder as they are needed.
+/// Returns the page. Frame files are read from the folder when they are needed.
 pub(crate) fn page(
     folder: &Path,
     run: &Run,

@@ -58,7 +58,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text
 }
 
-/// Columns that are there only where a run has such a verdict.
+/// Columns that are shown only if a run has such a verdict.
 const RARE: [&str; 4] = ["measured", "required by CTS", "disputed", "skipped"];
 
 fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
@@ -69,7 +69,7 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         let mut records = rows.iter().flat_map(|(_, records)| records);
         records.any(|r| verdicts.contains(&r.verdict))
     };
-    // Not supported is the adapter's word, skipped is the user's.
+    // The adapter decides what is not supported; the user decides what is skipped.
     let columns: [(&'static str, &[Verdict], Color); 10] = [
         ("pass", &[Pass], Color::FG_GREEN),
         ("measured", &[Measured], Color::FG_BLUE),
@@ -83,7 +83,7 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         ("broken", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
     ];
     let mut table = Table::<(&str, Tally, Option<String>)>::new("").text("adapter", |row| row.0);
-    // What is 0 everywhere goes first, then what says least about the driver.
+    // Columns of zeros are left out first, then the columns that say least about the driver.
     let mut optional = Vec::new();
     for (name, verdicts, color) in columns {
         let occurs = occurs(verdicts);
@@ -176,7 +176,7 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         };
         let head = options.paint(&format!("{sign} {}", name(record.verdict)), "31");
         let adapter = plain(&record.adapter, 60);
-        // One line, whole: a terminal breaks it where it must, and a program finds all of it.
+        // The whole record in one line: a terminal wraps it if necessary, and a program finds all of it.
         let (case, reason) = (plain(&record.case, 300), headline(record));
         text += &format!("{head}  {adapter}  {case}: {reason}\n");
     }

@@ -1,11 +1,11 @@
-//! The unexpected records of a run, in the order of lists that show only the first of them.
+//! The unexpected records of a run, for lists that show only the first of them.
 
 use crate::lists;
 use etalon_record::{Record, Run};
 use std::cmp::Reverse;
 
-/// Unexpected records, the gravest first. One of each case file, adapter and verdict stands before the
-/// second of any: a list of one driver's one bug says little.
+/// Returns the unexpected records, the gravest first. One of each case file, adapter and verdict comes before
+/// the second of any, so that a short list shows more than one bug of one driver.
 pub(crate) fn unexpected_records(run: &Run) -> Vec<&Record> {
     let mut bad: Vec<&Record> = run.records.iter().filter(|r| r.unexpected()).collect();
     bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));

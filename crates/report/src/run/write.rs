@@ -26,7 +26,7 @@ const SUMMARY: &str = "summary.md";
 pub struct RunReports {
     /// The page.
     pub html: PathBuf,
-    /// The page of methods, where the run has any.
+    /// The page of methods, if the run has any.
     pub methods: Option<PathBuf>,
     /// The JUnit file, for continuous integration.
     pub junit: PathBuf,
@@ -92,7 +92,7 @@ pub fn write_run_with_news(
     })
 }
 
-/// All reports but the page, whose path is written where it will stand.
+/// Writes all reports except the page, and returns the page's path too.
 fn others(
     folder: &Path,
     run: &Run,

@@ -1,4 +1,4 @@
-//! The recorded folders of a site: their pages, the files beside them, and what the start page tells of them.
+//! The recorded folders of a site: their pages, their other files, and their facts on the start page.
 
 use crate::catalogue::CATALOGUE;
 use crate::error::ReportError;
@@ -11,9 +11,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Endings of the files of a folder that take part: pages, and what other programs read.
+/// Endings of the files that are copied from a folder: pages, and files for other programs.
 const ENDINGS: [&str; 7] = ["html", "xml", "json", "md", "csv", "svg", "png"];
-/// Folders whose files do.
+/// Subfolders whose files are copied too.
 const FOLDERS: [&str; 2] = [CATALOGUE, deqp::FOLDER];
 
 /// One recorded folder.
@@ -22,20 +22,20 @@ pub(crate) struct Recorded {
     pub(crate) name: String,
     /// The folder itself.
     pub(crate) folder: PathBuf,
-    /// The files that are copied, by path below the folder.
+    /// The copied files, by path below the folder.
     pub(crate) files: BTreeSet<PathBuf>,
     /// Its description.
     pub(crate) facts: Facts,
 }
 
-/// What the start page tells of a folder.
+/// The facts of a folder on the start page.
 #[derive(Default)]
 pub(crate) struct Facts {
     pub(crate) started: String,
-    /// Cases and adapters.
+    /// The number of cases, and the adapters.
     pub(crate) drawn: String,
     pub(crate) result: Markup,
-    /// The words for its `index.html`.
+    /// The title of its `index.html`.
     pub(crate) index: &'static str,
 }
 
@@ -44,7 +44,7 @@ impl Recorded {
         self.files.iter().filter_map(|file| file.to_str())
     }
 
-    /// The pages, `index.html` first.
+    /// Returns the pages, `index.html` first.
     pub(crate) fn pages(&self) -> Vec<&str> {
         let is_page = |name: &&str| name.ends_with(".html") && !name.contains('/');
         let mut pages: Vec<&str> = self.names().filter(is_page).collect();
@@ -52,13 +52,13 @@ impl Recorded {
         pages
     }
 
-    /// The files beside the pages.
+    /// Returns the files other than pages.
     pub(crate) fn beside(&self) -> impl Iterator<Item = &str> {
         let names = self.names();
         names.filter(|name| !name.ends_with(".html") && !name.contains('/'))
     }
 
-    /// The areas whose cases can be seen.
+    /// Returns the areas whose cases can be shown.
     pub(crate) fn galleries(&self) -> Vec<&str> {
         let scripts = self.names().filter_map(|name| name.strip_suffix(".js"));
         let areas = scripts.filter_map(|name| name.strip_prefix(CATALOGUE)?.strip_prefix('/'));
@@ -66,10 +66,10 @@ impl Recorded {
     }
 }
 
-/// Looks at recorded folders.
+/// Reads the facts and files of recorded folders.
 ///
 /// # Errors
-/// Returns an error if one cannot be read, or holds no page.
+/// Returns an error if a folder cannot be read or has no page.
 pub(crate) fn collect(folders: &[PathBuf]) -> Result<Vec<Recorded>, ReportError> {
     let mut taken = BTreeSet::new();
     folders
@@ -171,7 +171,7 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
     Ok(files)
 }
 
-/// Returns a folder's name in the site: in plain letters, and its own.
+/// Returns a folder's name in the site, which is unique and has only plain letters.
 fn name(folder: &Path, taken: &mut BTreeSet<String>) -> String {
     let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let last = whole

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 const STYLE: &str = include_str!("site.css");
 
-/// The page.
+/// Returns the page.
 pub(super) fn page(runs: &[Recorded]) -> String {
     let shown = runs.iter().find(|run| !run.galleries().is_empty());
     let main = html! {
@@ -50,7 +50,7 @@ fn reports(runs: &[Recorded]) -> Markup {
     }
 }
 
-/// The words for a page, by its file's name.
+/// Returns the title of a page, by its file's name.
 fn title<'a>(page: &'a str, facts: &Facts) -> &'a str {
     match page {
         "index.html" => facts.index,
@@ -62,7 +62,7 @@ fn title<'a>(page: &'a str, facts: &Facts) -> &'a str {
     }
 }
 
-/// The relative address of a file of a recorded folder.
+/// Returns the relative address of a file of a recorded folder.
 fn address(run: &Recorded, file: &str) -> String {
     format!("runs/{}/{file}", run.name)
 }
@@ -73,7 +73,7 @@ fn galleries(run: &Recorded) -> Markup {
         section id="cases" {
             h2 { "Cases" }
             p {
-                "Every case as it is meant: picture, scene, shader and JSON, by area; or "
+                "Every case as intended: picture, scene, shader and JSON, by area; or "
                 a href={ (index) "#cases" } { "all in a table" } " with search and filters."
             }
             ul.areas {

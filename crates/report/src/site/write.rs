@@ -1,4 +1,4 @@
-//! Writing a site: beside its place, and renamed into it when it is whole.
+//! Writes a site into a temporary folder, and renames the folder when it is complete.
 
 use super::runs;
 use super::start;
@@ -9,21 +9,21 @@ use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The file by which a folder is known to be a site.
+/// The file that marks a folder as a site.
 pub const SITE_FILE: &str = "site.json";
-/// The kind of its folder. `docs` was part of earlier ones.
+/// The kind of a site's folder. Earlier versions wrote `docs`.
 const FOLDER: Kind = Kind {
     mark: SITE_FILE,
     top: &["index.html", "runs", "docs"],
     names: ["site", "site"],
 };
 
-/// Writes a site of recorded folders. An earlier site in the folder is replaced if `replace`, and stays as it is if an
-/// error is returned.
+/// Writes a site of recorded folders. If `replace` is true, an earlier site in the folder is replaced, unless
+/// an error is returned.
 ///
 /// # Errors
-/// Returns an error if a folder holds no page or lies in the site or around it, the site's folder holds something else,
-/// or cannot be written to.
+/// Returns an error if a folder has no page, contains the site or is inside it, or if the site's folder has
+/// other files or cannot be written to.
 pub fn write_site(
     to: &Path,
     folders: &[PathBuf],
@@ -44,7 +44,7 @@ pub fn write_site(
     site.finish(start::page(&runs).as_bytes(), about)
 }
 
-/// A site that holds what it is made from would lose it when it is replaced.
+/// Refuses a site that contains one of its sources or is inside it: replacing the site would delete the source.
 fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
     if overlap(to, folder) {
         return Err(ReportError::Within {

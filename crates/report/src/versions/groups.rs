@@ -1,4 +1,4 @@
-//! Cases grouped by what is known of them: their finding and the releases in which they are bad.
+//! Cases grouped by their finding and by the releases in which they are bad.
 
 use crate::words::plain;
 use etalon_record::{CaseVersions, Standing, Versions};
@@ -9,18 +9,18 @@ use std::collections::BTreeMap;
 pub(super) enum Course {
     /// Bad in some releases.
     Bad,
-    /// Not the same each time in some release.
+    /// Never bad, but flaky in some release.
     Flaky,
-    /// Bad and flaky in none.
+    /// Never bad or flaky, and good in some release.
     Good,
-    /// Good in none either: nothing was drawn or asserted.
+    /// Unknown in all releases: nothing was drawn or asserted.
     Unknown,
 }
 
 /// Cases with one finding and one course.
 pub(super) struct Group<'a> {
     pub(super) course: Course,
-    /// The finding; `None` where none speaks of them.
+    /// The finding; `None` if no finding mentions the cases.
     pub(super) finding: Option<&'a str>,
     /// The releases in which they are bad, in words.
     bad: String,
@@ -30,7 +30,7 @@ pub(super) struct Group<'a> {
 }
 
 impl Group<'_> {
-    /// The releases in which the cases are bad, in words.
+    /// Returns the releases in which the cases are bad, in words.
     pub(super) fn bad(&self) -> &str {
         match self.course {
             Course::Flaky => "flaky",

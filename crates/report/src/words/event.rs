@@ -205,7 +205,7 @@ pub(super) fn detail_of(event: &Event) -> String {
                 format!("alpha {alpha} may or may not keep the sample: two worlds")
             }
         }
-        Step::LostAfterEarlyTests => "the fragment goes away after its tests".to_owned(),
+        Step::LostAfterEarlyTests => "the fragment is lost after its tests".to_owned(),
         Step::DepthBounds { stored, low, high } => {
             let word = match event.effect {
                 Effect::Rejects(_) => "outside",
@@ -297,7 +297,7 @@ pub(super) fn detail_of(event: &Event) -> String {
             let lost = if i32::from(*reference) == *written {
                 String::new()
             } else {
-                format!(", of which the lowest 8 bits count, {reference}")
+                format!(", whose lowest 8 bits are {reference}")
             };
             format!("the shader writes {written}{lost}, in place of the draw's {draw}")
         }
@@ -321,7 +321,7 @@ pub(super) fn detail_of(event: &Event) -> String {
     }
 }
 
-/// Returns what is said of a draw that ends by a rejection, with the inputs and the outcome of its event.
+/// Returns the predicate of a draw that a rejection ends, from the details of its event.
 pub(super) fn rejection_predicate(rejection: Rejection, detail: &str) -> String {
     match rejection {
         Rejection::RasterizerDiscard => "is discarded before rasterization".to_owned(),
@@ -403,7 +403,7 @@ fn coverage_text(coverage: Coverage) -> String {
     match coverage {
         Coverage::Outside => "it does not cover the sample".to_owned(),
         Coverage::OutsideOneWay => {
-            "facing one of its possible ways, it does not cover the sample".to_owned()
+            "with one of its possible facings, it does not cover the sample".to_owned()
         }
         Coverage::Times { least: 0, most: 1 } => {
             "it may or may not cover the sample: two worlds".to_owned()
@@ -435,15 +435,17 @@ fn coverage_text(coverage: Coverage) -> String {
         Coverage::Edge {
             edge, exact: true, ..
         } => {
-            format!("the sample lies on edge {edge}: two worlds, covered (told on) and not covered")
+            format!(
+                "the sample lies on edge {edge}: two worlds, covered (followed here) and not covered"
+            )
         }
         Coverage::Edge { edge, .. } => format!(
-            "the sample is within the snapping distance of edge {edge}: two worlds, covered (told on) and not covered"
+            "the sample is within the snapping distance of edge {edge}: two worlds, covered (followed here) and not covered"
         ),
     }
 }
 
-/// Returns what is said of primitives that do not reach a sample; the event's origin numbers them.
+/// Returns a sentence about primitives that do not reach a sample. The event's origin numbers them.
 fn primitives(event: &Event, count: usize, viewport: Option<[f32; 4]>) -> String {
     let Origin::Draw { primitives, .. } = &event.origin else {
         return String::new();
@@ -479,7 +481,7 @@ fn primitives(event: &Event, count: usize, viewport: Option<[f32; 4]>) -> String
     }
 }
 
-/// Returns increasing numbers as ranges: `0 to 4, 6 and 9`. Many ranges are cut short.
+/// Returns increasing numbers as ranges: `0 to 4, 6 and 9`. Long lists are cut short.
 fn ranges(numbers: &[u32]) -> String {
     const SHOWN: usize = 6;
     let ranges: Vec<&[u32]> = numbers.chunk_by(|a, b| a + 1 == *b).collect();
@@ -586,7 +588,7 @@ mod tests {
         };
         assert_eq!(
             detail(export, Effect::None),
-            "the shader writes 300, of which the lowest 8 bits count, 44, in place of the draw's 9"
+            "the shader writes 300, whose lowest 8 bits are 44, in place of the draw's 9"
         );
         assert_eq!(
             detail(Step::LateStencilExport { draw: 9 }, Effect::None),

@@ -1,10 +1,10 @@
-//! Text that cannot give orders to a terminal.
+//! Text without control sequences for a terminal.
 
-/// Text without control characters, which a terminal would obey, and no longer than so many
-/// characters.
+/// Returns at most `longest` characters of a text, with control characters, which a terminal would obey,
+/// replaced.
 pub fn plain(text: &str, longest: usize) -> String {
     let clean = |c: char| {
-        // Invisible characters that turn the reading direction could make one id look like another.
+        // Invisible characters that change the reading direction could make one id look like another.
         let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         if c.is_control() || turns {
             '\u{fffd}'

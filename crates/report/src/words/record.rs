@@ -7,7 +7,7 @@ use super::verdict::{Tone, meaning, name};
 use crate::numbers::duration;
 use etalon_record::{LossKind, ProcessEnd, Record};
 
-/// The loss of a process in one sentence.
+/// Returns the loss of a process in one sentence.
 pub(crate) fn process_end(end: &ProcessEnd) -> String {
     let what = match end.kind {
         LossKind::Died => "The process died",
@@ -30,7 +30,7 @@ pub(crate) fn process_end(end: &ProcessEnd) -> String {
     text
 }
 
-/// The name of a signal that ends processes, as Linux numbers them on most machines.
+/// Returns the name of a signal that ends processes, by its number on most Linux machines.
 fn signal_name(signal: i32) -> Option<&'static str> {
     Some(match signal {
         1 => "SIGHUP",
@@ -53,8 +53,8 @@ fn signal_name(signal: i32) -> Option<&'static str> {
     })
 }
 
-/// The one line that says most about a record: the verdict of its story, its first wrong texel, or the last
-/// line of its message, which usually names the cause of a crash.
+/// Returns the most informative line about a record: the ruling of its story, its first wrong texel, or the
+/// last line of its message, which usually names the cause of a crash.
 pub(crate) fn headline(record: &Record) -> String {
     let last = record.message.lines().rev().find(|l| !l.trim().is_empty());
     let text = match (record.wrong.first(), last) {

@@ -4,7 +4,7 @@ use super::story::{judged_by, sentence};
 use etalon_diagnose::{Symptom, violated_clause};
 use etalon_record::Record;
 
-/// A reduced case, and what is wrong with it.
+/// A reduced case and its symptom.
 pub struct ReducedCase<'a> {
     /// Its record.
     pub record: &'a Record,
@@ -21,7 +21,7 @@ impl ReducedCase<'_> {
         sentence.unwrap_or_else(|| self.record.message.clone())
     }
 
-    /// Returns the clause that is violated, or the text by which the record was judged.
+    /// Returns the violated clause, or the text by which the record was judged.
     pub fn clause(&self) -> Option<String> {
         let story = self.record.story.as_ref()?;
         let clause = violated_clause(story).map(str::to_owned);

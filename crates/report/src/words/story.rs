@@ -18,7 +18,7 @@ pub fn sentence(story: &Story) -> Option<String> {
     Some(format!("{} {}", verdict.at, verdict.detail))
 }
 
-/// Returns the text by which a story's ruling was made, with the strength of the evidence.
+/// Returns the rules by which a story's ruling was made, with the strength of the evidence.
 pub fn judged_by(story: &Story) -> Option<String> {
     match &story.ruling {
         Some(ruling) => Some(ruling_judged_by(ruling)),
@@ -31,7 +31,7 @@ pub(crate) fn operations(story: &Story) -> Vec<ToldLine> {
     let mut lines = story.told[usize::from(told_verdict(story).is_some())..].to_vec();
     let mut alone = story.alone.iter().peekable();
     for event in &story.events {
-        // The ruling on a scene alone leads its events.
+        // The ruling on a single scene comes before its events.
         if let Some((scene, ruling)) =
             alone.next_if(|(scene, _)| event.scene.as_ref() == Some(scene))
         {
@@ -248,7 +248,7 @@ fn demand(values: &Values) -> String {
     format!("be {}", list(&parts, "or"))
 }
 
-/// Returns the operations that decide.
+/// Returns the reasons for the demand: the operations that decide it.
 fn reasons(values: &Values) -> String {
     let reason = |reason: &Reason| reason_text(reason, values.several_passes);
     let mut parts: Vec<String> = values.reasons.iter().map(reason).collect();
@@ -296,7 +296,7 @@ fn reason_text(reason: &Reason, several_passes: bool) -> String {
         }
         Reason::Cleared(event) => {
             let line = event_line(event);
-            format!("{}, {} is what a clear left", line.at, line.detail)
+            format!("{}, {} after a clear", line.at, line.detail)
         }
         Reason::Resolved(event) => format!("it is resolved from {}", detail_of(event)),
         Reason::Kept(event) => format!("{} leaves it: {}", name(event), detail_of(event)),
@@ -323,7 +323,7 @@ fn reason_text(reason: &Reason, several_passes: bool) -> String {
     }
 }
 
-/// Returns the predicate of several draws that do not come near a sample.
+/// Returns the predicate of several draws that do not reach a sample.
 fn rejections(rejection: Rejection) -> &'static str {
     match rejection {
         Rejection::Viewport => "are outside their viewports",

@@ -4,7 +4,7 @@ use crate::numbers::{count, trimmed};
 use etalon_frame::{Band, ChannelEncoding, ChannelMismatch, WrongTexel};
 use etalon_record::Record;
 
-/// The attachment and the channel, or one word where they have the same name.
+/// Returns the attachment and the channel, or one word if they have the same name.
 pub(crate) fn channel_of(m: &ChannelMismatch) -> String {
     let name = m.aspect.channel(m.channel.into());
     if m.attachment == name {
@@ -14,7 +14,7 @@ pub(crate) fn channel_of(m: &ChannelMismatch) -> String {
     }
 }
 
-/// A code as it is stored.
+/// Returns a code in the notation of its encoding.
 pub(crate) fn code_text(encoding: ChannelEncoding, code: u32) -> String {
     match encoding {
         ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) => {
@@ -28,10 +28,10 @@ pub(crate) fn code_text(encoding: ChannelEncoding, code: u32) -> String {
     }
 }
 
-/// The value that a code stands for.
+/// Returns the value of a code.
 pub(crate) fn value_text(encoding: ChannelEncoding, code: u32) -> String {
     if encoding == ChannelEncoding::Float32 {
-        // Debug keeps every digit and the sign of zero, and knows infinities and NaNs.
+        // `Debug` keeps all digits and the sign of zero, and prints infinities and NaNs.
         return format!("{:?}", f32::from_bits(code));
     }
     let value = encoding.value_of_order(encoding.order_of_code(code));
@@ -41,7 +41,7 @@ pub(crate) fn value_text(encoding: ChannelEncoding, code: u32) -> String {
     }
 }
 
-/// A code with its value: `0x80 = 0.5019608`.
+/// Returns a code with its value: `0x80 = 0.5019608`.
 pub(crate) fn code_and_value(encoding: ChannelEncoding, code: u32) -> String {
     let text = code_text(encoding, code);
     match encoding {
@@ -50,7 +50,7 @@ pub(crate) fn code_and_value(encoding: ChannelEncoding, code: u32) -> String {
     }
 }
 
-/// `low to high`, or the one code where they agree, in the notation of `text`.
+/// Returns `low to high`, or one code if both are equal, in the notation of `text`.
 pub(crate) fn allowed(m: &ChannelMismatch, text: fn(ChannelEncoding, u32) -> String) -> String {
     let low = text(m.encoding, m.low);
     if m.low == m.high {
@@ -60,7 +60,7 @@ pub(crate) fn allowed(m: &ChannelMismatch, text: fn(ChannelEncoding, u32) -> Str
     }
 }
 
-/// The place of a texel: `texel (3, 4)`, with its sample if there are several.
+/// Returns the place of a texel: `texel (3, 4)`, with its sample if there are several.
 pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
     let place_name = format!("texel ({}, {})", texel.x, texel.y);
     if multisampled {
@@ -70,15 +70,15 @@ pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
     }
 }
 
-/// True if a wrong texel has a sample beyond the first.
+/// Returns true if a wrong texel has a sample other than the first.
 pub(crate) fn multisampled(record: &Record) -> bool {
     record.wrong.iter().any(|t| t.sample > 0)
 }
 
-/// A wrong texel in one line.
+/// Returns a wrong texel in one line.
 pub(super) fn texel_line(texel: &WrongTexel, multisampled: bool) -> String {
     const SHOWN: usize = 2;
-    // The bounds of an imprecise texel are the yardstick's, not the legal ones.
+    // The bounds of an imprecise texel are those of the yardstick, not of the legal set.
     let (bound, legal) = match texel.band {
         Band::Imprecise => ("yardstick", " (legal)"),
         Band::Fail => ("allowed", ""),

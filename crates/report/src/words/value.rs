@@ -2,14 +2,15 @@
 
 use etalon_frame::{ChannelEncoding, Codes, ValueRange};
 
-/// Returns codes of channels: of a float its value, of wide codes both, of others the code.
+/// Returns the codes of channels: the value of a float code, number and value of a wide code, else the
+/// number.
 pub(super) fn codes_list(codes: &[Codes]) -> String {
     codes.iter().map(codes_text).collect::<Vec<_>>().join(", ")
 }
 
 fn codes_text(codes: &Codes) -> String {
     let encoding = codes.encoding;
-    // A wide code's value says more than its number.
+    // The value of a wide code is easier to read than its number.
     let text = |order: i64| match encoding {
         ChannelEncoding::Unorm(9..) | ChannelEncoding::Snorm(9..) => {
             format!("{order} ({})", encoding.value_of_order(order) as f32)
@@ -24,7 +25,7 @@ fn codes_text(codes: &Codes) -> String {
     }
 }
 
-/// Returns the name of a colour whose channels are 0 or 1 exactly; `None` for others.
+/// Returns the name of a colour whose channels are exactly 0 or 1, else `None`.
 pub(super) fn color_name(codes: &[Codes]) -> Option<&'static str> {
     let mut bits = [false; 4];
     if codes.len() < 3 {

@@ -2,10 +2,10 @@
 
 use etalon_record::{Record, Verdict};
 
-/// The weight of a record's verdict.
+/// How a record's verdict counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Tone {
-    /// As the verdict says.
+    /// The verdict as it is.
     Plain,
     /// Bad, but expected or due.
     Excused,
@@ -28,7 +28,7 @@ impl Tone {
         }
     }
 
-    /// The text behind the verdict.
+    /// Returns the suffix of the verdict in reports.
     pub(crate) fn suffix(self) -> &'static str {
         match self {
             Self::Plain => "",
@@ -38,9 +38,9 @@ impl Tone {
     }
 }
 
-/// A sign that distinguishes verdicts without colour, and the classes that colour it as it is and where it was
-/// expected: fixed letters, never taken from a record. The variation selector keeps browsers from drawing a coloured
-/// picture.
+/// Returns a sign that distinguishes verdicts without colour, and the classes that colour it as a plain
+/// verdict and as an expected one. The classes are fixed letters that never come from a record. The variation
+/// selector keeps browsers from drawing a coloured picture.
 pub(crate) fn signs(verdict: Verdict) -> (&'static str, [&'static str; 2]) {
     match verdict {
         Verdict::Pass => ("✓", ["p", "b x"]),
@@ -62,12 +62,12 @@ pub(crate) fn signs(verdict: Verdict) -> (&'static str, [&'static str; 2]) {
     }
 }
 
-/// The sign of a verdict.
+/// Returns the sign of a verdict.
 pub(crate) fn symbol(verdict: Verdict) -> &'static str {
     signs(verdict).0
 }
 
-/// The verdict's name with spaces.
+/// Returns the verdict's name with spaces.
 pub(crate) fn name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::RequiredByCts => "required by CTS",
@@ -79,7 +79,7 @@ pub(crate) fn name(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The meaning of a verdict in one sentence.
+/// Returns the meaning of a verdict in one sentence.
 pub(crate) fn meaning(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "Every texel lies inside the yardstick, and something was asserted.",
@@ -101,7 +101,7 @@ pub(crate) fn meaning(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The verdicts of a record's repetitions: `pass, 2 × fail`.
+/// Returns the verdicts of a record's repetitions: `pass, 2 × fail`.
 pub(crate) fn repetitions(verdicts: &[Verdict]) -> String {
     let runs = verdicts.chunk_by(|a, b| a == b).map(|same| {
         let word = same.first().map_or("", |v| name(*v));

@@ -76,7 +76,7 @@ fn every_case_has_its_course_and_every_series_its_changes() {
     let place = |id: &str| ids.iter().position(|one| one == id).unwrap();
     let file = value(&files, "case-0");
     let course = |id: &str| file[0][file[1][place(id)].as_u64().unwrap() as usize].clone();
-    // Timeline, first and last run, spans, gaps, events: broken in the fifth run, the fourth before it.
+    // Timeline, first and last run, spans, gaps, events: broken in the fifth run, after the fourth.
     let broken = course(BROKEN);
     assert_eq!(broken[0][3].as_array().unwrap()[2], 4);
     assert_eq!(broken[0][5], serde_json::json!([0, 3, 4]));

@@ -131,7 +131,7 @@ fn a_site_replaces_nothing_but_a_site() {
     );
     fs::remove_file(to.join("CNAME")).unwrap();
     for (from, words) in [
-        (to.join("runs/run"), "must not lie one in the other"),
+        (to.join("runs/run"), "must not contain each other"),
         (folder.path().join("none"), "No such file"),
     ] {
         let error = write(&to, &from, true).unwrap_err();

@@ -1,4 +1,4 @@
-//! Tests on simulated and on recorded samples.
+//! Tests on simulated and recorded samples.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod nightly;
@@ -12,7 +12,7 @@ fn told(outcome: Conclusion) -> bool {
     matches!(outcome, Conclusion::Faster | Conclusion::Slower)
 }
 
-/// The largest count that `trials` events of a probability exceed only once in a million times.
+/// Returns the count that `trials` events of a probability exceed only once in a million times.
 fn most(trials: u32, probability: f64) -> u32 {
     let (n, p) = (f64::from(trials), probability);
     let mut mass = (n * (1.0 - p).ln()).exp();

@@ -7,7 +7,7 @@ use etalon_truth::truth;
 
 #[test]
 fn the_top_left_rule_decides_at_centres() {
-    // All four edges run through centres: the top and the left one own them.
+    // All four edges run through centres, which belong to the top and left edges.
     let surface = rectangle([1.5, 1.5], [3.5, 3.5], 0.0, [1.0; 4]);
     let mut reversed = surface.clone();
     reversed.corners.reverse();
@@ -45,7 +45,7 @@ fn a_fan_around_a_centre_covers_it_once() {
     }
 }
 
-/// Strips that all cross each other in one texel.
+/// Strips that all cross in one texel.
 #[test]
 fn too_many_pieces_are_sampled_and_the_error_is_said() {
     let strips = (0..200_u32).map(|i| {

@@ -14,7 +14,7 @@ pub(crate) fn is_lavapipe() -> bool {
     name() == "vulkan:lavapipe"
 }
 
-/// Opens the adapter under test. Without it a test fails: nothing would have been tested.
+/// Opens the adapter under test, or fails the test: without the adapter nothing is tested.
 pub(crate) fn backend(validate: bool) -> VulkanBackend {
     let name = name();
     let adapters = enumerate().unwrap_or_else(|e| panic!("these tests need {name}: {e}"));
@@ -37,7 +37,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
 pub(crate) fn lavapipe() -> Driver<'static> {
     let mut known = known("vulkan:lavapipe");
     if !is_lavapipe() {
-        // Another driver may lack anything.
+        // Other drivers can lack any feature.
         known.lacks = None;
     }
     Driver {

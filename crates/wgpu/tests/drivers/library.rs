@@ -1,5 +1,5 @@
-//! A sample of the built-in cases, and everything once more with validation; `ETALON_TESTS=all`
-//! draws every case.
+//! Draws a sample of the built-in cases, and all of them again with validation. `ETALON_TESTS=all` draws all
+//! cases.
 
 use crate::drivers;
 use etalon_backend::Backend;
@@ -22,7 +22,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
     draw_library(&driver.subject(backend), Profile::Quick, share);
 }
 
-/// One pass with validation: every check, then cases of every file.
+/// Draws with validation: all checks, then cases of every file.
 fn validated(driver: &str, described: &Driver<'_>) {
     let test = format!("library::validation_of_{driver}_is_silent");
     in_child(&test, &described.environment, || {

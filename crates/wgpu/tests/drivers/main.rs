@@ -1,5 +1,5 @@
-//! The backend over real drivers, each in a process of its own: the environment chooses the driver
-//! before it is loaded.
+//! The backend over real drivers, each in a separate process: the environment chooses the driver before it is
+//! loaded.
 
 mod capabilities;
 mod drivers;

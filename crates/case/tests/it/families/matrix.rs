@@ -43,7 +43,7 @@ fn the_matrix_has_its_cells_and_the_quick_profile_some_of_each_group() {
         quick.keys().map(|c| group(c)).collect::<BTreeSet<_>>(),
         groups
     );
-    // About half a second a cell and seven rounds make a minute.
+    // A cell takes about half a second for seven rounds, so all of them stay below a minute.
     assert!(quick.len() <= 70, "{}", quick.len());
     assert!(quick.keys().all(|c| c.contains("size=512x512")));
     assert!(quick.values().all(|cases| cases.len() == 2));

@@ -1,4 +1,4 @@
-//! The ids of method cases, and how many there are.
+//! The ids and the number of method cases.
 
 use etalon_case::{CaseFile, Library, Profile};
 use etalon_methods::{claims, lessons};
@@ -44,7 +44,7 @@ fn ids_name_question_scene_and_method_and_are_not_too_many() {
     assert!((300..=550).contains(&full), "{full}");
 }
 
-/// A chart of methods at different parameters compares nothing.
+/// A chart of methods at different parameters would compare nothing.
 #[test]
 fn the_quick_profile_draws_whole_scenes() {
     let library = Library::built_in().expect("built-in files parse");

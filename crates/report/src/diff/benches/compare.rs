@@ -1,4 +1,4 @@
-//! Two benches compared, from their recorded samples.
+//! Compares two benches from their recorded samples.
 
 use crate::bench::figures::{self, software};
 use crate::numbers::count;
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 pub struct BenchDiff {
     /// The time that was compared.
     pub time: Time,
-    /// The highest rate at which two benches of the same thing are called different, per comparison.
+    /// The highest rate, per comparison, at which two benches without a change are called different.
     pub level: f64,
     /// Changes up to this ratio are not reported.
     pub minimum: f64,
@@ -23,7 +23,8 @@ pub struct BenchDiff {
     pub before: BenchFacts,
     /// The second bench.
     pub after: BenchFacts,
-    /// Facts that make the two hard to compare: other machines, drivers, rulers, profiles, lost rounds.
+    /// Facts that make the two hard to compare: different machines, drivers, rulers or profiles, and lost
+    /// rounds.
     pub notes: Vec<String>,
     /// Cases that were timed in both benches.
     pub changes: Vec<TimeChange>,
@@ -38,16 +39,15 @@ pub struct BenchFacts {
     pub started: String,
     /// The suite's version.
     pub etalon: String,
-    /// The suite's commit, where it is known.
+    /// The suite's commit, if it is known.
     pub commit: Option<String>,
     /// The machine, in words.
     pub machine: String,
-    /// Its command line.
+    /// The command line.
     pub command: String,
 }
 
-/// A case on an adapter that was timed in both benches. Times are in seconds, ratios are after over
-/// before.
+/// A case on an adapter that was timed in both benches. Times are in seconds; ratios are after over before.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeChange {
     /// The case.
@@ -68,25 +68,25 @@ pub struct TimeChange {
     pub after: f64,
     /// Rounds before and after.
     pub rounds: [usize; 2],
-    /// The ratio over all pairs of rounds, which is not quite that of the medians.
+    /// The ratio over all pairs of rounds, which differs slightly from the ratio of the medians.
     pub ratio: f64,
-    /// The interval of the ratio; none with too few rounds.
+    /// The interval of the ratio; `None` with too few rounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
-    /// The ratio in units of the ruler, where both benches have the same ruler and it bears on the
+    /// The ratio in units of the ruler; `None` if the rulers differ or the ruler says nothing about the
     /// device.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruled: Option<f64>,
-    /// Its interval.
+    /// The interval of `ruled`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruled_interval: Option<[f64; 2]>,
-    /// The smallest ratio that would have been found with a probability of 0.9.
+    /// The smallest ratio that this comparison would have found with a probability of 0.9.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub visible: Option<f64>,
 }
 
 impl TimeChange {
-    /// The outcome if the samples decide it, else nothing.
+    /// Returns the outcome's name if the samples decide it, else an empty text.
     pub(super) fn decided(&self) -> &'static str {
         match self.outcome {
             Conclusion::CannotTell(_) => "",
@@ -106,19 +106,19 @@ pub struct Untimed {
     pub case: String,
     /// The adapter.
     pub adapter: String,
-    /// True if the times are missing in the second bench, false if in the first.
+    /// True if the times are missing in the second bench, false if they are missing in the first.
     pub from_after: bool,
     /// The reason.
     pub why: String,
     /// True if this is worse than before: a right picture with a time is now wrong or broken, or its adapter
     /// vanished.
     pub worse: bool,
-    /// True if the adapter took part in the first bench and not in the second.
+    /// True if the first bench has the adapter and the second does not.
     pub vanished: bool,
 }
 
 impl BenchDiff {
-    /// The numbers of changes that are slower, faster, and that cannot be told.
+    /// Returns the numbers of slower, faster and undecided changes.
     pub fn counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for change in &self.changes {
@@ -131,12 +131,12 @@ impl BenchDiff {
         counts
     }
 
-    /// True if anything is worse: slower, no longer right, or on an adapter that vanished.
+    /// Returns true if anything is worse: slower, no longer right, or on an adapter that vanished.
     pub fn worse(&self) -> bool {
         self.counts()[0] > 0 || self.gone.iter().any(|g| g.worse)
     }
 
-    /// The number of comparisons that decide nothing, and of cases that only one bench has times of.
+    /// Returns the number of undecided comparisons, and of cases that only one bench timed.
     pub fn untold(&self) -> [usize; 2] {
         let untold = self.changes.iter().filter(|c| c.why.is_some());
         [
@@ -145,7 +145,7 @@ impl BenchDiff {
         ]
     }
 
-    /// The changes on software or hardware adapters.
+    /// Returns the changes on software or hardware adapters.
     pub(super) fn of_kind(&self, software: bool) -> Vec<&TimeChange> {
         self.changes
             .iter()
@@ -153,7 +153,7 @@ impl BenchDiff {
             .collect()
     }
 
-    /// The sign of the conclusion, its class on a page and its colour on a terminal.
+    /// Returns the conclusion's sign, its class on a page and its colour on a terminal.
     pub(super) fn look(&self) -> [&'static str; 3] {
         match (self.worse(), self.untold()) {
             (true, _) => ["✗", "bad", "31"],
@@ -162,7 +162,7 @@ impl BenchDiff {
         }
     }
 
-    /// The conclusion in one line.
+    /// Returns the conclusion in one line.
     pub(super) fn conclusion(&self) -> String {
         let mut parts = Vec::new();
         if self.worse() {
@@ -211,7 +211,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let new = after.record(case, adapter);
         let sides = [after, before].map(|bench| bench.header.adapter(adapter));
         let kind = software(sides[0].or(sides[1]));
-        // The ruler is the processor's: it says nothing of what another device does by itself.
+        // The ruler times the processor and says nothing about what another device does on its own.
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let samples_of = |record: &BenchRecord| samples(record, time, ruled);
         match (samples_of(old), new.and_then(samples_of)) {
@@ -271,7 +271,7 @@ fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Sampl
     }
 }
 
-/// Times that only one bench has: `there` has them, `other` is the same of the other bench.
+/// Describes times that only one bench has: `there` has them; `other` is the other bench's record, if any.
 fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Untimed {
     let (why, bad) = match other {
         None => ("it took no part".to_owned(), false),
@@ -316,7 +316,7 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
     let mut notes = Vec::new();
     if b.machine != a.machine {
         notes.push(
-            "The machines differ, so a change may be theirs and not the driver's.".to_owned(),
+            "The machines differ, so they can cause changes instead of the driver.".to_owned(),
         );
     }
     if b.ruler != a.ruler {

@@ -16,7 +16,7 @@ const BENCH_STYLE: &str = include_str!("../../bench/bench.css");
 /// Writes a comparison of two benches as one page.
 ///
 /// # Errors
-/// Returns an error if the path names no file, or it cannot be written.
+/// Returns an error if the path names no file, or the file cannot be written.
 pub fn write_diff(path: &Path, diff: &BenchDiff) -> Result<PathBuf, ReportError> {
     replace_at(path, page(diff).as_bytes())
 }
@@ -52,9 +52,9 @@ fn page(diff: &BenchDiff) -> String {
         section {
             h2 { "Comparison" }
             p {
-                "The medians of rounds are compared by the Wilcoxon–Mann–Whitney test turned around into "
-                "the interval of their ratio, as measured and in units of the ruler. Faster or slower is "
-                "said when both intervals lie beyond a change of " (change(diff.minimum)) ". Two benches "
+                "The Wilcoxon–Mann–Whitney test compares the medians of rounds. Inverted, it gives "
+                "the interval of their ratio, as measured and in units of the ruler. A case is faster or slower "
+                "if both intervals lie beyond a change of " (change(diff.minimum)) ". Two benches "
                 "of the same thing are called different with a probability of at most " (diff.level)
                 " per comparison. Visible is the smallest change that would have been found with a "
                 "probability of 0.9."

@@ -11,8 +11,8 @@ use etalon_stats::Conclusion;
 use maud::html;
 use tabled::settings::Color;
 
-/// Facts that make the benches hard to compare, a table of changes per kind of adapter, cases that were timed
-/// in one bench only, and the sum. Always ends in a newline.
+/// Returns facts that make the benches hard to compare, a table of changes for each kind of adapter, cases
+/// that were timed in one bench only, and the sum. The text always ends in a newline.
 pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for (name, side) in [("before", &diff.before), ("after", &diff.after)] {
@@ -63,7 +63,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     text
 }
 
-/// A row per change.
+/// Returns a table with a row per change.
 pub(super) fn changes_table<'a>() -> Table<'a, &'a TimeChange> {
     let interval = |ends: Option<[f64; 2]>| ends.map(|ends| between(ends, change));
     Table::new("diff")

@@ -1,4 +1,4 @@
-//! Two records of a case compared.
+//! Compares two records of a case.
 
 use super::data::{Change, Detail, Direction};
 use super::pairs::Folder;
@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
 
-/// Right or wrong, as far as a record says.
+/// Right or wrong, if the record decides it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     Right,
@@ -26,7 +26,7 @@ impl Standing {
             Verdict::NotSupported => Self::NotSupported,
             Verdict::Skipped => Self::Skipped,
             bad if record.due_fail && bad.is_violation() => Self::Right,
-            // A selftest that was missed is as grave as what it missed.
+            // A selftest whose fault was missed is as grave as a failure.
             good if record.due_fail && !good.is_bad() => Self::Wrong(Verdict::Fail.severity()),
             bad if bad.is_bad() => Self::Wrong(bad.severity()),
             _ => Self::Right,
@@ -34,7 +34,7 @@ impl Standing {
     }
 }
 
-/// The direction from one record to the other; see the documentation of [`runs`](super).
+/// Returns the direction from one record to the other, as the documentation of [`runs`](super) defines it.
 fn direction(before: &Record, after: &Record) -> Direction {
     if after.unexpected() && !before.unexpected() {
         return Direction::Worse;
@@ -43,7 +43,8 @@ fn direction(before: &Record, after: &Record) -> Direction {
     match (Standing::of(before), Standing::of(after)) {
         (Right, Wrong(_) | NotSupported) => Direction::Worse,
         (Wrong(_) | NotSupported, Right) => Direction::Better,
-        // Of a case that was not drawn nothing is known: to lose it is worse, and a failure that shows now may be old.
+        // Nothing is known of a case that was not drawn: losing it is worse, but a failure that appears can
+        // be old.
         (Wrong(_), Wrong(_)) if before.verdict == Verdict::Blocked => Direction::Other,
         (Wrong(_), Wrong(_)) if after.verdict == Verdict::Blocked => Direction::Worse,
         (Wrong(old), Wrong(new)) if new > old => Direction::Worse,
@@ -52,7 +53,7 @@ fn direction(before: &Record, after: &Record) -> Direction {
     }
 }
 
-/// The differences of two records of a case, or `None` if nothing but times differs.
+/// Returns the differences of two records of a case, or `None` if only times differ.
 pub(super) fn change(
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
@@ -98,7 +99,7 @@ pub(super) fn change(
     })
 }
 
-/// Collects what differs.
+/// The differences found so far.
 #[derive(Default)]
 struct Details(Vec<Detail>);
 
@@ -123,7 +124,7 @@ impl Details {
 
 fn details(before: &Record, after: &Record) -> Vec<Detail> {
     let mut found = Details::default();
-    // A missing frame has no texels; the verdict already shows that it is missing.
+    // A missing frame has no texels. The verdict already shows that it is missing.
     let both_read = before.texels.total > 0 && after.texels.total > 0;
     if both_read {
         let [b, a] = [&before.texels, &after.texels];
@@ -165,20 +166,20 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
     }
     let lost = [before, after].map(|r| {
         let end = r.process.as_ref();
-        // How long it took and what was written are other each time.
+        // The duration and the process's output differ each time.
         end.map(|end| json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit }))
     });
     let [b, a] = lost;
     found.add("process", "end", b, a);
     found.add("repeats", "verdicts", &before.repeats, &after.repeats);
     found.add("order", "only after", &before.after, &after.after);
-    // The words of messages hold addresses; how many there are is the same each time.
+    // Messages contain addresses, so their text differs each time. Only their number is compared.
     let said = [before, after].map(|r| r.validation.len());
     found.add("validation", "messages", said[0], said[1]);
     found.0
 }
 
-/// The differences of the listed wrong texels.
+/// Adds the differences of the listed wrong texels.
 fn wrong(found: &mut Details, before: &Record, after: &Record) {
     let [b, a] = [before, after].map(|r| {
         let place = |t: &WrongTexel| (t.y, t.x, t.sample);
@@ -188,7 +189,7 @@ fn wrong(found: &mut Details, before: &Record, after: &Record) {
     let gone = b.keys().filter(|place| !a.contains_key(place)).count();
     let come = a.keys().filter(|place| !b.contains_key(place)).count();
     if gone + come > 0 {
-        // Counts of two lists: equal ones are a difference too.
+        // The two counts describe different lists, so equal counts are a difference too.
         found.0.push(Detail {
             what: "wrong",
             name: "listed there only".to_owned(),
@@ -209,7 +210,7 @@ fn wrong(found: &mut Details, before: &Record, after: &Record) {
     }
 }
 
-/// The wrong channels of a texel with their codes.
+/// Returns the wrong channels of a texel with their codes.
 fn codes(texel: &WrongTexel) -> BTreeMap<String, u32> {
     let channels = texel.channels.iter();
     channels.map(|c| (channel_of(c), c.actual)).collect()

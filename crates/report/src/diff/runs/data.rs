@@ -1,5 +1,5 @@
 //! The data of a comparison of two runs, which `etalon diff --format json` prints in its serialised form.
-//! Pairs in lists of two are always before and after.
+//! Arrays of two are always before and after.
 
 use etalon_frame::Aspect;
 use etalon_record::{Record, Verdict};
@@ -11,55 +11,54 @@ use serde_json::Value;
 pub struct RunDiff {
     /// `runs`, which distinguishes it from a comparison of benches.
     pub kind: &'static str,
-    /// Reasons for which the comparison may mislead: incomplete runs, other selections, other machines.
+    /// Reasons why the comparison can mislead: incomplete runs, other selections, other machines.
     pub warnings: Vec<String>,
-    /// What the comparison could not tell: records that are missing, selections that are unknown, frames that cannot
-    /// be read.
+    /// What the comparison could not decide: missing records, unknown selections, unreadable frames.
     pub untold: Vec<String>,
     /// The headers side by side.
     pub facts: Vec<Fact>,
-    /// Adapters that are compared with none.
+    /// Adapters without a counterpart.
     pub unpaired: Vec<Unpaired>,
     /// The adapters that are compared.
     pub pairs: Vec<Pair>,
-    /// Cases that changed: worse, better, other; of each the gravest first.
+    /// Cases that changed: worse, better, other; in each group the gravest first.
     pub changes: Vec<Change>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,
-    /// Seconds of drawing by adapter and area, which are an indication and no measurement.
+    /// Seconds of drawing by adapter and area. They are an indication, not a measurement.
     pub times: Vec<AreaTime>,
     /// Frame times of methods that both runs have.
     pub methods: Vec<MethodTime>,
 }
 
 impl RunDiff {
-    /// True if anything is worse.
+    /// Returns true if anything is worse.
     pub fn worse(&self) -> bool {
         self.count(Direction::Worse) > 0 || self.lost() > 0 || self.vanished().next().is_some()
     }
 
-    /// Adapters of the first run that the second one lacks.
+    /// Returns the adapters of the first run that the second lacks.
     pub fn vanished(&self) -> impl Iterator<Item = &Unpaired> {
         self.unpaired.iter().filter(|u| u.worse)
     }
 
-    /// True if something is better and nothing worse.
+    /// Returns true if something is better and nothing worse.
     pub fn only_better(&self) -> bool {
         !self.worse() && self.count(Direction::Better) > 0
     }
 
-    /// The number of changes in this direction.
+    /// Returns the number of changes in this direction.
     pub fn count(&self, direction: Direction) -> u64 {
         let these = self.changes.iter().filter(|c| c.direction == direction);
         these.count() as u64
     }
 
-    /// Cases that the second run was to draw and holds no record of.
+    /// Returns the number of cases that the second run should have drawn and has no record of.
     pub fn lost(&self) -> u64 {
         self.only.iter().filter(|o| o.worse).count() as u64
     }
 
-    /// The number of record pairs that were compared.
+    /// Returns the number of record pairs that were compared.
     pub fn compared(&self) -> u64 {
         self.pairs.iter().map(|p| p.compared).sum()
     }
@@ -69,19 +68,19 @@ impl RunDiff {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// For the worse.
+    /// Worse.
     Worse,
-    /// For the better.
+    /// Better.
     Better,
     /// Neither.
     Other,
 }
 
 impl Direction {
-    /// Every direction, in the order of reports.
+    /// All directions, in the order of reports.
     pub const ALL: [Self; 3] = [Self::Worse, Self::Better, Self::Other];
 
-    /// The word in reports.
+    /// Returns the word in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Worse => "worse",
@@ -95,25 +94,25 @@ impl Direction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
-    /// The first.
+    /// The first run.
     Before,
-    /// The second.
+    /// The second run.
     After,
 }
 
-/// Something that both runs state.
+/// A fact that both runs state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fact {
     /// The name: `driver`, `commit`.
     pub name: &'static str,
-    /// In the first run.
+    /// The value in the first run.
     pub before: String,
-    /// In the second.
+    /// The value in the second run.
     pub after: String,
 }
 
 impl Fact {
-    /// True if the runs differ in it.
+    /// Returns true if the runs differ in it.
     pub fn differs(&self) -> bool {
         self.before != self.after
     }
@@ -141,19 +140,19 @@ pub struct Pair {
     pub facts: Vec<Fact>,
     /// Record pairs that were compared.
     pub compared: u64,
-    /// Of those, how many are the same but for times.
+    /// The number of compared pairs that are equal except for times.
     pub same: u64,
     /// The number of worse records.
     pub worse: u64,
     /// The number of better records.
     pub better: u64,
-    /// The number of records that differ and are neither.
+    /// The number of records that differ and are neither worse nor better.
     pub other: u64,
-    /// The number of cases that only one of them has a record of.
+    /// For each adapter, the number of cases that only it has a record of.
     pub only: [u64; 2],
     /// Changes of verdicts, the most frequent first.
     pub transitions: Vec<Transition>,
-    /// The share of channels of which something was asserted, over the records of both; 0 to 1.
+    /// The share of channels with an assertion, over the records of each run; 0 to 1.
     pub asserted: [f64; 2],
     #[serde(skip)]
     channels: [[u64; 2]; 2],
@@ -168,7 +167,7 @@ impl Pair {
         }
     }
 
-    /// Takes two records of a case into the sums.
+    /// Adds two records of a case to the sums.
     pub(super) fn add(&mut self, both: &[&Record; 2]) {
         self.compared += 1;
         for (side, record) in both.iter().enumerate() {
@@ -204,7 +203,7 @@ impl Pair {
         }
     }
 
-    /// One name where both have the same, else both.
+    /// Returns the name if both adapters have the same, else both names.
     pub fn name(&self) -> String {
         both_names(&self.adapter)
     }
@@ -227,7 +226,7 @@ pub struct Transition {
     pub records: u64,
 }
 
-/// A case whose records differ in more than times.
+/// A case whose records differ in more than their times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// The case.
@@ -242,16 +241,16 @@ pub struct Change {
     pub what: Vec<&'static str>,
     /// The verdicts.
     pub verdict: [Verdict; 2],
-    /// True for each record that is unexpected.
+    /// Whether each record is unexpected.
     pub unexpected: [bool; 2],
-    /// The line that says most about each record.
+    /// The most informative line of each record.
     pub headline: [String; 2],
     /// Figures that differ.
     pub details: Vec<Detail>,
-    /// The frames, where both runs keep one.
+    /// The frames, if both runs keep one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameChange>,
-    /// The reason why the frames could not be compared, if both runs name one.
+    /// The reason why the frames could not be compared, if both records name one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame_error: Option<String>,
 }
@@ -259,9 +258,9 @@ pub struct Change {
 /// A figure of a record that differs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Detail {
-    /// Its kind: `texels` (how many are wrong, imprecise, open), `wrong` (which), `accuracy` (distance
-    /// from the yardstick's middle in codes), `counters`, `distance` (from the truth), `cost` (passes,
-    /// draws, fragments, bytes), `process`, `repeats`, `order`, `validation`.
+    /// The kind: `texels` (how many are wrong, imprecise, open), `wrong` (which), `accuracy` (distance from
+    /// the yardstick's middle in codes), `counters`, `distance` (from the truth), `cost` (passes, draws,
+    /// fragments, bytes), `process`, `repeats`, `order`, `validation`.
     pub what: &'static str,
     /// The figure within the kind: `wrong`, `color mean`.
     pub name: String,
@@ -278,7 +277,7 @@ pub struct FrameChange {
     pub files: [String; 2],
     /// Images that both frames have.
     pub images: Vec<ImageChange>,
-    /// Images that only one frame has, or with another size or format.
+    /// Images that only one frame has, or that differ in size or format.
     pub unlike: Vec<String>,
 }
 
@@ -294,17 +293,17 @@ impl FrameChange {
 pub struct ImageChange {
     /// The attachment.
     pub attachment: String,
-    /// The aspect of it.
+    /// The aspect of the attachment.
     pub aspect: Aspect,
     /// The number of samples.
     pub samples: u64,
     /// The number of samples that differ.
     pub differ: u64,
-    /// The largest distance in any channel, in codes (for floats units in the last place).
+    /// The largest distance in any channel, in codes (for floats, in units in the last place).
     pub largest: u64,
 }
 
-/// A case that one run has a record of, and the other has none.
+/// A case that only one run has a record of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Only {
     /// The case.
@@ -317,11 +316,11 @@ pub struct Only {
     pub side: Side,
     /// Its verdict.
     pub verdict: Verdict,
-    /// True if the second run lacks a record that it was to hold.
+    /// True if the second run should have the record and lacks it.
     pub worse: bool,
 }
 
-/// Seconds of drawing: preparing, drawing and reading back, each case once and beside other work.
+/// Seconds of preparing, drawing and reading back, each case once and while doing other work.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AreaTime {
     /// The adapters.
@@ -330,24 +329,24 @@ pub struct AreaTime {
     pub area: String,
     /// The number of cases that were drawn in both runs.
     pub cases: u64,
-    /// Their seconds together.
+    /// The sum of their seconds.
     pub sum: [f64; 2],
     /// The median of their seconds.
     pub median: [f64; 2],
 }
 
-/// Frame times of a method, medians in seconds while nothing else was drawn or judged.
+/// Frame times of a method: medians in seconds, measured while nothing else was drawn or judged.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodTime {
     /// The case.
     pub case: String,
     /// The adapters.
     pub adapter: [String; 2],
-    /// Until the device was done.
+    /// The time until the device was done.
     pub wall: [f64; 2],
-    /// Between GPU timestamps, where both runs have some.
+    /// The time between GPU timestamps, if both runs have them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gpu: Option<[f64; 2]>,
-    /// The number of frames that were timed.
+    /// The number of timed frames.
     pub samples: [u32; 2],
 }

@@ -1,4 +1,4 @@
-//! The headers of two runs side by side.
+//! The headers of two runs, compared.
 
 use super::data::Fact;
 use super::pairs::Folder;
@@ -7,15 +7,15 @@ use crate::words;
 use etalon_frame::Limits;
 use etalon_record::{AdapterRecord, Header};
 
-/// True if two runs were to draw the same cases. Runs without a digest of their selection count as the same
-/// selection if they have as many cases.
+/// Returns true if two runs should draw the same cases. Runs without a digest of their selection count as the
+/// same selection if they have the same number of cases.
 pub(super) fn same_selection(before: &Header, after: &Header) -> bool {
     let (b, a) = (&before.settings, &after.settings);
     let known = !b.selection.is_empty() && !a.selection.is_empty();
     before.cases == after.cases && b.shard == a.shard && (!known || b.selection == a.selection)
 }
 
-/// The facts of the runs.
+/// Returns the facts of the runs.
 pub(super) fn of_headers(before: &Header, after: &Header) -> Vec<Fact> {
     facts([before, after], |h| {
         let machine = &h.machine;
@@ -33,7 +33,7 @@ pub(super) fn of_headers(before: &Header, after: &Header) -> Vec<Fact> {
     })
 }
 
-/// The facts of two adapters.
+/// Returns the facts of two adapters.
 pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<Fact> {
     let found = [0, 1].map(|i| folders[i].run.header.adapter(adapter[i]));
     let [Some(before), Some(after)] = found else {
@@ -81,7 +81,7 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
         let other = format!("{} with other support than before", count(unlike, "format"));
         only("formats", String::new(), other);
     }
-    // What neither states says nothing.
+    // Drops facts that neither adapter states.
     found.retain(|fact| !fact.before.is_empty() || !fact.after.is_empty());
     found
 }

@@ -19,20 +19,19 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 const OWN_STYLE: &str = include_str!("runs.css");
-/// The most changes that the page lists, of each direction.
+/// The most changes of each direction that the page lists.
 const LISTED: usize = 1000;
-/// The most changes of a case file and direction that are shown with everything known about them.
+/// The most changes of a case file and direction that are shown in full.
 const BODIES: usize = 20;
-/// The most bytes that all pictures of the page take together.
+/// The most bytes of all pictures of the page together.
 const PICTURE_BYTES: usize = 4 << 20;
 /// The most rows of a table of cases.
 const ROWS: usize = 500;
 
-/// Writes a comparison of two runs as one page. The folders are those of the runs, which hold the frames
-/// for its pictures.
+/// Writes a comparison of two runs as one page. The folders of the runs hold the frames for its pictures.
 ///
 /// # Errors
-/// Returns an error if the path names no file, or it cannot be written.
+/// Returns an error if the path names no file, or the file cannot be written.
 pub fn write_page(
     path: &Path,
     diff: &RunDiff,
@@ -105,14 +104,14 @@ fn head(diff: &RunDiff) -> Markup {
     }
 }
 
-/// One thing in both runs.
+/// A property of both runs.
 struct Both {
     name: String,
     sides: [Markup; 2],
     differs: bool,
 }
 
-/// Both sides of what the runs state; rows that differ are marked.
+/// Returns a table of both sides. Rows that differ are marked.
 fn both(rows: impl IntoIterator<Item = Both>) -> Markup {
     Table::new("two")
         .row_class(|row: &Both| if row.differs { "differs" } else { "" })
@@ -168,7 +167,7 @@ fn section(
     if total == 0 {
         return html! {};
     }
-    // One of each kind goes before the second of any; then they are shown by case file.
+    // Chooses one change of each kind before the second of any kind, then groups the chosen by case file.
     let chosen: HashSet<*const Change> = phrases::spread(&diff.changes, direction)
         .into_iter()
         .take(LISTED)
@@ -319,9 +318,9 @@ fn reading() -> Markup {
             h2 { "Worse and better" }
             p {
                 b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
-                "one that became a graver one; a case that was right and is not supported any more; a case that "
-                "both runs select and the second one holds no record of; and an adapter that vanished. " b { "Better" } " is the way "
-                "back. Other pixels, counters and distances under the same verdict are " b { "other" }
+                "verdict that became a graver one; a case that was right and is no longer supported; a case that "
+                "both runs select and the second has no record of; and an adapter that vanished. " b { "Better" } " is the "
+                "reverse. Other pixels, counters and distances under the same verdict are " b { "other" }
                 " changes, and so is pass to imprecise, which is legal."
             }
         }

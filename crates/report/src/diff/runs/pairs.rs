@@ -1,4 +1,4 @@
-//! The pairs of adapters and records of two runs that are compared.
+//! Pairs of adapters and records of two runs to compare.
 
 use super::data::{Side, Unpaired};
 use crate::error::ReportError;
@@ -6,11 +6,11 @@ use etalon_record::{Record, Run};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// A run with its folder, its records by adapter and case.
+/// A run with its folder, and its records by adapter and case.
 pub(super) struct Folder<'a> {
     pub(super) path: &'a Path,
     pub(super) run: &'a Run,
-    /// The header's adapters, then any that only records name.
+    /// The header's adapters, then adapters that only records name.
     adapters: Vec<&'a str>,
     records: HashMap<&'a str, HashMap<&'a str, &'a Record>>,
 }
@@ -28,7 +28,7 @@ impl<'a> Folder<'a> {
         }
         for record in &run.records {
             let cases = records.entry(&record.adapter).or_default();
-            // A run has one record per case and adapter; should it have two, the worse one counts.
+            // A run has one record per case and adapter. If a damaged one has two, the worse counts.
             let rank = |r: &Record| (r.unexpected(), r.verdict.severity());
             let place = cases.entry(&record.case).or_insert(record);
             if rank(place) < rank(record) {
@@ -57,9 +57,9 @@ impl<'a> Folder<'a> {
 pub(super) struct Matched<'a> {
     /// Cases that both have a record of, by id.
     pub(super) both: Vec<[&'a Record; 2]>,
-    /// Records of the first that the second has no partner of, by id.
+    /// Records of the first without a partner in the second, by id.
     pub(super) before: Vec<&'a Record>,
-    /// Records of the second that the first has none of.
+    /// Records of the second without a partner in the first, by id.
     pub(super) after: Vec<&'a Record>,
 }
 
@@ -83,7 +83,8 @@ impl<'a> Matched<'a> {
     }
 }
 
-/// The pairs of adapters: those that were named, or the only two there are, or those of the same name.
+/// Returns the pairs of adapters: the named pair, or the only adapter of each run, or all adapters of the
+/// same name.
 pub(super) fn choose<'a>(
     before: &Folder<'a>,
     after: &Folder<'a>,
@@ -115,7 +116,7 @@ pub(super) fn choose<'a>(
     Ok(pairs)
 }
 
-/// The adapters that are in no pair. If the pair was `named`, all others were left out on purpose.
+/// Returns the adapters that are in no pair. If the pair was `named`, all others were left out on purpose.
 pub(super) fn unpaired(
     before: &Folder<'_>,
     after: &Folder<'_>,

@@ -1,4 +1,4 @@
-//! Differences of runs in words, shared by terminal and page.
+//! Differences of runs in words, for the terminal and the page.
 
 use super::data::{Change, Detail, Direction, FrameChange, Only, Pair, RunDiff, Side};
 use crate::lists;
@@ -8,7 +8,8 @@ use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A sign that distinguishes directions without colour, the colour on a terminal, and the title on a page.
+/// Returns a sign that distinguishes directions without colour, the colour on a terminal, and the title on a
+/// page.
 pub(super) fn look(direction: Direction) -> [&'static str; 3] {
     match direction {
         Direction::Worse => ["✗", "31", "Worse"],
@@ -17,7 +18,7 @@ pub(super) fn look(direction: Direction) -> [&'static str; 3] {
     }
 }
 
-/// `pass → fail (expected)`, or the one verdict with what differs under it.
+/// Returns `pass → fail (expected)`, or the unchanged verdict with what differs under it.
 pub(super) fn verdicts(change: &Change) -> String {
     let [before, after] = change.verdict;
     if before != after {
@@ -35,12 +36,12 @@ pub(super) fn verdicts(change: &Change) -> String {
     format!("{} as before, other {what}", name(before))
 }
 
-/// `pass → fail`.
+/// Returns `pass → fail`.
 fn transition([before, after]: [Verdict; 2]) -> String {
     format!("{} → {}", name(before), name(after))
 }
 
-/// `2 pass → fail, 1 fail → pass`.
+/// Returns `2 pass → fail, 1 fail → pass`.
 pub(super) fn transitions(pair: &Pair) -> String {
     let each = pair
         .transitions
@@ -49,7 +50,7 @@ pub(super) fn transitions(pair: &Pair) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-/// The change of the expectations, where it alone decides the direction.
+/// Returns the change of the expectations, if it alone decides the direction.
 pub(super) fn expectation(change: &Change) -> Option<&'static str> {
     match change.unexpected {
         [false, true] if !change.verdict[0].is_bad() => None,
@@ -59,7 +60,7 @@ pub(super) fn expectation(change: &Change) -> Option<&'static str> {
     }
 }
 
-/// A figure as people read it.
+/// Returns a figure as people read it.
 pub(super) fn value(value: &Value) -> String {
     match value {
         Value::Null => "–".to_owned(),
@@ -86,7 +87,7 @@ pub(super) fn value(value: &Value) -> String {
     }
 }
 
-/// Four digits, as a power of ten where many zeros would stand before or behind them.
+/// Returns four significant digits, with a power of ten if the number would have many zeros.
 fn short(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
@@ -99,7 +100,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// `color mean 0.25 → 0.5`.
+/// Returns `color mean 0.25 → 0.5`.
 pub(super) fn detail(detail: &Detail) -> String {
     format!(
         "{}: {} → {}",
@@ -109,7 +110,7 @@ pub(super) fn detail(detail: &Detail) -> String {
     )
 }
 
-/// The name of a figure.
+/// Returns the name of a figure.
 pub(super) fn title(detail: &Detail) -> String {
     let kind = match detail.what {
         "texels" => "samples",
@@ -123,7 +124,7 @@ pub(super) fn title(detail: &Detail) -> String {
     format!("{kind}, {}", detail.name)
 }
 
-/// The differences of two frames, image by image.
+/// Returns the differences of two frames, image by image.
 pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
     let images = frame.images.iter().map(|image| {
         let thing = if image.attachment == image.aspect.name() {
@@ -146,7 +147,7 @@ pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
     images.chain(unlike).collect()
 }
 
-/// Changes of one direction, one of each kind before the second of any, and all else in their order.
+/// Returns the changes of one direction: one of each kind first, then the others in their order.
 pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
     let these = changes.iter().filter(|c| c.direction == direction);
     let mut these: Vec<&Change> = these.collect();
@@ -156,8 +157,8 @@ pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
     these
 }
 
-/// Cases in one run only, counted by case file: file, adapter, side, whether that is worse, how many,
-/// and one of them.
+/// Groups the cases in one run only by case file, adapter, side and whether that is worse. Returns one case
+/// of each group, with the number of cases.
 pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
     let mut found: BTreeMap<(bool, &str, &str, bool), (&Only, u64)> = BTreeMap::new();
     for feature in only {
@@ -172,7 +173,7 @@ pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
     found.into_values().collect()
 }
 
-/// `before only`.
+/// Returns `before only` or `after only`.
 pub(super) fn side(side: Side) -> &'static str {
     match side {
         Side::Before => "before only",
@@ -180,8 +181,8 @@ pub(super) fn side(side: Side) -> &'static str {
     }
 }
 
-/// What is worse and no change, and what could not be told: records lost, adapters that vanished, the rest. Empty, or
-/// begins with what separates it from counts before it.
+/// Returns what is worse besides the changes, and what could not be decided: lost records, vanished adapters,
+/// the rest. The text is empty or begins with a separator from the counts before it.
 pub(super) fn beside(diff: &RunDiff) -> String {
     let mut text = String::new();
     if diff.lost() > 0 {
@@ -197,7 +198,7 @@ pub(super) fn beside(diff: &RunDiff) -> String {
     text
 }
 
-/// After over before, as a signed change.
+/// Returns after over before, as a signed change.
 pub(super) fn ratio([before, after]: [f64; 2]) -> String {
     change(after / before)
 }

@@ -1,4 +1,4 @@
-//! Frames of two runs compared code by code.
+//! Compares frames of two runs code by code.
 
 use super::data::{FrameChange, ImageChange};
 use super::pairs::Folder;
@@ -6,7 +6,8 @@ use crate::picture::{self, Strip};
 use etalon_record::{FrameFile, FrameImage, Record, Run};
 use std::path::Path;
 
-/// The frames of a case: nothing where a run keeps none, the reason where one cannot be read.
+/// Compares the frames of a case. Returns `None` if a run keeps no frame, and the reason if a frame cannot be
+/// read.
 pub(super) fn compare(
     folders: &[Folder<'_>; 2],
     both: &[&Record; 2],
@@ -27,8 +28,8 @@ pub(super) fn compare(
     )
 }
 
-/// Pictures of the images that differ: before, after, and where. Empty when the files cannot be read any
-/// more.
+/// Returns pictures of the images that differ: before, after, and the difference. The list is empty if the
+/// files can no longer be read.
 pub(super) fn strips(folders: &[&Path; 2], frame: &FrameChange) -> Vec<Strip> {
     let [before, after] = &frame.files;
     let Ok(frames) = read(folders, [before, after]) else {
@@ -44,7 +45,8 @@ fn read(folders: &[&Path; 2], files: [&str; 2]) -> Result<[FrameFile; 2], String
     Ok([frame(0)?, frame(1)?])
 }
 
-/// Images of the same thing, and the names of those that have no partner of their shape.
+/// Returns pairs of images of the same attachment, and the names of images without a partner of the same
+/// shape.
 fn matched(frames: &[FrameFile; 2]) -> (Vec<[&FrameImage; 2]>, Vec<String>) {
     let [before, after] = frames;
     let name = |i: &FrameImage| format!("{} {}", i.attachment, i.aspect);
@@ -64,7 +66,7 @@ fn matched(frames: &[FrameFile; 2]) -> (Vec<[&FrameImage; 2]>, Vec<String>) {
     (images, unlike)
 }
 
-/// Samples with their codes of all channels.
+/// Returns pairs of samples, each with the codes of all channels.
 fn samples<'a>(
     before: &'a FrameImage,
     after: &'a FrameImage,
@@ -96,8 +98,8 @@ fn image(before: &FrameImage, after: &FrameImage) -> ImageChange {
     change
 }
 
-/// The pictures of one image: the first run's stands where the allowed one does in other strips, so that
-/// the difference is that of the two runs.
+/// Returns the pictures of one image. The first run's picture takes the place of the allowed one, so the
+/// difference picture compares the two runs.
 fn between(before: &FrameImage, after: &FrameImage) -> Option<Strip> {
     let mark = |(old, new): (&[u32], &[u32])| {
         if old == new {

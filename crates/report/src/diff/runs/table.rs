@@ -9,7 +9,7 @@ use crate::table::{Table, some};
 use crate::terminal::TableOptions;
 use crate::words::{name, plain};
 
-/// The most changes of a direction that are listed.
+/// The most changes of a direction that the table lists.
 const LISTED: [(Direction, usize); 3] = [
     (Direction::Worse, 20),
     (Direction::Better, 10),
@@ -17,12 +17,14 @@ const LISTED: [(Direction, usize); 3] = [
 ];
 /// The most lines of cases in one run only, and of methods.
 const LINES: usize = 10;
-/// The most figures of a change.
+/// The most figures of a change in the table.
 const FIGURES: usize = 4;
 
-/// Warnings, differences of the headers, a table of adapters, changes, the gravest
-/// first (at most 20 that are worse, 10 that are better, 10 others; one of each kind before the second of
-/// any), cases in one run only, times, and the sum. Always ends in a newline.
+/// Returns the comparison as text: warnings, differences of the headers, a table of adapters, changes, cases
+/// in one run only, times, and the sum.
+///
+/// Lists at most 20 worse changes, 10 better and 10 others, one of each kind before the second of any, the
+/// gravest first. The text always ends in a newline.
 pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for warning in &diff.warnings {
@@ -79,7 +81,7 @@ fn fact_line(name: &str, what: &str, before: &str, after: &str) -> String {
     format!("{name}{what}: {} → {}\n", shown(before), shown(after))
 }
 
-/// A row per pair of adapters.
+/// Returns a table with a row per pair of adapters.
 pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
     Table::new("")
         .head("adapter", |pair: &&Pair| adapter(&pair.name()))
@@ -130,7 +132,7 @@ fn changes(
         *text += &format!("{}  {adapter}  {case}\n", options.paint(&head, color));
         let mut lines: Vec<String> = Vec::new();
         if change.verdict[0] != change.verdict[1] {
-            // The worse of the two says why.
+            // The headline of the worse record gives the reason.
             lines.push(change.headline[usize::from(direction != Direction::Better)].clone());
         }
         lines.extend(phrases::expectation(change).map(str::to_owned));
@@ -200,7 +202,7 @@ fn times(text: &mut String, diff: &RunDiff, options: TableOptions) {
     text.push('\n');
 }
 
-/// A row per area and pair of adapters.
+/// Returns a table with a row per area and pair of adapters.
 pub(super) fn area_table<'a>() -> Table<'a, &'a AreaTime> {
     Table::new("")
         .head("adapter", |time: &&AreaTime| {
@@ -216,7 +218,7 @@ pub(super) fn area_table<'a>() -> Table<'a, &'a AreaTime> {
         .number("change", |time| phrases::ratio(time.median))
 }
 
-/// A row per method and pair of adapters.
+/// Returns a table with a row per method and pair of adapters.
 pub(super) fn method_table<'a>() -> Table<'a, &'a MethodTime> {
     Table::new("")
         .head("method", |time: &&MethodTime| &*time.case)
@@ -249,7 +251,7 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
     }
 }
 
-/// The last line, in the colour of its conclusion: green only if everything could be told.
+/// Returns the last line, in the colour of its conclusion: green only if everything could be decided.
 fn sum(diff: &RunDiff, options: TableOptions) -> String {
     let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
     let same: u64 = diff.pairs.iter().map(|p| p.same).sum();

@@ -1,4 +1,4 @@
-//! Times of two runs.
+//! Compares times of two runs.
 
 use super::data::{AreaTime, MethodTime};
 use crate::numbers::median;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 pub(super) const STATEMENT: &str = "A run takes each time once, beside other work: these times are an indication. Only \
     `etalon bench` and the diff of two benches prove a change.";
 
-/// Seconds of drawing by area, over the cases that were drawn in both runs.
+/// Returns seconds of drawing by area, over the cases that were drawn in both runs.
 pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> {
     let drawn = |r: &Record| {
         let none = matches!(r.verdict, Verdict::NotSupported | Verdict::Skipped);
@@ -33,7 +33,7 @@ pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> 
         .collect()
 }
 
-/// Frame times of methods, where both runs have them.
+/// Returns frame times of the methods that both runs have.
 pub(super) fn methods(both: &[[&Record; 2]]) -> Vec<MethodTime> {
     let mut found = Vec::new();
     for [old, new] in both {

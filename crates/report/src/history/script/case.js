@@ -1,7 +1,7 @@
 // One case over all runs of every adapter.
 const STRIP = 900;
 const MOST_ROWS = 100;
-const LOST = "A file of this page cannot be loaded: is the folder data beside it?";
+const LOST = "A file of this page cannot be loaded: is the folder “data” next to the page?";
 
 async function showCase(id, into) {
   const [known, names] = await Promise.all([runs(), allCases()]);
@@ -42,7 +42,7 @@ function courseOf(known, [number, first, last, flat, gapList = [], eventList = [
   const events = [];
   for (let i = 0; i < eventList.length; i += 3) events.push({ kind: eventList[i], after: eventList[i + 1], at: eventList[i + 2] });
   const now = spans[spans.length - 1];
-  // A release that was not drawn is told apart in the list of spans alone.
+  // A release that was not drawn differs only in the list of spans.
   let since = spans.length - 1;
   while (since > 0 && spans[since - 1].look.text === now.look.text) since--;
   const gone = last < line.runs.length - 1 && line.runs.slice(last + 1).some(one => one.whole);
@@ -84,7 +84,7 @@ function spanTable(line, spans) {
     ["Verdict", "From", "To", "Runs", "Reason"], rows);
 }
 
-// The spans as a strip over the runs of the timeline; the table behind it says the same.
+// The spans as a strip over the runs of the timeline; the table after it shows the same.
 function strip(line, spans, missing, first, last) {
   const runs = line.runs.length;
   const x = run => (run / runs * STRIP).toFixed(1);
@@ -98,7 +98,7 @@ function strip(line, spans, missing, first, last) {
     for (let run = from; run < end; run++) if (line.runs[run].whole) svg.append(box(run, run + 1, "empty"));
   }
   svg.append(shape("text", { x: 0, y: 37 }, line.runs[0].run.day), shape("text", { x: STRIP, y: 37, "text-anchor": "end" }, line.runs[runs - 1].run.day));
-  // The driver's versions, as far as there is room for them.
+  // The driver's versions, if there is room for them.
   let free = 90;
   for (let run = 1; run < runs; run++) {
     if (line.runs[run].version === line.runs[run - 1].version) continue;

@@ -64,7 +64,7 @@ function chart(line, time) {
   parts.push(make("p", { class: "cap" }, visible + "a run differs from its level by " + (time.noise * 100).toPrecision(2) + " %."));
   if (time.changes.length) parts.push(changeTable(time));
   for (const [from, to, ratio, machine] of time.drifts) {
-    parts.push(make("p", {}, "Drifts by " + sized(ratio) + " from " + time.runs[from].run.day + " to " + time.runs[to - 1].run.day + (machine ? "; the machine's: the ruler drifts along." : ".")));
+    parts.push(make("p", {}, "Drifts by " + sized(ratio) + " from " + time.runs[from].run.day + " to " + time.runs[to - 1].run.day + (machine ? "; caused by the machine, because the ruler drifts too." : ".")));
   }
   parts.push(folded("Numbers of " + time.name, () => numberTable(time)));
   return parts;

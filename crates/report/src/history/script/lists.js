@@ -14,7 +14,7 @@ async function allCases() {
 
 const caseLink = id => make("a", { href: addressOf(id) }, make("code", {}, id));
 
-// A label that is an address leads there; any other text stays text.
+// Links a label that is a URL; any other text stays text.
 function labelOf(text) {
   if (!/^https?:\/\//.test(text) || !URL.canParse(text)) return text;
   return make("a", { href: new URL(text).href, rel: "noreferrer" }, text);
@@ -65,7 +65,7 @@ async function showAdapter(name, into) {
     if (own !== of || ownGood !== good) parts.push(make("small", { class: "c" }, percent(ownGood, own) + " of " + whole(own)));
     return parts;
   })));
-  into.append(make("p", { class: "cap" }, "Bold: good of the cases that all whole runs of this adapter have a verdict of. Small: of all cases of that run. ",
+  into.append(make("p", { class: "cap" }, "Bold: the good share of the cases with a verdict in all whole runs of this adapter. Small: of all cases of that run. ",
     counted(line.runs.length - data.rows.length, "run") + " of parts of the suite are left out."));
   into.append(table("Whole runs, newest first" + (data.rows.length > rows.length ? ": the last " + rows.length + " of " + data.rows.length : ""),
     ["Run", ...shown.map(area => data.areas[area])], rows));

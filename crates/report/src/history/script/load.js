@@ -1,4 +1,4 @@
-// Files beside the page. Texts of the history become text nodes and nothing else, but for labels that are addresses.
+// Files next to the page. Texts of the history become text nodes; only labels that are URLs become links.
 const index = JSON.parse($("index").textContent);
 const need = beside("etalonHistory", name => "data/" + name + ".js");
 
@@ -6,7 +6,7 @@ const need = beside("etalonHistory", name => "data/" + name + ".js");
 const shape = (name, attributes, ...children) =>
   filled(document.createElementNS("http://www.w3.org/2000/svg", name), attributes, children);
 
-// The last of ascending values that is not above one; -1 where all are.
+// Returns the place of the last ascending value up to `value`; -1 if all are larger.
 function placeOf(values, value) {
   let low = 0;
   let high = values.length;

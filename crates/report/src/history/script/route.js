@@ -1,8 +1,8 @@
-// The view of an address, and the keyboard.
+// The view that the URL names, and the keyboard.
 const [start, view, find, q, status] = ["start", "view", "find", "q", "view-state"].map($);
 let scrolled = 0;
 
-// A view from how it is titled and what fills it.
+// Returns a view with a title and a function that fills it.
 const filling = (titled, fill) => async text => {
   if (!start.hidden) scrolled = scrollY;
   // A search keeps the focus in its field, which is above the view while it is used.
@@ -55,7 +55,7 @@ addEventListener("keydown", event => {
   event.preventDefault();
 });
 
-// To the next link, or the one before, of what is seen.
+// Focuses the next or the previous visible link.
 function go(by) {
   const links = [...(view.hidden ? start : $("view-body")).querySelectorAll("a, summary")].filter(link => link.checkVisibility());
   const at = links.indexOf(document.activeElement);

@@ -30,12 +30,12 @@ function runLink(one) {
   return make("a", { href: "#run=" + one.run.id }, one.run.day);
 }
 
-// A run of a timeline: its day, its number, and the version of the driver then.
+// A run of a timeline: its day, its number, and the driver's version at that time.
 function told(one) {
   return [runLink(one), " ", make("small", {}, "run " + one.run.id + ", " + (one.version || "no version"))];
 }
 
-// What two runs of a timeline tell of what lies between them.
+// What changed between two runs of a timeline.
 function range(before, after) {
   const same = (a, b, noun) => a === b ? "same " + noun : noun + " " + (a || "unknown") + " → " + (b || "unknown");
   const short = commit => commit.slice(0, 12);

@@ -1,4 +1,4 @@
-// Holds two adapters' tables against each other, place by place, and opens the samples that a link names.
+// Compares two adapters' tables place by place, and opens the samples that a link names.
 const sections = [...document.querySelectorAll("section.adapter")];
 const one = $("one");
 const other = $("other");
@@ -24,7 +24,7 @@ const show = () => {
     cell.classList.add(ratio >= 1 ? "faster" : "slower");
     cell.style.setProperty("--h", `${Math.min(Math.abs(Math.log2(ratio)) * 20, 60).toFixed(0)}%`);
   });
-  // Intervals and shares are of one adapter alone.
+  // Intervals and shares belong to one adapter.
   copy.querySelectorAll(".list tr").forEach((row) => [...row.children].slice(2).forEach((e) => e.remove()));
   copy.querySelectorAll(".list thead th:nth-child(2)").forEach((e) => { e.textContent = "ratio"; });
   copy.querySelectorAll(".heat caption").forEach((e) => { e.textContent = e.textContent.replace(/,.*/, ", ratio of rates"); });

@@ -1,4 +1,4 @@
-//! Checks a claim against the records of a run, knowing only its data.
+//! Checks a claim against the records of a run, from the claim's data alone.
 
 use super::outcome::{Figure, Holds, Unit};
 use crate::methods::breaks::{self, Break, LIMIT};
@@ -6,21 +6,21 @@ use crate::methods::data::{Methods, Point, SceneSeries, Series, Setting, usable}
 use crate::numbers::{digits, share};
 use etalon_methods::{Claim, Condition, Quantity, Test, Values};
 
-/// Half a step between two codes of 8 bits.
+/// Half a step between two 8-bit codes.
 const HALF_CODE: f64 = 0.5 / 255.0;
 
-/// The factor by which an error may be larger and still count as the same.
+/// The factor up to which two errors count as the same.
 const ALIKE: f64 = 1.5;
 
-/// A claim and what the records say of it.
+/// A claim and what the records show about it.
 pub(super) struct Checked<'a> {
     pub(super) claim: &'static Claim,
     pub(super) figures: Vec<Figure>,
-    /// Adapters that count fragments before the depth test, where that matters.
+    /// Adapters that count fragments before the depth test, for claims that depend on it.
     pub(super) blind: Vec<&'a str>,
 }
 
-/// The figures for and against a claim; none where the records have none.
+/// Returns the figures for and against a claim.
 pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked<'a> {
     let mut checked = Checked {
         claim,
@@ -66,7 +66,7 @@ struct On<'s, 'a> {
     name: &'a str,
 }
 
-/// A figure and the setting that it is of; none for those of whole curves.
+/// A figure and its setting; `None` for a figure of a whole curve.
 type Found<'a> = (Option<Setting<'a>>, Figure);
 
 impl<'a> On<'_, 'a> {
@@ -125,7 +125,7 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    /// True if the adapter's count is lowered by the depth test at a setting.
+    /// Returns true if the depth test lowers the adapter's count at a setting.
     fn counts(&self, setting: &Setting<'a>) -> bool {
         let Some([less, more]) = self.claim.fewer else {
             return true;
@@ -142,7 +142,7 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    /// A figure at each setting that counts and where there is one.
+    /// Returns a figure at each setting that counts and has one.
     fn at_settings(
         &self,
         figure: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
@@ -160,7 +160,7 @@ impl<'a> On<'_, 'a> {
         found.collect()
     }
 
-    /// A figure of each curve of a method.
+    /// Returns a figure of each curve of a method.
     fn per_series(
         &self,
         method: &str,
@@ -217,7 +217,7 @@ impl<'a> On<'_, 'a> {
         measured(self.point(setting, method)?, quantity)
     }
 
-    /// A sum over methods; none unless all of them were measured.
+    /// Returns a sum over methods, or `None` unless all of them were measured.
     fn sum(
         &self,
         setting: &Setting<'a>,
@@ -239,7 +239,7 @@ impl<'a> On<'_, 'a> {
         Some(sum)
     }
 
-    /// The points of a curve that count, in order.
+    /// Returns the points of a curve that count, in order.
     fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p Point<'a>> {
         let times = series.on(self.adapter);
         times
@@ -266,7 +266,7 @@ impl<'a> On<'_, 'a> {
         found.collect()
     }
 
-    /// Both methods at every value that has both.
+    /// Compares both methods at each value that both have.
     fn unlike(&self, right: &str, wrong: &str) -> Vec<Found<'a>> {
         let settings = self.scene.settings().into_iter();
         let pairs: Vec<(f64, f64)> = settings
@@ -290,7 +290,7 @@ impl<'a> On<'_, 'a> {
         )]
     }
 
-    /// Each value of one method against twice the value of the other.
+    /// Compares each value of one method with twice the value of the other.
     fn halves(&self, of: &str, over: &str) -> Vec<Found<'a>> {
         let curve = |method: &str| -> Vec<(f64, f64, u32)> {
             let series = self.scene.series.iter().filter(|s| s.method == method);
@@ -311,8 +311,8 @@ impl<'a> On<'_, 'a> {
         figures.collect()
     }
 
-    /// The value from which on a curve stays within the limit; none where it never does, and nothing at all
-    /// where it has too few points to tell.
+    /// Returns the value from which on a curve stays within the limit, `Some(None)` if it never does, and
+    /// `None` if it has too few points to decide.
     fn resolved(&self, series: &Series<'a>) -> Option<Option<f64>> {
         let curve = series.curve(self.adapter);
         let ratio = curve.last()?.0 / curve.first()?.0;
@@ -338,14 +338,14 @@ impl<'a> On<'_, 'a> {
         let mut found = Vec::new();
         for base in curves(wide) {
             for other in curves(narrow).filter(|s| s.variant == base.variant) {
-                // The same values of both, else nothing is compared.
+                // Only curves over the same values are compared.
                 let same = base.values() == other.values();
                 let (Some(a), Some(b)) = (self.resolved(other), self.resolved(base)) else {
                     continue;
                 };
                 let figure = match (a, b) {
                     _ if !same => continue,
-                    // Nothing that was drawn resolves either.
+                    // Neither method resolves any value.
                     (None, None) => continue,
                     (Some(a), Some(b)) => self.figure("", Unit::Factor, a / b, [a / b; 2], holds),
                     (Some(a), None) => {
@@ -384,7 +384,7 @@ impl<'a> On<'_, 'a> {
     }
 }
 
-/// A quantity of one record with its interval.
+/// Returns a quantity of one record with its interval.
 fn measured(point: &Point<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
     let exact = |v: f64| (v, [v; 2]);
     let m = point.measured;
@@ -394,7 +394,7 @@ fn measured(point: &Point<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
         Quantity::Passes => Some(exact(f64::from(m.passes))),
         Quantity::Draws => Some(exact(f64::from(m.draws))),
         Quantity::Fragments => m.fragments.map(|n| exact(n as f64)),
-        // A time without an interval says nothing of how far it may be off.
+        // A time without an interval does not show its uncertainty.
         Quantity::Time => Some((point.wall()?, point.interval()?)),
     }
 }

@@ -1,38 +1,38 @@
-//! The figures for and against a claim, and what they come to together.
+//! The figures for and against a claim, and their conclusion.
 
 use crate::numbers::{digits, share};
 
-/// One case's figure.
+/// The figure of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Figure {
     /// The family of cases.
     pub(super) scene: String,
-    /// The setting; empty where the figure is of a whole curve.
+    /// The setting; empty if the figure is of a whole curve.
     pub(super) setting: String,
     /// The adapter.
     pub(super) adapter: String,
     /// The kind of its number.
     pub(super) unit: Unit,
-    /// The number and the ends of its interval, which are the number itself where it is exact.
+    /// The number and the ends of its interval, which equal the number if it is exact.
     pub(super) value: f64,
     pub(super) interval: [f64; 2],
     pub(super) holds: Holds,
 }
 
-/// The kind of a figure.
+/// The unit of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Unit {
     /// A ratio of two measurements: `×0.52`.
     Factor,
     /// A share of full brightness.
     Share,
-    /// A number of these.
+    /// A number of these things.
     Count(&'static str),
-    /// A text that says it all.
+    /// A text in place of a number.
     Text(String),
 }
 
-/// True, false, or neither because the figure's interval reaches over the limit.
+/// True, false, or undecided because the figure's interval crosses the limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Holds {
     Yes,
@@ -41,7 +41,7 @@ pub(super) enum Holds {
 }
 
 impl Holds {
-    /// The outcome of a figure whose interval lies inside, outside or across a condition.
+    /// Returns the outcome for an interval inside, outside or across a condition.
     pub(super) fn of(met: impl Fn(f64) -> bool, value: f64, [low, high]: [f64; 2]) -> Self {
         let values = [low, value, high];
         match values.iter().filter(|v| met(**v)).count() {
@@ -67,7 +67,7 @@ impl From<bool> for Holds {
 }
 
 impl Figure {
-    /// The text of a figure that is no number; figures with the same can be told as one range.
+    /// Returns the text of a figure without a number. Figures with equal texts can be reported together.
     pub(super) fn text(&self) -> Option<&str> {
         match &self.unit {
             Unit::Text(text) => Some(text),
@@ -75,7 +75,7 @@ impl Figure {
         }
     }
 
-    /// Some figures as a range, with the interval around all of them where it is wider.
+    /// Returns some figures as a range, with the interval around all of them if it is wider.
     pub(super) fn range(figures: &[&Self]) -> String {
         let Some(first) = figures.first() else {
             return String::new();
@@ -114,11 +114,11 @@ impl Figure {
 /// The degree to which a claim was reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reproduction {
-    /// In every case.
+    /// In all cases.
     Reproduced,
-    /// In so many of so many cases.
+    /// In some of all cases: the number of these, and of all.
     Partly(usize, usize),
-    /// In none, and refuted in some.
+    /// In no case, and refuted in some.
     NotReproduced,
     /// No case decides it.
     Undecided,

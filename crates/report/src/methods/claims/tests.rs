@@ -2,7 +2,7 @@ use super::*;
 use crate::methods::tests::made::{Made, run};
 use etalon_methods::{Claim, Condition, Quantity, Test, Values};
 
-/// The claim whose title begins like this, checked against a run.
+/// Checks the claim whose title begins like this against a run.
 fn outcome(title: &str, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<String>) {
     let claim = claims().find(|c| c.title.starts_with(title)).unwrap();
     of(claim, made)
@@ -23,7 +23,7 @@ fn told(figures: &[Figure]) -> Vec<String> {
         .collect()
 }
 
-/// A figure that meets a condition, and one that does not.
+/// Returns a figure that meets a condition, and a figure that does not.
 fn figures(condition: Condition) -> [f64; 2] {
     match condition {
         Condition::Below(limit) | Condition::AtMost(limit) => [limit * 0.8, limit * 1.5],
@@ -32,7 +32,7 @@ fn figures(condition: Condition) -> [f64; 2] {
     }
 }
 
-/// The first family of a claim, and two values of its parameter that count.
+/// Returns the first family of a claim, and two values of its parameter that count.
 fn place(claim: &Claim) -> (String, [f64; 2]) {
     let family = claim.families.first().copied().unwrap_or("scene");
     let values = match claim.values {
@@ -72,7 +72,7 @@ fn with(made: Made, quantity: Quantity, figure: f64) -> Made {
     }
 }
 
-/// Records that meet a claim, or that refute it.
+/// Returns records that meet a claim, or that refute it.
 fn made(claim: &Claim, good: bool) -> Vec<Made> {
     let (scene, values) = place(claim);
     let setting =
@@ -94,7 +94,7 @@ fn made(claim: &Claim, good: bool) -> Vec<Made> {
             holds,
         } => {
             for value in values {
-                // Every negative term is a tenth; the one positive term makes up for it.
+                // Every negative term has figure 2; the positive term compensates for it.
                 let mut add = |terms: &[(&str, f64)], sum: f64| {
                     let less = terms.iter().filter(|t| t.1 < 0.0).count() as f64 * 2.0;
                     for (method, sign) in terms {
@@ -195,7 +195,7 @@ fn every_claim_has_figures_that_reproduce_and_figures_that_refute_it() {
     }
 }
 
-/// Every comparison needs all of its methods, at the same setting.
+/// A comparison needs all of its methods at the same setting.
 #[test]
 fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
     let lonely = [Made::new("elsewhere/scene/method=other").at("k", 1.0)];
@@ -233,7 +233,7 @@ fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
                 claim.title
             );
         }
-        // Each method at values of its own, as a covering array has them.
+        // Each method at its own values, as in a covering array.
         let mut apart = records.clone();
         for (i, made) in apart.iter_mut().enumerate() {
             made.parameter = Some(("p", 100.0 + i as f64));
@@ -244,7 +244,7 @@ fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
     }
 }
 
-/// The prepass draws in the order of `unsorted`: its own fragments are not shaded ones.
+/// The prepass draws in the order of `unsorted`, and its own fragments do not count as shaded.
 #[test]
 fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
     let records = |sorted, prepass| {
@@ -260,19 +260,19 @@ fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
         })
     };
     let title = "Drawing front to back";
-    // 1500 of the prepass and 1000 shaded.
+    // The prepass draws 1500 fragments, and 1000 are shaded.
     let (found, figures, _) = outcome(title, &records(1000, 2500));
     assert_eq!(found, Reproduction::Reproduced);
     assert_eq!(told(&figures), ["×1 rooms at layers 8 on cpu"]);
-    // A fifth as many as the prepass runs in all, but far fewer than it shades: ×0.24 against ×1.2 once passed.
+    // A fifth of all fragments of the prepass, but far fewer than it shades.
     let (found, figures, _) = outcome(title, &records(300, 2500));
     assert_eq!(found, Reproduction::NotReproduced, "{figures:?}");
-    // One that shades half as much again.
+    // Half again as many fragments as the prepass shades.
     assert_eq!(
         outcome(title, &records(1500, 2500)).0,
         Reproduction::NotReproduced
     );
-    // An adapter that counts before the depth test says nothing.
+    // An adapter that counts before the depth test decides nothing.
     let mut blind = records(4000, 8000);
     blind[1].fragments = Some(4000);
     let (found, _, names) = outcome(title, &blind);
@@ -310,11 +310,11 @@ fn as_much_is_not_less_and_a_wide_interval_decides_nothing() {
         told(&figures),
         ["?×0.95 (interval ×0.633 to ×1.42) fan on cpu"]
     );
-    // A time without an interval is no figure.
+    // A time without an interval gives no figure.
     let mut bare = times(2.0, 4.0, 0.1);
     bare[0].interval = None;
     assert_eq!(outcome(title, &bare).0, Reproduction::NotMeasured);
-    // Two adapters, one for and one against.
+    // Two adapters: one confirms the claim and one refutes it.
     let mut both = times(2.0, 4.0, 0.1).to_vec();
     both.extend(times(9.0, 4.0, 0.1).map(|m| m.on("gl:a")));
     let (found, figures, _) = outcome(title, &both);
@@ -325,7 +325,8 @@ fn as_much_is_not_less_and_a_wide_interval_decides_nothing() {
     );
 }
 
-/// Missing data is no verdict: curves that never resolve, of different gaps or of one gap, say nothing.
+/// Missing data is no verdict: curves that never resolve, whether over different gaps or one gap, decide
+/// nothing.
 #[test]
 fn gaps_that_nothing_resolves_are_not_measured() {
     let curve = |method: &str, gaps: &[(f64, f64)]| -> Vec<Made> {

@@ -1,10 +1,10 @@
-//! What a claim compares, in words made from its data.
+//! The comparison of a claim in words, from the claim's data.
 
 use crate::methods::name::title;
 use crate::numbers::digits;
 use etalon_methods::{Claim, Condition, Test, Values};
 
-/// The comparison, its cases and its condition.
+/// Returns the comparison, its cases and its condition.
 pub(super) fn compared(claim: &Claim) -> String {
     let mut text = match claim.test {
         Test::Value {
@@ -31,7 +31,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             condition(holds, false)
         ),
         Test::Same { methods: [a, b] } => {
-            format!("RMSE and largest error of {a} and {b}. Holds where both are the same")
+            format!("RMSE and largest error of {a} and {b}. Holds if both are the same")
         }
         Test::Trend {
             quantity,
@@ -54,7 +54,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             condition(holds, false)
         ),
         Test::Levels { of, samples } => format!(
-            "RMSE of {of} along the parameter. Holds if each {samples}th of 1 is within 0.5 %, and everything halfway between two of them at \
+            "RMSE of {of} along the parameter. Holds if each {samples}th of 1 is within 0.5 %, and every value halfway between two of them at \
              least four times as far off"
         ),
         Test::HalfCodes { of, holds } => format!(
@@ -115,7 +115,7 @@ fn condition(condition: Condition, share: bool) -> String {
     }
 }
 
-/// `depth-prepass less unsorted`.
+/// Returns `depth-prepass less that of unsorted`.
 fn sum(terms: &[(&str, f64)]) -> String {
     let mut text = String::new();
     for (i, (method, sign)) in terms.iter().enumerate() {

@@ -1,4 +1,4 @@
-// The adapter and the budget that the charts of all questions are held against.
+// The adapter and the budget with which the charts of all questions are compared.
 const TIMES = [1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, Infinity];
 const ERRORS = [0, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, Infinity];
 
@@ -14,7 +14,7 @@ function weigh() {
     for (const mark of card.querySelectorAll(".of[data-time]")) {
       mark.classList.toggle("beyond", Number(mark.dataset.time) > time || Number(mark.dataset.error) > error);
     }
-    // For each method: the scenes that it was timed in, and those within the budget.
+    // For each method: the number of scenes within the budget, and of all scenes in which it was timed.
     const scenes = new Map();
     for (const [method, , adapter, took, off] of JSON.parse(card.dataset.points)) {
       if (String(adapter) !== on) continue;

@@ -1,4 +1,5 @@
-// LDR-FLIP (Andersson and others 2020) at 67 pixels per degree, as nv-flip computes it: a map of 0 to 1.
+// LDR-FLIP (Andersson and others 2020) at 67 pixels per degree, as nv-flip computes it: a map of values from
+// 0 to 1.
 const PPD = 67;
 const GREEN_TO_BLUE = (() => {
   const [g, b] = [[0, 1, 0], [0, 0, 1]].map(c => hunt(lab(...c)));
@@ -45,7 +46,8 @@ function hyab(p, q) {
   return Math.abs(p[0] - q[0]) + Math.hypot(p[1] - q[1], p[2] - q[2]);
 }
 
-// Convolves a plane by one kernel along rows and another along columns; the border goes on outside.
+// Convolves a plane with one kernel along rows and another along columns. Border texels repeat outside the
+// plane.
 function convolve(plane, width, height, across, down) {
   const radius = (across.length - 1) / 2;
   const between = new Float64Array(plane.length), result = new Float64Array(plane.length);
@@ -70,7 +72,7 @@ function kernel(radius, of) {
   return Array.from({ length: 2 * radius + 1 }, (_, i) => of(i - radius));
 }
 
-// The spatial filters by contrast sensitivity: red-green and blue-yellow are blurred more than luminance.
+// The spatial filters by contrast sensitivity: they blur red-green and blue-yellow more than luminance.
 const SENSITIVITY = [[[1, 0.0047]], [[1, 0.0053]], [[34.1, 0.04], [13.5, 0.025]]];
 
 function blurred(planes, width, height) {
@@ -91,7 +93,7 @@ function blurred(planes, width, height) {
   });
 }
 
-// The strengths of edges and of points in luminance.
+// Returns the strengths of edges and of points in luminance.
 function features(luminance, width, height) {
   const deviation = 0.5 * 0.082 * PPD, radius = Math.ceil(3 * deviation);
   const gauss = kernel(radius, x => Math.exp(-x * x / (2 * deviation * deviation)));
@@ -112,7 +114,7 @@ function features(luminance, width, height) {
   });
 }
 
-// What the eye makes of a picture: colours behind the filters, and features.
+// Returns a picture as the eye sees it: filtered colours, and the strengths of features.
 function seen({ data, width, height }) {
   const n = white(), size = width * height;
   const planes = [0, 1, 2].map(() => new Float64Array(size));

@@ -1,8 +1,8 @@
-// Differences of pictures from the truth, and the enlarged view of all four.
+// Differences between pictures and the truth, and the enlarged view of all four.
 const MODES = ["picture", "truth", "difference", "FLIP"];
 const pixels = new WeakMap();
 
-// The codes of a picture that has been decoded.
+// Returns the codes of a decoded picture.
 function read(image) {
   if (!pixels.has(image)) {
     const canvas = make("canvas", { width: image.naturalWidth, height: image.naturalHeight });
@@ -17,7 +17,8 @@ function ready(image) {
   return image.decode().then(() => image.naturalWidth > 0, () => false);
 }
 
-// Black over purple and orange to white (van der Walt and Smith 2015, magma), by a few of its colours.
+// From black through purple and orange to white: the map “magma” (van der Walt and Smith 2015), by a few of
+// its colours.
 const MAGMA = [[0, 0, 4], [28, 16, 68], [79, 18, 123], [129, 37, 129], [181, 54, 122], [229, 80, 100], [251, 135, 97], [254, 194, 135], [252, 253, 191]];
 
 function magma(value) {
@@ -25,7 +26,7 @@ function magma(value) {
   return MAGMA[low].map((v, i) => Math.round(v + (MAGMA[low + 1][i] - v) * (at - low)));
 }
 
-// Everything about one picture: its texels, the truth's, and both differences.
+// Returns one picture's texels, the truth's texels, and both differences.
 function compared(figure) {
   if (figure.compared) return figure.compared;
   const truthImage = figure.parentElement.querySelector(".truth img");
@@ -38,7 +39,7 @@ function compared(figure) {
   for (let i = 0; i < 4 * size; i++) {
     if (i % 4 < 3) largest = Math.max(largest, Math.abs(picture.data[i] - truth.data[i]));
   }
-  // The scale: the next power of two of codes.
+  // The scale: the next power of two, in codes.
   const range = Math.min(Math.pow(2, Math.ceil(Math.log2(Math.max(largest, 1)))), 255);
   const difference = new ImageData(picture.width, picture.height), map = new ImageData(picture.width, picture.height);
   const values = flip(truth, picture);
@@ -64,7 +65,7 @@ function thumbnail(image) {
   return canvas;
 }
 
-// Adds the differences of a picture below it, once it is seen.
+// Adds the differences below a picture when it becomes visible.
 async function complete(figure) {
   if (figure.dataset.complete) return;
   figure.dataset.complete = "1";

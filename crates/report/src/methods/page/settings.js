@@ -1,4 +1,4 @@
-// The setting that a scene shows: its slider, and links to it.
+// Shows a setting of a scene: the slider, and links to settings.
 function show(scene, index) {
   const input = scene.querySelector(".setting input");
   if (!input) return;

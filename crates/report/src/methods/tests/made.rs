@@ -1,9 +1,9 @@
-//! Made-up runs for tests: one line per record.
+//! Runs made up for tests, with one line per record.
 
 use etalon_frame::{Api, Distance, Limits};
 use etalon_record::{AdapterRecord, Header, Measured, Parameter, Record, Run, Times, Verdict};
 
-/// A record: everything that claims look at, with the rest left out.
+/// A record with everything that claims use; the rest has defaults.
 #[derive(Clone, Debug)]
 pub(crate) struct Made {
     pub(crate) adapter: &'static str,
@@ -20,7 +20,7 @@ pub(crate) struct Made {
 }
 
 impl Made {
-    /// A method of a scene on `cpu`, exact, in a millisecond and one pass.
+    /// Returns a method of a scene on `cpu`, exact, in a millisecond and one pass.
     pub(crate) fn new(id: &str) -> Self {
         Self {
             adapter: "cpu",
@@ -92,7 +92,7 @@ impl Made {
     }
 }
 
-/// A run of these records; adapters whose names begin with `hw` are hardware.
+/// Returns a run of these records. Adapters whose names begin with `hw` are hardware.
 pub(crate) fn run(made: &[Made]) -> Run {
     let mut names: Vec<&str> = made.iter().map(|m| m.adapter).collect();
     names.dedup();

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// The most causes that are listed.
 const LISTED: usize = 60;
-/// The most case files of one.
+/// The most listed case files of a cause.
 const FILES: usize = 12;
 
 /// Records of one adapter and kind.
@@ -28,7 +28,7 @@ struct Cause<'a> {
     files: Vec<(&'a str, Condition, &'a Record)>,
 }
 
-/// The section; nothing where nothing is unexpected.
+/// Returns the section; empty if nothing is unexpected.
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     let causes = causes(grid);
     let verdicts: usize = causes.iter().map(|c| c.records).sum();

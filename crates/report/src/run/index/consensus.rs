@@ -5,8 +5,8 @@
 //! driver does. NotSupported, Skipped and a missing record are no votes: nothing was drawn. A selftest
 //! that is due to fail has none either, since its judge sees another scene than its drivers.
 //!
-//! More than half of the votes are the consensus; the adapters of the other side are odd. With as many
-//! right as wrong ones nobody is odd. A single vote agrees with nobody, so it makes no consensus.
+//! More than half of the votes are the consensus, and the adapters of the other side are odd. If both sides
+//! have the same number of votes, no adapter is odd. A single vote makes no consensus.
 
 use crate::run::grid::{CaseRow, Grid};
 use crate::words;
@@ -16,7 +16,7 @@ use std::cmp::Reverse;
 /// The distribution of the votes on one case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Votes {
-    /// Nobody voted.
+    /// No adapter voted.
     Nobody,
     /// There is one vote.
     Alone,
@@ -24,7 +24,7 @@ pub(crate) enum Votes {
     Agree,
     /// One adapter against at least two others.
     Odd,
-    /// At least two on the smaller side, or as many on both.
+    /// At least two on the smaller side, or the same number on both.
     Split,
 }
 
@@ -46,14 +46,14 @@ impl Votes {
 pub(crate) struct Consensus {
     /// The distribution of the votes.
     pub(crate) votes: Votes,
-    /// The columns of the smaller side; empty where both are as large.
+    /// The columns of the smaller side; empty if both sides are equal.
     pub(crate) odd: Vec<usize>,
-    /// The same in words.
+    /// The consensus in words.
     pub(crate) text: String,
 }
 
 impl Consensus {
-    /// Of one case of a grid.
+    /// Returns the consensus on one case of a grid.
     pub(crate) fn of(grid: &Grid<'_>, case: &CaseRow<'_>) -> Self {
         let mut is_due = false;
         let mut votes = Vec::new();
@@ -73,7 +73,7 @@ impl Consensus {
         result
     }
 
-    /// Of the verdicts by column; `names` are those of all columns.
+    /// Returns the consensus of the verdicts by column. `names` are the names of all columns.
     fn of_verdicts(verdicts: &[(usize, Verdict)], names: &[&str]) -> Self {
         let voted = |v: Verdict| !matches!(v, Verdict::NotSupported | Verdict::Skipped);
         let votes = verdicts.iter().copied().filter(|(_, v)| voted(*v));
@@ -124,7 +124,7 @@ impl Consensus {
         }
     }
 
-    /// The adapter's column that alone stands against all others that drew the case.
+    /// Returns the only adapter's column that differs from all others that drew the case.
     pub(crate) fn only(&self) -> Option<usize> {
         match (self.votes, self.odd.as_slice()) {
             (Votes::Odd, [column]) => Some(*column),

@@ -28,7 +28,7 @@ struct Data<'a> {
     adapters: &'a [&'a str],
     /// The meaning of each sign, the gravest first.
     cells: Vec<Cell>,
-    /// Text, how the votes lie, odd adapters.
+    /// Text, distribution of votes, odd adapters.
     consensus: Interner<(String, &'static str, Vec<usize>)>,
     /// The labels of facts: words, form, and true if an entry under Findings has the same.
     labels: Interner<Label>,
@@ -36,9 +36,9 @@ struct Data<'a> {
     /// The facts of a record: label, text, label, text, …; the first list is empty.
     facts: Interner<Vec<usize>>,
     files: Vec<File<'a>>,
-    /// Case, adapter and record of what stands under Findings with everything known about it.
+    /// Case, adapter and record of entries under Findings with all facts.
     bodies: Vec<[usize; 3]>,
-    /// Area and path of the scripts that hold the cases as they are meant.
+    /// Area and path of the scripts with the cases as intended.
     scripts: &'a [(String, String)],
 }
 
@@ -169,7 +169,7 @@ fn facts_of_all(grid: &Grid<'_>) -> Facts {
     let mut lists: Interner<Vec<usize>> = Interner::default();
     lists.place(Vec::new());
     let mut group_of = vec![0; records.len()];
-    // What is unexpected gets its texts before there is no room left.
+    // Unexpected records get their texts first, while there is room.
     let mut order: Vec<usize> = (0..records.len()).collect();
     order.sort_by_key(|i| kind(&records[*i]));
     let mut bytes = 0;

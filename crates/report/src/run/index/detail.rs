@@ -24,20 +24,20 @@ const PICTURE_BYTES: usize = 3 << 20;
 #[derive(Default)]
 pub(crate) struct Budget {
     bytes: usize,
-    /// Frames that had no room.
+    /// The number of frames without room.
     pub(crate) cut: u64,
 }
 
 /// The frame of a record with its pictures.
 pub(crate) struct Drawn {
-    /// Without its images.
+    /// The frame without its images.
     frame: Result<FrameFile, RecordError>,
-    /// Of each image; `None` if its codes do not fit its size.
+    /// The pictures of each image; `None` if its codes do not fit its size.
     strips: Vec<Option<Strip>>,
 }
 
 impl Drawn {
-    /// Reads and draws a record's frame; `None` if the record names none.
+    /// Reads and draws a record's frame, or returns `None` if the record names none.
     pub(crate) fn of(folder: &Path, record: &Record) -> Option<Self> {
         let mut frame = Run::read_frame(folder, record.frame.as_deref()?);
         let images = frame
@@ -157,7 +157,7 @@ fn off(m: &ChannelMismatch) -> String {
     count(codes.max(0).unsigned_abs(), "code")
 }
 
-/// The ruling as a heading, the text that it follows from, and the operations.
+/// Returns the ruling as a heading, the rules behind it, and the operations.
 fn story_section(story: &Story, record: &Record) -> Markup {
     let lines = operations(story);
     html! {

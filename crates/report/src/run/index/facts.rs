@@ -14,13 +14,13 @@ const LONGEST: usize = 4000;
 /// from a driver, `case` for an id that can be followed, `code`.
 pub(crate) type Label = (&'static str, &'static str, bool);
 
-/// Stands for all facts of a record when there is no room for them.
+/// Returns the note that replaces the facts of a record if there is no room for them.
 pub(crate) fn no_room() -> (Label, String) {
     let text = "The facts of this record were left out to keep the page small; run.jsonl has them.";
     (("Note", "text", false), text.to_owned())
 }
 
-/// Everything worth telling about a record that is not in its cell.
+/// Returns all facts of a record that its cell does not show.
 pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     let mut facts = Vec::new();
     let mut add = |name, form, in_body, text: String| facts.push(((name, form, in_body), text));

@@ -15,20 +15,19 @@ use std::path::Path;
 
 /// The most records that are shown with everything known about them.
 const BODIES: usize = 160;
-/// The most imprecise records of a case file and adapter that are.
+/// The most imprecise records of a case file and adapter that are shown with all facts.
 const IMPRECISE_BODIES: usize = 3;
 /// The most lines of a case file and adapter.
 const LINES: usize = 20;
-/// The most lines of all; what a page of so many case files and adapters has more of stands under
-/// "All cases", which costs a browser less.
+/// The most lines in total. The rest is only under "All cases", which costs a browser less.
 const ALL_LINES: usize = 5000;
 
-/// The records that are listed, and those of them that are shown with all facts.
+/// The listed records, and whether each is shown with all facts.
 pub(crate) struct Plan {
     bodies: HashMap<usize, bool>,
-    /// Records whose adapter alone stands against all others that drew the case.
+    /// Records whose adapter differs from all others that drew the case.
     odd: HashSet<usize>,
-    /// Records that would have been shown whole, had there been room.
+    /// The number of records that would be shown with all facts if there were room.
     cut: usize,
 }
 
@@ -84,7 +83,7 @@ impl Plan {
     }
 }
 
-/// 0 for what is unexpected, 1 for what was expected or due, 2 for imprecise and all else.
+/// Returns 0 for unexpected records, 1 for expected or due ones, 2 for imprecise and all others.
 pub(crate) fn kind(record: &Record) -> usize {
     if record.unexpected() {
         0
@@ -95,7 +94,7 @@ pub(crate) fn kind(record: &Record) -> usize {
     }
 }
 
-/// The records of a case file on one adapter that are worth an entry, the gravest kind first.
+/// Returns the records of a case file on one adapter that get an entry, the gravest kind first.
 fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
     let worth = |i: &usize| {
         let r = grid.record(*i);
@@ -150,7 +149,7 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
     }
 }
 
-/// The section in the making.
+/// The section that is being written.
 struct Section<'a> {
     grid: &'a Grid<'a>,
     plan: &'a Plan,
@@ -221,7 +220,7 @@ impl Section<'_> {
     }
 }
 
-/// Cases that the adapter cannot draw, counted by what is missing.
+/// Returns the cases that the adapter cannot draw, counted by what is missing.
 fn not_supported(grid: &Grid<'_>, area: &Area<'_>, column: usize) -> Markup {
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     for index in area.on(column) {

@@ -1,4 +1,4 @@
-//! The sections that show a run as a whole: areas against adapters, what it says nothing about, its adapters.
+//! Sections on the run as a whole: areas by adapter, cases that were not drawn, and dead expectations.
 
 use crate::mark::{class, mark};
 use crate::numbers::count;

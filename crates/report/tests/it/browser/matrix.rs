@@ -28,7 +28,7 @@ pub(super) fn two_adapters_are_compared_and_samples_open(chromium: &Chromium) {
         let wide: u32 = page.eval("document.documentElement.scrollWidth");
         assert!(wide <= width, "{wide}");
     }
-    // Without scripts there are no ratios, and all rates.
+    // Without scripts there are all rates but no ratios.
     let page = chromium.open_without_scripts(&path);
     assert!(page.eval::<bool>("document.getElementById('compare').hidden"));
     assert_eq!(

@@ -1,11 +1,11 @@
-//! A made-up run of methods of a believable shape.
+//! A synthetic run of methods with plausible numbers.
 
 use super::{adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, Distance};
 use etalon_record::{Measured, Parameter, Record, RunWriter, Seconds, Times, Verdict};
 use std::path::Path;
 
-/// Name, whether the device is the processor, how slow it is.
+/// The name, whether the device is the processor, and its slowness factor.
 const ADAPTERS: [(&str, bool, f64); 4] = [
     ("cpu", true, 1.0),
     ("vulkan:lavapipe", true, 1.7),

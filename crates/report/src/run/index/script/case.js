@@ -39,7 +39,7 @@ function showCase(id) {
   return { leads: () => [neighbours(one)], title: id, heading: make("code", {}, id), content };
 }
 
-// The way back, and to the cases before and after in what the filter left.
+// Links back, and to the previous and next case that the filter left.
 function neighbours(one) {
   const back = make("a", { href: hashOf(state), id: "back" }, "All cases");
   const nav = make("nav", { "aria-label": "Cases" }, back);
@@ -82,7 +82,7 @@ function onAdapter(one, i) {
   const section = make("section", { class: "record" },
     make("h2", {}, make("code", {}, data.adapters[i]), " ",
       make("span", { class: "chip " + record.cell.class }, ...symbolAndWord(record.cell))));
-  // An entry under Findings with pictures is shown as it is there.
+  // An entry under Findings with pictures is shown in the same form.
   const found = record.body === undefined ? null : $("r" + record.body);
   const told = record.facts.filter(fact => !found || !fact.inBody);
   if (told.length) section.append(facts(told.map(fact => [fact.label, shownFact(fact)])));

@@ -1,6 +1,6 @@
 // The data of the page, unpacked.
 const parsed = JSON.parse($("data").textContent);
-// Null where no case was run.
+// Null if no case was run.
 const data = parsed && parsed.files.length ? parsed : null;
 const cases = [];
 const files = [];
@@ -27,7 +27,7 @@ if (data) {
   }
 }
 
-// The facts, times and sign of one case on one adapter; null where there is no record.
+// Returns the facts, times and sign of one case on one adapter; null without a record.
 function recordOf(one, adapter) {
   const cell = signs.get(one.cells[adapter]);
   if (!cell) return null;

@@ -8,7 +8,7 @@ const route = router($("report"), $("case"), data ? { case: showCase, gallery: s
   const left = current;
   current = null;
   typed = false;
-  // The address of the section stands for the whole table.
+  // The section's own URL means the whole table.
   if (data && (found.size || !location.hash || location.hash === "#cases")) {
     const before = hashOf(state);
     state = stateOf(found);
@@ -27,7 +27,7 @@ const route = router($("report"), $("case"), data ? { case: showCase, gallery: s
   afterRoute = null;
 });
 
-// The row of a case, or of the closed group that holds it; -1 where the filter leaves neither.
+// Returns the row of a case, or of the closed group around it; -1 if the filter leaves neither.
 function placeOf(id) {
   const one = cases[numberOf.get(id)];
   return items.findIndex(item => one && (item.one ? item.one === one : item.group === one.file && !isOpen(item.group)));
@@ -51,10 +51,10 @@ document.querySelector(".skip").addEventListener("click", event => {
 addEventListener("keydown", onKey);
 addEventListener("hashchange", route);
 route();
-// Elements behind the script exist later; then views and links use them.
+// Elements after the script exist only now; views and links that need them are shown again.
 addEventListener("DOMContentLoaded", () => {
   if (current === null) reveal(location.hash.slice(1));
   else if (data && cases[numberOf.get(current)] && data.bodies.some(([number]) => number === numberOf.get(current))) route();
 });
-// When the table can be used, for those who measure.
+// A mark for measurements: the table can be used from here on.
 performance.mark("etalon-ready");

@@ -1,14 +1,14 @@
-// Cases as they are meant: texts, scene, JSON, shaders and picture, from one script per area beside the page.
+// Cases as intended: texts, scene, JSON, shaders and picture, from one script per area next to the page.
 const withArea = beside("etalonArea", name => data && data.scripts.find(([area]) => area === name)?.[1]);
 
 const areaOf = id => id.split("/")[0];
 
-// A case of the run in what an area's script holds.
+// Returns a case of the run from an area's script.
 function heldCase(held, one) {
   return held && one && held.cases[one.file.name]?.[one.id.slice(one.file.name.length)];
 }
 
-// The values of a case's axes, and those that follow from them, by name.
+// Returns the values of a case's axes and of the names derived from them.
 function valuesOf(template, id) {
   const names = new Map(id.split("/").filter(part => part.includes("=")).map(part => {
     const at = part.indexOf("=");
@@ -31,7 +31,7 @@ function expanded(value, values) {
   return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, expanded(one, values)]));
 }
 
-// Lists of numbers on one line, all else indented.
+// Puts lists of numbers on one line and indents everything else.
 function readable(value) {
   return JSON.stringify(value, null, 2).replace(/\[[^\[\]{}"]*\]/g, list => list.replace(/\s+/g, " "));
 }
@@ -42,7 +42,7 @@ function picture(held, place, id, width) {
 
 const foldedText = (title, content) => make("details", {}, make("summary", {}, title), make("pre", {}, content));
 
-// What a case is meant to draw; filled when its area's script has come.
+// Returns what a case should draw; filled when its area's script has loaded.
 function meant(id) {
   const section = make("section", { id: "meant", hidden: true });
   withArea(areaOf(id)).then(held => {

@@ -1,9 +1,9 @@
-// The filter: what its controls say, and the same as the part of the address behind `#`.
+// The filter: the state of its controls, and the same as a URL fragment.
 const INITIAL = {
   q: "", messages: false, verdict: "", on: "", area: "", odd: "", unexpected: false, disagree: false,
   sort: "case", page: 1,
 };
-// The filters that are texts, and those that are set or not.
+// The filters with a text, and the filters that are on or off.
 const TEXTS = ["q", "verdict", "on", "area", "odd"];
 const CHECKS = ["messages", "unexpected", "disagree"];
 let state = { ...INITIAL };

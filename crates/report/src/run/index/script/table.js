@@ -18,7 +18,7 @@ function byConsensus(a, b) {
   return APART[a.consensus.votes] - APART[b.consensus.votes] || wrong(a) - wrong(b) || a.number - b.number;
 }
 
-// Makes the rows anew after the filter, the order or the open groups changed.
+// Rebuilds the rows after a change of the filter, the order or the open groups.
 function refresh() {
   shown = matching(state);
   items = [];
@@ -54,7 +54,7 @@ function draw() {
     if (!body || !item.one) {
       body = make("tbody", {});
       table.append(body);
-      // A group that began on the page before says its name again.
+      // A group that began on the page before repeats its name.
       if (item.one && item.group) body.append(groupRow(item, true));
     }
     body.append(item.one ? caseRow(item.one, item.group) : groupRow(item, false));
@@ -115,7 +115,7 @@ function verdictCell(one, adapter) {
     make("span", { class: seen ? "" : "vh" }, cell.word + (odd && !seen ? ", differs" : "")));
 }
 
-// Moves the one row that can be reached with the tabulator key, over the edges of pages.
+// Moves the one row that the Tab key can reach, across pages if necessary.
 function moveTo(place) {
   if (!items.length) return;
   place = Math.min(Math.max(place, 0), items.length - 1);
