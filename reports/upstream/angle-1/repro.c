@@ -1,5 +1,5 @@
 /*
- * ANGLE/Vulkan: polygon offset units have no effect near depth 0 if D24 is emulated by a float format
+ * ANGLE/Vulkan: polygon offset units vanish near depth 0 if D24 is emulated by a float format (with GL_ZERO_TO_ONE_EXT)
  *
  * Build and run:
  *   cc repro.c -ldl -o repro

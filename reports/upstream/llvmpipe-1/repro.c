@@ -1,5 +1,5 @@
 /*
- * llvmpipe: depth bounds test rejects samples inside the bounds if the depth test writes
+ * llvmpipe: depth bounds test rejects samples inside the bounds if the depth test is on
  *
  * Build and run:
  *   cc repro.c -ldl -o repro
