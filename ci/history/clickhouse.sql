@@ -26,7 +26,7 @@ order by adapter, date, run;
 -- What broke between the last two runs of each adapter: good before, bad now.
 with runs as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
-    from (select distinct decodeURLComponent(adapter) as adapter, run, time from file('records/**/*.parquet', Parquet))
+    from (select distinct decodeURLComponent(adapter) as adapter, run, time from file('records/**/*.parquet', Parquet) where kind <> 'bench')
 ),
 records as (
     select decodeURLComponent(adapter) as adapter, run, version, "case", verdict, unexpected,
@@ -67,6 +67,7 @@ with records as (
     select decodeURLComponent(adapter) as adapter, run, time, date, "case", verdict, unexpected, expectation,
         verdict in ('pass', 'imprecise', 'measured', 'not-supported', 'skipped') as good
     from file('records/**/*.parquet', Parquet)
+    where kind <> 'bench'
 ),
 last as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
@@ -120,7 +121,7 @@ limit 50;
 -- Cases of which adapters disagree: good on some, bad on others, each in its last run.
 with runs as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
-    from (select distinct decodeURLComponent(adapter) as adapter, run, time from file('records/**/*.parquet', Parquet))
+    from (select distinct decodeURLComponent(adapter) as adapter, run, time from file('records/**/*.parquet', Parquet) where kind <> 'bench')
 ),
 records as (
     select decodeURLComponent(adapter) as adapter, "case", verdict, verdict in ('pass', 'imprecise', 'measured') as good,

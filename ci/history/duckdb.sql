@@ -25,7 +25,7 @@ order by adapter, date, run;
 -- What broke between the last two runs of each adapter: good before, bad now.
 with runs as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
-    from (select distinct adapter, run, time from 'records/**/*.parquet')
+    from (select distinct adapter, run, time from 'records/**/*.parquet' where kind <> 'bench')
 ),
 records as (
     select adapter, run, version, "case", verdict, unexpected,
@@ -66,6 +66,7 @@ with records as (
     select adapter, run, time, date, "case", verdict, unexpected, expectation,
         verdict in ('pass', 'imprecise', 'measured', 'not-supported', 'skipped') as good
     from 'records/**/*.parquet'
+    where kind <> 'bench'
 ),
 last as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
@@ -119,7 +120,7 @@ limit 50;
 -- Cases of which adapters disagree: good on some, bad on others, each in its last run.
 with runs as (
     select adapter, run, row_number() over (partition by adapter order by time desc, run) as back
-    from (select distinct adapter, run, time from 'records/**/*.parquet')
+    from (select distinct adapter, run, time from 'records/**/*.parquet' where kind <> 'bench')
 ),
 records as (
     select adapter, "case", verdict, verdict in ('pass', 'imprecise', 'measured') as good,

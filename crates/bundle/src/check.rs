@@ -79,9 +79,11 @@ static int is_right(const struct texel *t)
 /* The number that a place in the order stands for. */
 static double shown(const struct channel *c, double order)
 {
-    double sign = order < 0 ? -1 : 1, size = fabs(order);
+    double sign = order < 0 ? -1 : 1, size = fabs(order), infinity = c->order == SINGLE ? 0x7F800000 : 0x7C00;
     uint32_t code = size < 0x7F800000 ? (uint32_t)size : 0x7F800000;
     float value;
+    if ((c->order == SINGLE || c->order == HALF) && size > infinity && !isinf(size))
+        return NAN;
     if (c->order == SINGLE) {
         memcpy(&value, &code, sizeof value);
         return sign * (double)value;

@@ -750,8 +750,8 @@ mod tests {
             (json!({ "polygon_mode": "line" }), "the outline"),
             (json!({ "instances": { "colors": [1] } }), "have their own"),
         ] {
-            let error = draw(keys).expect("it is impossible");
-            assert!(said.contains(words), "{said}");
+            let error = draw(keys).expect("it is impossible").to_string();
+            assert!(error.contains(words), "{error}");
         }
     }
 

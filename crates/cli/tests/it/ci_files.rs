@@ -13,6 +13,9 @@ use std::time::Duration;
 const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 const WORKFLOW: &str = "ci/github-actions.yml";
 const PIPELINE: &str = "ci/gitlab-ci.yml";
+/// Templates for the repository of a driver, in which ours is the folder `etalon`.
+const MESA_WORKFLOW: &str = "ci/mesa-request-github.yml";
+const MESA_PIPELINE: &str = "ci/mesa-request-gitlab.yml";
 const JOB: &str = "ci/kubernetes/job.yaml";
 const MERGE: &str = "ci/kubernetes/merge.yaml";
 const CLAIM: &str = "ci/kubernetes/claim.yaml";
@@ -70,6 +73,18 @@ fn every_file_satisfies_the_schema_of_its_format() {
             json!(7),
         ),
         (PIPELINE, "gitlab-ci.json", "/shard/parallel", json!("four")),
+        (
+            MESA_WORKFLOW,
+            "github-workflow.json",
+            "/jobs/draw/steps/1/uses",
+            json!(7),
+        ),
+        (
+            MESA_PIPELINE,
+            "gitlab-ci.json",
+            "/etalon/timeout",
+            json!([1]),
+        ),
         (JOB, "kubernetes.json", "/spec/completionMode", json!(true)),
         (
             MERGE,
@@ -112,8 +127,8 @@ fn lines(name: &str) -> Vec<(String, Vec<String>)> {
             .collect()
     };
     let jobs = match name {
-        WORKFLOW => value["jobs"].as_object().unwrap(),
-        PIPELINE => value.as_object().unwrap(),
+        WORKFLOW | MESA_WORKFLOW => value["jobs"].as_object().unwrap(),
+        PIPELINE | MESA_PIPELINE => value.as_object().unwrap(),
         _ => {
             let container = &value["spec"]["template"]["spec"]["containers"][0];
             let words = [strings(&container["command"]), strings(&container["args"])].concat();
@@ -221,11 +236,30 @@ fn what_the_files_call_is_there() {
 }
 
 #[test]
+fn the_templates_for_mesa_call_scripts_of_ours() {
+    for name in [MESA_WORKFLOW, MESA_PIPELINE] {
+        let mut called = BTreeSet::new();
+        for (job, lines) in lines(name) {
+            for line in lines {
+                let line = line.replace("etalon/ci/", "ci/");
+                let unknown = unknown(&line);
+                assert_eq!(unknown, Vec::<String>::new(), "{name}, {job}: {line}");
+                let scripts = ["ci/binary", "ci/mesa-request "];
+                called.extend(scripts.into_iter().filter(|s| line.contains(s)));
+            }
+        }
+        assert_eq!(called.len(), 2, "{name}: {called:?}");
+    }
+}
+
+#[test]
 fn actions_are_githubs_own_and_pinned() {
-    let workflow = yaml(WORKFLOW);
-    let jobs = workflow["jobs"].as_object().unwrap();
+    let workflows = [yaml(WORKFLOW), yaml(MESA_WORKFLOW)];
+    let jobs = workflows
+        .iter()
+        .flat_map(|w| w["jobs"].as_object().unwrap().values());
     let mut used = BTreeSet::new();
-    for step in jobs.values().flat_map(|j| j["steps"].as_array().unwrap()) {
+    for step in jobs.flat_map(|j| j["steps"].as_array().unwrap()) {
         let Some(uses) = step["uses"].as_str() else {
             continue;
         };
@@ -487,6 +521,70 @@ fn the_pods_of_kubernetes_draw_every_case_once() {
     }
     succeeds(&place.shell(&line(MERGE, "merge", "ci/merge-shards"), &[]));
     place.is_whole(8, "full");
+}
+
+/// `etalon`, but `run` draws on `cpu`, which calls itself the Mesa `DRIVER`, and whose first passing case fails if `BROKEN`
+/// is set.
+const OTHER_DRIVER: &str = r#"
+[ "$1" = run ] || exec "$BINARY" "$@"
+shift
+while [ $# -gt 0 ]; do
+    case $1 in --out) out=$2 ;; esac
+    shift
+done
+"$BINARY" run 'cull/points/*' --adapter cpu --out "$out" --force || exit
+sed -i "1s/\"driver_version\":\"[^\"]*\"/\"driver_version\":\"Mesa $DRIVER\"/" "$out/run.jsonl"
+[ -z "${BROKEN:-}" ] || sed -i '2s/"verdict":"[a-z]*"/"verdict":"fail"/' "$out/run.jsonl""#;
+
+#[test]
+fn a_request_of_mesa_is_compared_with_the_main_branch() {
+    let place = Place::new();
+    place.program("etalon", OTHER_DRIVER);
+    let build = place.path("install");
+    for (file, content) in [
+        ("lib/libvulkan_lvp.so", "Mesa 99.1.0-devel (LLVM)"),
+        (
+            "share/vulkan/icd.d/lvp_icd.x86_64.json",
+            r#"{"ICD":{"api_version":"1.4.0","library_path":"/gone/libvulkan_lvp.so"}}"#,
+        ),
+        ("share/glvnd/egl_vendor.d/50_mesa.json", "{}"),
+    ] {
+        let path = build.join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+    let request = |words: &str, driver: &str, broken: &str| {
+        let line = format!("ci/mesa-request '{}' {words}", build.display());
+        let variables = [("BINARY", BINARY), ("DRIVER", driver), ("BROKEN", broken)];
+        place.shell(
+            &line,
+            &variables.map(|(name, value)| (name, value.to_owned())),
+        )
+    };
+    let comment = || fs::read_to_string(place.path("runs/request/comment.md")).unwrap();
+    // Nothing to compare with yet: known bugs alone are expected.
+    let compared = "runs/request --main runs/main";
+    let output = request(compared, "99.1.0-devel", "");
+    succeeds(&output);
+    assert!(printed(&output).contains("There is no run in"));
+    assert!(comment().contains("Nothing unexpected"), "{}", comment());
+
+    succeeds(&request("runs/main", "99.1.0-devel", ""));
+    succeeds(&request(compared, "99.1.0-devel", ""));
+    assert!(comment().contains("Nothing is worse"), "{}", comment());
+
+    let output = request(compared, "99.1.0-devel", "yes");
+    assert_eq!(output.status.code(), Some(1), "{}", printed(&output));
+    assert!(comment().contains("#### Worse"), "{}", comment());
+    assert!(comment().contains("`cull/points/"), "{}", comment());
+
+    // Another Mesa than the build's answered.
+    let output = request(compared, "22.3.6", "");
+    assert_eq!(output.status.code(), Some(64), "{}", printed(&output));
+    fs::remove_file(build.join("lib/libvulkan_lvp.so")).unwrap();
+    let output = request(compared, "99.1.0-devel", "");
+    assert_eq!(output.status.code(), Some(64), "{}", printed(&output));
+    assert!(printed(&output).contains("has no libvulkan_lvp.so"));
 }
 
 /// A replacement for Slurm's `sbatch`: runs the tasks of an array one after another, and then the merge.

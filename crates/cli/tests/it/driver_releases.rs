@@ -233,6 +233,12 @@ fn a_suite_of_debian_is_unpacked_once() {
     );
     says(&place.run("mesa", &["sid", "newest"]), 0, &["already"]);
     assert_eq!(place.calls(), 1);
+    // What bundles use was left out then.
+    let bundles = ["--bundles", "sid", "newest"];
+    says(&place.run("mesa", &bundles), 0, &["Mesa 26.2.6-1 of sid"]);
+    let compiler = fs::read_link(place.path("newest").join("usr/bin/cc"));
+    assert_eq!(compiler.unwrap(), Path::new("gcc"));
+    says(&place.run("mesa", &bundles), 0, &["already"]);
     says(
         &place.run("mesa", &["trixie", "newest"]),
         0,

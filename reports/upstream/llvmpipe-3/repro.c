@@ -1,0 +1,580 @@
+/*
+ * gallium/draw: clips by all of gl_ClipDistance if no CLIP_DISTANCEi is enabled
+ *
+ * Build and run:
+ *   cc repro.c -ldl -o repro
+ *   LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=llvmpipe ./repro
+ *
+ * The first argument, if there is one, is the EGL library to load. Exit status: 1 if the bug is
+ * there, 0 if not, 77 if the driver lacks something, 2 if a call fails.
+ * Needs the headers of the C library and none of the API.
+ */
+
+#include <dlfcn.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BUG = 1, FAILED = 2, LACKS = 77 };
+
+typedef unsigned int GLenum;
+typedef unsigned int GLuint;
+typedef int GLint;
+typedef unsigned char GLboolean;
+typedef float GLfloat;
+typedef double GLdouble;
+typedef intptr_t GLsizeiptr;
+
+#define GL_ARRAY_BUFFER 0x8892
+#define GL_CLAMP_READ_COLOR 0x891C
+#define GL_CLAMP_TO_EDGE 0x812F
+#define GL_COLOR 0x1800
+#define GL_COLOR_ATTACHMENT0 0x8CE0
+#define GL_DITHER 0x0BD0
+#define GL_ELEMENT_ARRAY_BUFFER 0x8893
+#define GL_FLOAT 0x1406
+#define GL_FRAGMENT_SHADER 0x8B30
+#define GL_FRAMEBUFFER 0x8D40
+#define GL_FRAMEBUFFER_SRGB 0x8DB9
+#define GL_NEAREST 0x2600
+#define GL_PACK_ALIGNMENT 0x0D05
+#define GL_PACK_ROW_LENGTH 0x0D02
+#define GL_RGBA 0x1908
+#define GL_RGBA8 0x8058
+#define GL_STATIC_DRAW 0x88E4
+#define GL_TEXTURE0 0x84C0
+#define GL_TEXTURE_2D 0x0DE1
+#define GL_TEXTURE_BASE_LEVEL 0x813C
+#define GL_TEXTURE_MAG_FILTER 0x2800
+#define GL_TEXTURE_MAX_LEVEL 0x813D
+#define GL_TEXTURE_MIN_FILTER 0x2801
+#define GL_TEXTURE_WRAP_S 0x2802
+#define GL_TEXTURE_WRAP_T 0x2803
+#define GL_TRIANGLES 0x0004
+#define GL_UNIFORM_BUFFER 0x8A11
+#define GL_UNPACK_ALIGNMENT 0x0CF5
+#define GL_UNSIGNED_BYTE 0x1401
+#define GL_UPPER_LEFT 0x8CA2
+#define GL_VERTEX_SHADER 0x8B31
+#define GL_ZERO_TO_ONE 0x935F
+
+static void (*glActiveTexture)(GLenum);
+static void (*glAttachShader)(GLuint, GLuint);
+static void (*glBindBuffer)(GLenum, GLuint);
+static void (*glBindBufferRange)(GLenum, GLuint, GLuint, GLsizeiptr, GLsizeiptr);
+static void (*glBindFramebuffer)(GLenum, GLuint);
+static void (*glBindTexture)(GLenum, GLuint);
+static void (*glBindVertexArray)(GLuint);
+static void (*glBufferData)(GLenum, GLsizeiptr, const void *, GLenum);
+static GLenum (*glCheckFramebufferStatus)(GLenum);
+static void (*glClampColor)(GLenum, GLuint);
+static void (*glClearBufferfv)(GLenum, GLint, const GLfloat *);
+static void (*glClipControl)(GLenum, GLenum);
+static void (*glCompileShader)(GLuint);
+static GLuint (*glCreateProgram)(void);
+static GLuint (*glCreateShader)(GLenum);
+static void (*glDisable)(GLenum);
+static void (*glDrawArrays)(GLenum, GLint, GLint);
+static void (*glDrawBuffers)(GLint, const GLenum *);
+static void (*glEnable)(GLenum);
+static void (*glEnableVertexAttribArray)(GLuint);
+static void (*glFinish)(void);
+static void (*glFlush)(void);
+static void (*glFramebufferTexture2D)(GLenum, GLenum, GLenum, GLuint, GLint);
+static void (*glGenBuffers)(GLint, GLuint *);
+static void (*glGenFramebuffers)(GLint, GLuint *);
+static void (*glGenTextures)(GLint, GLuint *);
+static void (*glGenVertexArrays)(GLint, GLuint *);
+static GLuint (*glGetUniformBlockIndex)(GLuint, const char *);
+static void (*glLinkProgram)(GLuint);
+static void (*glPixelStorei)(GLenum, GLint);
+static void (*glReadBuffer)(GLenum);
+static void (*glReadPixels)(GLint, GLint, GLint, GLint, GLenum, GLenum, void *);
+static void (*glShaderSource)(GLuint, GLint, const char *const *, const GLint *);
+static void (*glStencilMask)(GLuint);
+static void (*glTexImage2D)(GLenum, GLint, GLenum, GLint, GLint, GLint, GLenum, GLenum, const void *);
+static void (*glTexParameteri)(GLenum, GLenum, GLint);
+static void (*glUniformBlockBinding)(GLuint, GLuint, GLuint);
+static void (*glUseProgram)(GLuint);
+static void (*glVertexAttribPointer)(GLuint, GLint, GLenum, GLboolean, GLint, const void *);
+static void (*glViewportIndexedf)(GLuint, GLfloat, GLfloat, GLfloat, GLfloat);
+
+static GLenum (*glGetError)(void);
+static const unsigned char *(*glGetString)(GLenum);
+static void (*glGetShaderiv)(GLuint, GLenum, GLint *);
+static void (*glGetProgramiv)(GLuint, GLenum, GLint *);
+static void (*glGetShaderInfoLog)(GLuint, GLint, GLint *, char *);
+static void (*glGetProgramInfoLog)(GLuint, GLint, GLint *, char *);
+
+/* Ends the program if the last call has failed. */
+static void check(const char *call, int line)
+{
+    GLenum error = glGetError();
+    if (error) {
+        printf("line %d: %s: GL error 0x%04x\n", line, call, error);
+        exit(FAILED);
+    }
+}
+#define CALL(call) ((call), check(#call, __LINE__))
+
+/* Ends the program if a shader has not compiled or a program has not linked. */
+static void built(void (*get)(GLuint, GLenum, GLint *), void (*get_log)(GLuint, GLint, GLint *, char *), GLuint object,
+    GLenum status, const char *failure, int line)
+{
+    GLint done = 0;
+    char log[2000] = "";
+    get(object, status, &done);
+    if (!done) {
+        get_log(object, sizeof log, NULL, log);
+        printf("line %d: %s: %s\n", line, failure, log);
+        exit(FAILED);
+    }
+}
+#define compiled(shader, line) \
+    built(glGetShaderiv, glGetShaderInfoLog, shader, 0x8B81, "the shader does not compile", line)
+#define linked(program, line) \
+    built(glGetProgramiv, glGetProgramInfoLog, program, 0x8B82, "the program does not link", line)
+
+/* Ends the program if the driver does not support a framebuffer. */
+static void complete(GLenum status, int line)
+{
+    if (status != 0x8CD5) {
+        printf("line %d: the framebuffer is not complete: 0x%04x\n", line, status);
+        exit(LACKS);
+    }
+}
+
+static const char *const default_library = "libEGL.so.1";
+static const int es = 0, major = 4, minor = 5, device = -1;
+static const char *const api = "OpenGL 4.5";
+
+static void *(*eglGetProcAddress)(const char *);
+static void load(void);
+
+static void lacks(const char *what)
+{
+    printf("not supported: %s\n", what);
+    exit(LACKS);
+}
+
+static void *function(const char *name)
+{
+    void *address = eglGetProcAddress(name);
+    if (!address)
+        lacks(name);
+    return address;
+}
+
+static void *display_of_device(const char *known)
+{
+    void *(*get)(unsigned, void *, const int32_t *);
+    unsigned (*query)(int32_t, void **, int32_t *);
+    void *all[64];
+    int32_t number = 0;
+    if (!strstr(known, "EGL_EXT_platform_device"))
+        lacks("EGL_EXT_platform_device");
+    *(void **)&get = function("eglGetPlatformDisplayEXT");
+    *(void **)&query = function("eglQueryDevicesEXT");
+    if (!query(64, all, &number) || device >= number)
+        lacks("the EGL device");
+    return get(0x313F, all[device], NULL);
+}
+
+static void make_context(const char *name)
+{
+    void *library = dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+    const char *(*query)(void *, int32_t);
+    void *(*get_display)(void *);
+    void *(*get_platform_display)(unsigned, void *, const int32_t *);
+    unsigned (*initialize)(void *, int32_t *, int32_t *);
+    unsigned (*bind)(unsigned);
+    unsigned (*choose)(void *, const int32_t *, void **, int32_t, int32_t *);
+    void *(*create)(void *, void *, void *, const int32_t *);
+    unsigned (*make_current)(void *, void *, void *, void *);
+    const char *known;
+    void *display, *context, *config = NULL;
+    int32_t version[2], number = 0;
+    int32_t surfaceless[] = { 0x3033, 0, 0x3040, es ? 0x40 : 0x8, 0x3038 };
+    int32_t list[] = { 0x3098, major, 0x30FB, minor, es ? 0x3038 : 0x30FD, 1, 0x3038 };
+    if (!library)
+        lacks(dlerror());
+    *(void **)&eglGetProcAddress = dlsym(library, "eglGetProcAddress");
+    *(void **)&query = dlsym(library, "eglQueryString");
+    *(void **)&get_display = dlsym(library, "eglGetDisplay");
+    *(void **)&initialize = dlsym(library, "eglInitialize");
+    *(void **)&bind = dlsym(library, "eglBindAPI");
+    *(void **)&choose = dlsym(library, "eglChooseConfig");
+    *(void **)&create = dlsym(library, "eglCreateContext");
+    *(void **)&make_current = dlsym(library, "eglMakeCurrent");
+    if (!eglGetProcAddress || !query || !get_display || !initialize || !bind || !choose || !create || !make_current)
+        lacks("EGL 1.4");
+    known = query(NULL, 0x3055);
+    if (device >= 0) {
+        display = display_of_device(known ? known : "");
+    } else if (known && strstr(known, "EGL_MESA_platform_surfaceless")) {
+        *(void **)&get_platform_display = function("eglGetPlatformDisplayEXT");
+        display = get_platform_display(0x31DD, NULL, NULL);
+    } else {
+        display = get_display(NULL);
+    }
+    if (!display || !initialize(display, &version[0], &version[1]))
+        lacks("an EGL display");
+    known = query(display, 0x3055);
+    if (!strstr(known, "EGL_KHR_surfaceless_context"))
+        lacks("EGL_KHR_surfaceless_context");
+    if (!bind(es ? 0x30A0 : 0x30A2))
+        lacks(api);
+    if (!strstr(known, "EGL_KHR_no_config_context") && !strstr(known, "EGL_MESA_configless_context")
+        && (!choose(display, surfaceless, &config, 1, &number) || number < 1))
+        lacks("an EGL config");
+    context = create(display, config, NULL, list);
+    if (!context || !make_current(display, NULL, NULL, context))
+        lacks(api);
+    load();
+    printf("%s, %s\n", glGetString(0x1F01), glGetString(0x1F02));
+}
+
+static void load(void)
+{
+    *(void **)&glGetError = function("glGetError");
+    *(void **)&glGetString = function("glGetString");
+    *(void **)&glGetShaderiv = function("glGetShaderiv");
+    *(void **)&glGetProgramiv = function("glGetProgramiv");
+    *(void **)&glGetShaderInfoLog = function("glGetShaderInfoLog");
+    *(void **)&glGetProgramInfoLog = function("glGetProgramInfoLog");
+    *(void **)&glActiveTexture = function("glActiveTexture");
+    *(void **)&glAttachShader = function("glAttachShader");
+    *(void **)&glBindBuffer = function("glBindBuffer");
+    *(void **)&glBindBufferRange = function("glBindBufferRange");
+    *(void **)&glBindFramebuffer = function("glBindFramebuffer");
+    *(void **)&glBindTexture = function("glBindTexture");
+    *(void **)&glBindVertexArray = function("glBindVertexArray");
+    *(void **)&glBufferData = function("glBufferData");
+    *(void **)&glCheckFramebufferStatus = function("glCheckFramebufferStatus");
+    *(void **)&glClampColor = function("glClampColor");
+    *(void **)&glClearBufferfv = function("glClearBufferfv");
+    *(void **)&glClipControl = function("glClipControl");
+    *(void **)&glCompileShader = function("glCompileShader");
+    *(void **)&glCreateProgram = function("glCreateProgram");
+    *(void **)&glCreateShader = function("glCreateShader");
+    *(void **)&glDisable = function("glDisable");
+    *(void **)&glDrawArrays = function("glDrawArrays");
+    *(void **)&glDrawBuffers = function("glDrawBuffers");
+    *(void **)&glEnable = function("glEnable");
+    *(void **)&glEnableVertexAttribArray = function("glEnableVertexAttribArray");
+    *(void **)&glFinish = function("glFinish");
+    *(void **)&glFlush = function("glFlush");
+    *(void **)&glFramebufferTexture2D = function("glFramebufferTexture2D");
+    *(void **)&glGenBuffers = function("glGenBuffers");
+    *(void **)&glGenFramebuffers = function("glGenFramebuffers");
+    *(void **)&glGenTextures = function("glGenTextures");
+    *(void **)&glGenVertexArrays = function("glGenVertexArrays");
+    *(void **)&glGetUniformBlockIndex = function("glGetUniformBlockIndex");
+    *(void **)&glLinkProgram = function("glLinkProgram");
+    *(void **)&glPixelStorei = function("glPixelStorei");
+    *(void **)&glReadBuffer = function("glReadBuffer");
+    *(void **)&glReadPixels = function("glReadPixels");
+    *(void **)&glShaderSource = function("glShaderSource");
+    *(void **)&glStencilMask = function("glStencilMask");
+    *(void **)&glTexImage2D = function("glTexImage2D");
+    *(void **)&glTexParameteri = function("glTexParameteri");
+    *(void **)&glUniformBlockBinding = function("glUniformBlockBinding");
+    *(void **)&glUseProgram = function("glUseProgram");
+    *(void **)&glVertexAttribPointer = function("glVertexAttribPointer");
+    *(void **)&glViewportIndexedf = function("glViewportIndexedf");
+}
+
+static GLuint vertex_array_1;
+static GLuint vertex_array_2;
+static GLuint texture_1;
+static GLuint framebuffer_1;
+static GLuint buffer_1;
+static GLuint buffer_2;
+static GLuint framebuffer_2;
+static GLuint program_1;
+static GLuint shader_1;
+static GLuint shader_2;
+static GLuint block_1;
+static unsigned char memory_0[4];
+static const GLfloat data_1[60] = {
+    -1.0f, -0.5f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, -1.0f,
+    0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.5f, 1.0f, 0.0f, 1.0f,
+    -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -0.5f, 0.0f, 1.0f, -1.0f, 0.0f,
+    0.0f, 0.0f, 0.0f, 0.0f, 0.5f, 1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 0.0f,
+    0.0f, 0.0f, -1.0f, 1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+};
+static const unsigned char data_2[32];
+static const char *const source_3 =
+    "#version 450 core\n"
+    "struct Params {\n"
+    "    vec4 color;\n"
+    "    vec4 back_color;\n"
+    "};\n"
+    "struct Varying {\n"
+    "    vec4 position;\n"
+    "    float distances[8];\n"
+    "};\n"
+    "layout(location = 0) in vec4 _p2vs_location0;\n"
+    "layout(location = 1) in vec4 _p2vs_location1;\n"
+    "layout(location = 2) in vec2 _p2vs_location2;\n"
+    "out float gl_ClipDistance[8];\n"
+    "\n"
+    "void main() {\n"
+    "    vec4 position = _p2vs_location0;\n"
+    "    vec4 color = _p2vs_location1;\n"
+    "    vec2 uv = _p2vs_location2;\n"
+    "    float all_[8] = float[8](color.x, color.y, color.z, color.w, uv.x, uv.y, (color.w - uv.x), (color.z - uv.y));\n"
+    "    Varying _tmp_return = Varying(position, all_);\n"
+    "    gl_Position = _tmp_return.position;\n"
+    "    gl_ClipDistance = _tmp_return.distances;\n"
+    "    gl_PointSize = 1.0;\n"
+    "    return;\n"
+    "}\n"
+    "\n";
+static const char *const source_4 =
+    "#version 450 core\n"
+    "struct Params {\n"
+    "    vec4 color;\n"
+    "    vec4 back_color;\n"
+    "};\n"
+    "struct Varying {\n"
+    "    vec4 position;\n"
+    "    float distances[8];\n"
+    "};\n"
+    "layout(std140) uniform Params_block_0Fragment { Params _group_0_binding_0_fs; };\n"
+    "\n"
+    "layout(location = 0) out vec4 _fs2p_location0;\n"
+    "\n"
+    "void main() {\n"
+    "    vec4 _e2 = _group_0_binding_0_fs.color;\n"
+    "    _fs2p_location0 = _e2;\n"
+    "    return;\n"
+    "}\n"
+    "\n";
+
+static void prepare(void)
+{
+    CALL(glGenVertexArrays(1, &vertex_array_1));
+    CALL(glGenVertexArrays(1, &vertex_array_2));
+    CALL(glBindVertexArray(vertex_array_2));
+    CALL(glEnableVertexAttribArray(0));
+    CALL(glEnableVertexAttribArray(1));
+    CALL(glEnableVertexAttribArray(2));
+    CALL(glDisable(GL_DITHER));
+    CALL(glEnable(GL_FRAMEBUFFER_SRGB));
+    CALL(glClampColor(GL_CLAMP_READ_COLOR, 0));
+    CALL(glStencilMask(255));
+    CALL(glPixelStorei(GL_PACK_ALIGNMENT, 1));
+    CALL(glPixelStorei(GL_UNPACK_ALIGNMENT, 1));
+    CALL(glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE));
+    CALL(glGenTextures(1, &texture_1));
+    CALL(glActiveTexture(GL_TEXTURE0));
+    CALL(glBindTexture(GL_TEXTURE_2D, texture_1));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE));
+    CALL(glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE));
+    CALL(glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL));
+    CALL(glGenFramebuffers(1, &framebuffer_1));
+    CALL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_1));
+    CALL(glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_1, 0));
+    CALL(glDrawBuffers(1, (const GLenum[]){ GL_COLOR_ATTACHMENT0 }));
+    CALL(glReadBuffer(GL_COLOR_ATTACHMENT0));
+    complete(glCheckFramebufferStatus(GL_FRAMEBUFFER), __LINE__);
+    CALL(glGenBuffers(1, &buffer_1));
+    CALL(glBindBuffer(GL_ARRAY_BUFFER, buffer_1));
+    CALL(glBufferData(GL_ARRAY_BUFFER, 240, data_1, GL_STATIC_DRAW));
+    CALL(glGenBuffers(1, &buffer_2));
+    CALL(glBindBuffer(GL_ARRAY_BUFFER, buffer_2));
+    CALL(glBufferData(GL_ARRAY_BUFFER, 32, data_2, GL_STATIC_DRAW));
+    CALL(glGenFramebuffers(1, &framebuffer_2));
+    CALL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_2));
+    CALL(glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_1, 0));
+    CALL(glDrawBuffers(1, (const GLenum[]){ GL_COLOR_ATTACHMENT0 }));
+    CALL(glReadBuffer(GL_COLOR_ATTACHMENT0));
+    complete(glCheckFramebufferStatus(GL_FRAMEBUFFER), __LINE__);
+    program_1 = glCreateProgram(), check("glCreateProgram", __LINE__);
+    shader_1 = glCreateShader(GL_VERTEX_SHADER), check("glCreateShader", __LINE__);
+    CALL(glShaderSource(shader_1, 1, &source_3, NULL));
+    CALL(glCompileShader(shader_1)), compiled(shader_1, __LINE__);
+    CALL(glAttachShader(program_1, shader_1));
+    shader_2 = glCreateShader(GL_FRAGMENT_SHADER), check("glCreateShader", __LINE__);
+    CALL(glShaderSource(shader_2, 1, &source_4, NULL));
+    CALL(glCompileShader(shader_2)), compiled(shader_2, __LINE__);
+    CALL(glAttachShader(program_1, shader_2));
+    CALL(glLinkProgram(program_1)), linked(program_1, __LINE__);
+    CALL(glUseProgram(program_1));
+    block_1 = glGetUniformBlockIndex(program_1, "Params_block_0Fragment"), check("glGetUniformBlockIndex", __LINE__);
+    CALL(glUniformBlockBinding(program_1, block_1, 0));
+}
+
+static void draw(void)
+{
+    CALL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_1));
+    CALL(glClearBufferfv(GL_COLOR, 0, (const GLfloat[]){ 0.0f, 0.0f, 0.0f, 1.0f }));
+    CALL(glBindVertexArray(vertex_array_2));
+    CALL(glBindBuffer(GL_ARRAY_BUFFER, buffer_1));
+    CALL(glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0));
+    CALL(glVertexAttribPointer(0, 4, GL_FLOAT, 0, 40, NULL));
+    CALL(glVertexAttribPointer(1, 4, GL_FLOAT, 0, 40, (const void *)16));
+    CALL(glVertexAttribPointer(2, 2, GL_FLOAT, 0, 40, (const void *)32));
+    CALL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_2));
+    CALL(glViewportIndexedf(0, 0.0f, 0.0f, 1.0f, 1.0f));
+    CALL(glUseProgram(program_1));
+    CALL(glBindBufferRange(GL_UNIFORM_BUFFER, 0, buffer_2, 0, 32));
+    CALL(glDrawArrays(GL_TRIANGLES, 0, 6));
+    CALL(glFlush());
+    CALL(glFinish());
+}
+
+static void read_back(void)
+{
+    CALL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_1));
+    CALL(glPixelStorei(GL_PACK_ROW_LENGTH, 1));
+    CALL(glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, memory_0));
+}
+
+/* How the bits of a channel are compared: as a number, a signed number, a float of 16 bits (by its sign and magnitude),
+ * a float of 32 bits, or a byte that a shorter code was widened to. */
+enum order { UNSIGNED, SIGNED, HALF, SINGLE, VALUE, WIDENED };
+
+struct channel {
+    const char *name;
+    const unsigned char *texel;
+    unsigned bit, bits;
+    enum order order;
+    unsigned width;
+};
+
+struct range {
+    double least, most;
+};
+
+struct texel {
+    const char *place;
+    unsigned channels, outcomes;
+    const struct channel *channel;
+    const struct range *allowed;
+};
+
+static double value_of(const struct channel *c)
+{
+    uint64_t word = 0;
+    uint32_t code, sign;
+    float value;
+    memcpy(&word, c->texel + c->bit / 8, (c->bit % 8 + c->bits + 7) / 8);
+    code = (uint32_t)(word >> c->bit % 8) & (0xFFFFFFFFu >> (32 - c->bits));
+    sign = 1u << (c->width - 1);
+    switch (c->order) {
+    case SIGNED:
+        return (code & sign) ? (double)code - 2.0 * sign : code;
+    case HALF:
+    case SINGLE:
+        return (code & sign) ? -(double)(code - sign) : code;
+    case VALUE:
+        memcpy(&value, &code, sizeof value);
+        return value;
+    case WIDENED:
+        return (code * ((1u << c->width) - 1) + 127) / 255;
+    default:
+        return code;
+    }
+}
+
+static int is_allowed(const struct texel *t, const struct range *outcome)
+{
+    unsigned i;
+    for (i = 0; i < t->channels; i++) {
+        double value = value_of(&t->channel[i]);
+        if (!(value >= outcome[i].least && value <= outcome[i].most))
+            return 0;
+    }
+    return 1;
+}
+
+static int is_right(const struct texel *t)
+{
+    unsigned i;
+    for (i = 0; i < t->outcomes; i++)
+        if (is_allowed(t, t->allowed + i * t->channels))
+            return 1;
+    return 0;
+}
+
+/* The number that a place in the order stands for. */
+static double shown(const struct channel *c, double order)
+{
+    double sign = order < 0 ? -1 : 1, size = fabs(order);
+    uint32_t code = size < 0x7F800000 ? (uint32_t)size : 0x7F800000;
+    float value;
+    if (c->order == SINGLE) {
+        memcpy(&value, &code, sizeof value);
+        return sign * (double)value;
+    }
+    if (c->order == HALF && size < 0x7C00)
+        return sign * (code < 0x400 ? ldexp(code, -24) : ldexp(code % 0x400 + 0x400, (int)(code / 0x400) - 25));
+    return c->order == HALF ? sign * INFINITY : order;
+}
+
+static void tell(const struct texel *t)
+{
+    unsigned i;
+    printf("%s is wrong:", t->place);
+    for (i = 0; i < t->channels; i++) {
+        const struct channel *c = &t->channel[i];
+        double value = value_of(c);
+        double least = t->allowed[i].least, most = t->allowed[i].most;
+        if (t->outcomes == 1 && value >= least && value <= most)
+            continue;
+        printf(" %s %.9g", c->name, shown(c, value));
+        if (t->outcomes != 1)
+            continue;
+        if (least == most)
+            printf(" (must be %.9g)", shown(c, least));
+        else if (isinf(most))
+            printf(" (must be at least %.9g)", shown(c, least));
+        else if (isinf(least))
+            printf(" (must be at most %.9g)", shown(c, most));
+        else
+            printf(" (must be %.9g to %.9g)", shown(c, least), shown(c, most));
+    }
+    printf("\n");
+}
+
+static const struct channel channels_0[] = {
+    { "red of color", memory_0 + 0, 0, 8, UNSIGNED, 8 },
+    { "green of color", memory_0 + 0, 8, 8, UNSIGNED, 8 },
+    { "blue of color", memory_0 + 0, 16, 8, UNSIGNED, 8 },
+    { "alpha of color", memory_0 + 0, 24, 8, UNSIGNED, 8 },
+};
+static const struct range allowed_0[] = {
+    { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 },
+};
+
+static int check_values(void)
+{
+    static const struct texel all[] = {
+        { "texel 0,0", 4, 1, channels_0, allowed_0 },
+    };
+    unsigned i;
+    for (i = 0; i < sizeof all / sizeof *all; i++)
+        if (!is_right(&all[i])) {
+            tell(&all[i]);
+            return BUG;
+        }
+    printf("right\n");
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    make_context(count > 1 ? arguments[1] : default_library);
+    prepare();
+    draw();
+    read_back();
+    return check_values();
+}
