@@ -117,7 +117,7 @@ path_values! {
         Slice3d = "slice-3d",
         /// A face above 0 of a cube.
         CubeFace = "cube-face",
-        /// A renderbuffer, which is no texture.
+        /// A renderbuffer, which is not a texture.
         Renderbuffer = "renderbuffer",
     }
     /// The command buffers of a submission.
