@@ -359,7 +359,8 @@ fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget])
     Ok(())
 }
 
-/// Refuses what no specification defines: vertices far out, and written depths out of range.
+/// Refuses inputs whose effect no specification defines: vertices too far away, and written depths outside 0 to
+/// 1.
 fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     for vertex in &mesh.vertices {
         if vertex

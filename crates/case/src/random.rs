@@ -192,7 +192,8 @@ struct Maker {
     /// True if alpha is 0 or 1. With two bits of alpha, values in between would be legal as different thirds,
     /// and as a factor they would carry that into the colours.
     whole_alpha: bool,
-    /// One reference for all draws of a scene; otherwise none would ever be equal.
+    /// The stencil reference that all draws share. If each draw had its own, comparisons with the stored value
+    /// would almost never find both equal.
     reference: u32,
     dice: Dice,
 }

@@ -85,7 +85,7 @@ fn shortened(value: Value) -> Value {
     }
 }
 
-/// Returns the shortest number that is equal in 32 bits.
+/// Returns the shortest JSON number that reads back as the same 32-bit float.
 fn short(value: f32) -> Value {
     if value.fract() == 0.0 && value.abs() < 1e9 && !(value == 0.0 && value.is_sign_negative()) {
         return json!(value as i64);

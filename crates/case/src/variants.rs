@@ -43,7 +43,7 @@ pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Ve
     Ok(all)
 }
 
-/// The maximum number of submissions between two readings.
+/// The maximum number of submissions between two read-backs.
 const MOST_SUBMISSIONS: u32 = 1024;
 
 /// Returns the value of a scene at a JSON pointer.

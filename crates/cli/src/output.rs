@@ -2,8 +2,8 @@
 //!
 //! A reader that closes the pipe, as `head` does, never changes an exit code: it has what it wanted. Unlike
 //! `println!` and `eprintln!`, nothing here panics. [`print()`] is for commands that produce their output on
-//! standard output: any other failed write is an error. [`summarize`] is for commands that produce a folder:
-//! a failed write of the summary is no error. JSON goes through [`print()`], because a program must not take
+//! standard output: any other failed write is an error. [`summarize`] is for commands that produce a folder: a
+//! failed write of the summary is not an error. JSON goes through [`print()`], because a program must not take
 //! truncated output as complete.
 
 use crate::failure::Failure;

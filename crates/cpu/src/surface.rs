@@ -119,7 +119,7 @@ impl Surface {
         }
     }
 
-    /// Resolves another surface into this one. `resolve` returns the code for the codes of all samples.
+    /// Resolves another surface into this one. `resolve` combines the codes of all samples into one.
     pub(crate) fn resolve_from(
         &mut self,
         source: &Self,
@@ -141,8 +141,8 @@ impl Surface {
         }
     }
 
-    /// Resolves the depths of another surface into this one. `resolve` returns the code for the codes of all
-    /// samples.
+    /// Resolves the depths of another surface into this one. `resolve` combines the codes of all samples into
+    /// one.
     pub(crate) fn resolve_depth_from(
         &mut self,
         source: &Self,

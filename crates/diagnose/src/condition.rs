@@ -3,7 +3,7 @@
 use etalon_record::compile_glob;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The most globs with which a condition is written.
+/// The maximum number of globs with which a condition is written.
 const GLOBS: usize = 12;
 
 /// A condition on axes: the values of each axis that matters.

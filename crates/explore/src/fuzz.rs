@@ -16,7 +16,7 @@ use std::cmp::Reverse;
 
 /// The number of scenes that are made per drawn scene.
 const MADE: usize = 3;
-/// The most scenes that are made before giving up.
+/// The maximum number of scenes that are made before giving up.
 const MOST_MADE: u64 = 24;
 
 /// One random scene.

@@ -13,16 +13,16 @@ use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The most candidates that a reduction draws.
+/// The maximum number of candidates that a reduction draws.
 pub const MOST_DRAWS: usize = 1000;
-/// The most candidates, and the time for all of them, if each candidate can cost a process.
+/// The maximum number of candidates and the time limit for all of them, if each candidate can cost a process.
 const MOST_LOST: usize = 200;
 const LOST_TIME: Duration = Duration::from_secs(60);
 
 /// The limits of a reduction.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget<'a> {
-    /// The most candidates that are drawn.
+    /// The maximum number of candidates that are drawn.
     pub draws: usize,
     /// The time after which no candidate is tried.
     pub until: Option<Instant>,

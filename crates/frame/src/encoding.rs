@@ -6,8 +6,8 @@ use std::fmt;
 
 /// The encoding of one channel: the mapping between codes and values.
 ///
-/// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that grows
-/// with the code's value, by one per neighbouring code, so that intervals of values are intervals of
+/// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that grows with
+/// the code's value, by one from each code to the next. Intervals of values are therefore intervals of
 /// integers, and distances are counted in codes (ULPs for floats).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

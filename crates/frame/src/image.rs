@@ -64,7 +64,7 @@ pub struct Frame {
 /// A frame with another shape than requested: a bug of the backend, never of the driver.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FrameError {
-    /// The frame has another number of images than the legal set.
+    /// The frame and the legal set have different numbers of images.
     #[error("the frame has {actual} images, {expected} were requested")]
     ImageCount {
         /// The number of images that came back.

@@ -374,7 +374,7 @@ impl LegalSetBuilder {
         (group.size, group.samples)
     }
 
-    /// Returns the index of a set in a group's palette.
+    /// Returns the index of a set in a group's palette, and adds the set if it is new.
     pub fn set(&mut self, group: usize, mut set: TexelSet) -> u32 {
         set.worlds.sort_unstable();
         set.worlds.dedup();

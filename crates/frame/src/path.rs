@@ -117,7 +117,7 @@ path_values! {
         Slice3d = "slice-3d",
         /// A face above 0 of a cube.
         CubeFace = "cube-face",
-        /// A renderbuffer, which is no texture.
+        /// A renderbuffer, which is not a texture.
         Renderbuffer = "renderbuffer",
     }
     /// The command buffers of a submission.
@@ -219,9 +219,11 @@ path_values! {
     Layers(PathLayers) = "layers" {
         /// One.
         One = "one",
-        /// Three layers: a shader selects the second once and the third once, and these are read in turns.
+        /// Three layers: a shader selects the second once and the third once. Attachments alternate between the
+        /// two when they are read.
         Written = "written",
-        /// Three layers; two are views. A draw reaches both, and these are read in turns.
+        /// Three layers; two are views. A draw reaches both, and attachments alternate between them when they
+        /// are read.
         Multiview = "multiview",
     }
     /// The tests of aspects that a pass does not have.

@@ -1,9 +1,9 @@
 //! Clears of a pass, and contents that it discards.
 //!
 //! Load operations and clear commands differ only in when they are executed. The scissor test, masks and
-//! rasterizer discard of the last draw would affect a clear, so each clear sets them; draws set their own.
-//! One call clears one attachment. If the path asks for it, the older call that clears all draw buffers
-//! clears several attachments together.
+//! rasterizer discard of the last draw would affect a clear, so each clear sets them; draws set their own. One
+//! call clears one attachment. If the path asks for it, `glClear`, which clears all draw buffers, clears
+//! several attachments together.
 
 use crate::context::Context;
 use crate::state;
@@ -22,8 +22,8 @@ pub(crate) struct ClearCall {
     packed: bool,
 }
 
-/// Returns clear commands, each with the index of the draw that it precedes. `integers` says of each
-/// colour attachment whether it holds integers.
+/// Returns clear commands, each with the index of the draw that it precedes. `integers` is true for each colour
+/// attachment that holds integers.
 pub(crate) fn commands<'c>(
     clears: impl Iterator<Item = &'c Clear>,
     integers: &[bool],
@@ -86,7 +86,7 @@ impl ClearCall {
             && colors().all(|(location, _)| self.integers.get(location) == Some(&false))
     }
 
-    /// Returns true if the call for all draw buffers can clear the targets. It has no values for integers.
+    /// Returns true if `glClear` can clear the targets: it cannot clear integer attachments.
     fn is_plain(&self) -> bool {
         self.targets.iter().all(|target| match *target {
             ClearTarget::Color { location, .. } => self.integers.get(location) == Some(&false),
@@ -99,7 +99,7 @@ impl ClearCall {
         let gl = &context.gl;
         state::set(gl, glow::RASTERIZER_DISCARD, false);
         let together = self.way == PathClears::Together && self.is_plain();
-        // A rectangle that extends beyond the framebuffer on all sides has no effect.
+        // A scissor rectangle that extends beyond the framebuffer on all sides changes nothing.
         let rect = self.rect.or(together.then_some([-9, -7, 0x4000, 0x4000]));
         state::set(gl, glow::SCISSOR_TEST, rect.is_some());
         // SAFETY: the context is current; the entry points are part of version 3, or known.

@@ -22,7 +22,7 @@ pub(crate) struct Counters {
 }
 
 impl Counters {
-    /// Returns a scene's counters, still without queries.
+    /// Returns a scene's counters; they have no queries yet.
     pub(crate) fn new(context: &Context, scene: &Scene) -> Self {
         let alignment = context.caps.storage_alignment.unwrap_or(1);
         Self {

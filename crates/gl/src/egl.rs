@@ -539,8 +539,8 @@ pub(crate) struct EglContext {
 }
 
 impl EglContext {
-    /// Makes the context current on this thread. The error consists of true if the context is lost, and the
-    /// name of EGL's error.
+    /// Makes the context current on this thread. The error is a pair: true if the context is lost, and the name
+    /// of EGL's error.
     pub(crate) fn make_current(&self) -> Result<(), (bool, String)> {
         let functions = &self.egl.functions;
         let none = std::ptr::null_mut();

@@ -130,8 +130,8 @@ fn is_drawn(scene: &Scene, index: usize) -> bool {
     passes.any(|p| p.color.contains(&index) || p.depth_stencil == Some(index))
 }
 
-/// Returns the layer that is read of an attachment if passes have several layers. Attachments take turns in
-/// it.
+/// Returns the layer of an attachment that is read, if passes have several layers. It alternates from one
+/// attachment to the next.
 pub(crate) fn layer(scene: &Scene, index: usize) -> Option<u8> {
     let layered = is_layered(scene) && is_drawn(scene, index);
     layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])

@@ -328,7 +328,7 @@ functions! {
         x0: i32, y0: i32, x1: i32, y1: i32, to_x0: i32, to_y0: i32, to_x1: i32, to_y1: i32, mask: u32, filter: u32
     ) |planted| {
         planted.blits += 1;
-        // Reading back comes after the end of a submission, and also blits.
+        // Read-back also blits, after the end of a submission.
         if planted.calls.has(CallFault::ResolveFirst) && planted.blits > 1 && planted.calls.passes > 0 {
             return;
         }
@@ -487,7 +487,7 @@ fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
     }
 }
 
-/// Returns the place of the first index, as a pointer.
+/// Returns the offset of the first index, as a pointer.
 fn place(numbers: &DrawNumbers, kind: u32) -> Pointer {
     ptr::without_provenance(numbers.first as usize * index_bytes(kind))
 }

@@ -1,6 +1,6 @@
 //! Pipeline state. Every draw sets what is enabled and disabled, so that no cache can be stale.
 //!
-//! The parameters of disabled state stay as an earlier draw or [`reset`] set them. They must not act, so
+//! The parameters of disabled state stay as an earlier draw or [`reset`] set them. They must have no effect, so
 //! `reset` chooses values whose effect would be visible: a driver that ignores the enable must not pass by
 //! chance.
 
@@ -465,8 +465,8 @@ pub(crate) fn set_restart(context: &Context) {
     }
 }
 
-/// Enables primitive restart for a draw without indices, on which it must not act. If the context lets the
-/// restart index be set, it is the number of a vertex that is drawn.
+/// Enables primitive restart for a draw without indices, on which it must have no effect. If the context lets
+/// the restart index be set, it is the number of a vertex that is drawn.
 pub(crate) fn set_restart_unindexed(context: &Context, vertex: u32) {
     let gl = &context.gl;
     match context.entry_points.primitive_restart_index {

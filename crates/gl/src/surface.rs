@@ -171,7 +171,7 @@ impl Surface {
         let format = kind.gl()?;
         let samples = kind.samples();
         let stencil_only = kind.format() == Some(TextureFormat::Stencil8);
-        // In ES, and if multisampled, a shader reads stencil, which needs a texture.
+        // In ES, and from multisampled surfaces, stencil is read by a shader, which needs a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
         let target = kind.target();
         let (storage, viewed) = match kind.stored() {

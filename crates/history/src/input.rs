@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-/// The most bytes of a header that are read to find out what a file is.
+/// The maximum number of bytes of a header that are read to find out what a file is.
 const MAX_HEADER: u64 = 16 << 20;
 /// The first bytes of gzip files.
 const GZIP: [u8; 2] = [0x1f, 0x8b];

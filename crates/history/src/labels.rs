@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// The most bytes of a key.
+/// The maximum number of bytes of a key.
 const MAX_KEY: usize = 200;
-/// The most bytes of a value.
+/// The maximum number of bytes of a value.
 const MAX_VALUE: usize = 4096;
 
 /// The labels of a run: keys with their values.

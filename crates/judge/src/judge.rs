@@ -272,8 +272,8 @@ fn violation(band: Band) -> Verdict {
 
 /// Returns the record of the worse of two scenes of one case, with the assertions of both.
 fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
-    // Within one case, an open scene does not weaken one that asserts something, and an InternalError next to
-    // a Fail means that the Fail is no proof.
+    // Within one case, an open scene does not weaken one that asserts something, and an InternalError next to a
+    // Fail means that the Fail is not a proof.
     let rank = |verdict: Verdict| match verdict {
         Verdict::Open => (false, 0),
         Verdict::InternalError => (true, 0),

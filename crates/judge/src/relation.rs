@@ -22,7 +22,7 @@ pub(crate) struct Differences {
     pub(crate) sides: Option<[Compared; 2]>,
 }
 
-/// One of two texels that must be equal.
+/// One side of a comparison of two texels that must be equal.
 #[derive(Clone, Debug)]
 pub(crate) struct Compared {
     /// 0 for the case's own scene, otherwise the variant's index plus 1.

@@ -31,7 +31,8 @@ mod tests {
     use etalon_cpu::CpuBackend;
     use etalon_frame::{Api, Requirement, TextureFormat};
 
-    /// Returns the record of a required format on an adapter of this version without it.
+    /// Returns the record of a case that requires a format, on an adapter of this version that lacks the
+    /// format.
     fn lacking(format: TextureFormat, exempt: bool, major: u8, minor: u8) -> Record {
         let id = format!("capabilities/required/color-formats/format={format}");
         let library = Library::built_in().expect("built-in files parse");

@@ -20,7 +20,7 @@ use etalon_scene::Shader;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The most layers.
+/// The maximum number of layers.
 const MOST: u32 = 1024;
 
 /// The number of columns of colours and of rows of backgrounds; each is 2 texels wide.

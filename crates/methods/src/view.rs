@@ -78,7 +78,7 @@ pub(crate) fn cuboid(low: DVec3, high: DVec3, color: [f64; 4]) -> Vec<Face> {
 enum Lens {
     /// Rays through the eye; the number is half the picture's height at distance 1.
     Perspective(f64),
-    /// Parallel rays; the number is half the picture's height.
+    /// Parallel rays; the number is half the height of the picture in eye space.
     Parallel(f64),
 }
 

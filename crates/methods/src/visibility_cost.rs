@@ -26,7 +26,7 @@ const STEPS: f32 = 64.0;
 /// The colour behind everything.
 const BACKGROUND: [f64; 3] = [0.85, 0.9, 1.0];
 
-/// The most rooms behind each other.
+/// The maximum number of rooms in a row.
 const MOST: u32 = 32;
 
 /// Rooms behind rooms.

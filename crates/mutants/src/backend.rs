@@ -97,7 +97,7 @@ impl Backend for MutantBackend {
     }
 }
 
-/// A scene that is replaced by another from some submission on.
+/// A scene that another one replaces, from the submission numbered `from` on.
 struct PreparedAgain<P> {
     right: P,
     wrong: P,

@@ -63,9 +63,9 @@ pub(super) type Take = fn(&Draw, &mut Draw);
 /// The cases that show that a field is stale.
 #[derive(PartialEq)]
 pub(super) enum Shows {
-    /// Cases of its area, which change it from one case to the next.
+    /// The cases of the field's area, which change it from one case to the next.
     Cases,
-    /// Cases of the area `sequence`, which change it between draws and between passes.
+    /// The cases of the area `sequence`, which change the field between draws and between passes.
     Sequences,
     Both,
 }

@@ -65,7 +65,7 @@ pub(crate) fn shortened(value: f32, mantissa: u8) -> u32 {
     let infinite = 31 << mantissa;
     let nan = infinite | 1 << (mantissa - 1);
     let large = if magnitude > INFINITE { nan } else { infinite };
-    // An exponent beyond the encoding's gives a number beyond its codes.
+    // If the exponent is too large for the encoding, the number here is beyond the largest finite code.
     let normal = if normal < infinite {
         normal
     } else {

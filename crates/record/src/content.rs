@@ -80,7 +80,7 @@ fn is_process(ending: &str) -> bool {
         .is_some_and(|id| id.parse::<u32>().is_ok())
 }
 
-/// The most bytes of a header that are read to recognize it.
+/// The maximum number of bytes of a header that are read to recognize it.
 const MAX_MARK: u64 = 64 << 20;
 
 /// Returns true if a file begins with a header of etalon: a line with a JSON object that has the key

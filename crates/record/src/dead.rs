@@ -45,7 +45,7 @@ pub struct Dead {
     pub about: String,
 }
 
-/// The most bytes of a list of dead expectations.
+/// The maximum number of bytes of a list of dead expectations.
 const MAX_BYTES: u64 = 16 << 20;
 
 impl Dead {

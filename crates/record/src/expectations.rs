@@ -275,7 +275,7 @@ pub enum Expectation<'a> {
     Differs(&'a Known),
 }
 
-/// The most bytes of a file that are read; a longer file does not parse.
+/// The maximum number of bytes of a file that are read; a longer file does not parse.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 

@@ -41,7 +41,7 @@ pub struct ExpectedSymptom {
     /// The codes of all wrong channels; any codes if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub codes: Vec<u32>,
-    /// The side of the legal values that the wrong ones are on.
+    /// The side of the legal range on which the wrong values are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
     /// The counter that is wrong, while every texel is right.

@@ -17,9 +17,9 @@ pub(crate) struct JsonLines<'a> {
     pub(crate) path: &'a Path,
     /// The newest format that is read; earlier ones are read too.
     pub(crate) format: u32,
-    /// The most bytes of a header that are read; a longer one does not parse.
+    /// The maximum number of bytes of a header that are read; a longer one does not parse.
     pub(crate) max_header: u64,
-    /// The most bytes of any other line that are read.
+    /// The maximum number of bytes of any other line that are read.
     pub(crate) max_line: u64,
     /// The remedy for a damaged line.
     pub(crate) remedy: &'static str,

@@ -12,7 +12,7 @@ use regex::{Regex, RegexBuilder};
 use std::collections::BTreeSet;
 use thiserror::Error;
 
-/// The most bytes that one regular expression may take compiled.
+/// The maximum number of bytes that one regular expression may take compiled.
 const REGEX_BYTES: usize = 1 << 20;
 
 /// The three lists of one driver.

@@ -270,7 +270,7 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
     Ok(whole)
 }
 
-/// The most globs that are named per side.
+/// The maximum number of globs that are named per side.
 const GLOBS: usize = 4;
 
 /// Returns the globs of the case files in which two selections differ; `None` if they are the same, or if a

@@ -10,11 +10,11 @@ use etalon_frame::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The most bytes of a record's line, including its newline.
+/// The maximum number of bytes of a record's line, including its newline.
 pub const MAX_LINE: usize = 64 * 1024;
-/// The most wrong texels that a record lists.
+/// The maximum number of wrong texels that a record lists.
 pub const MAX_WRONG_TEXELS: usize = 64;
-/// The most validation messages that a record keeps.
+/// The maximum number of validation messages that a record keeps.
 pub const MAX_VALIDATION: usize = 16;
 
 /// The result of one case on one adapter.

@@ -26,9 +26,9 @@ pub struct Run {
 
 /// The signature of a PNG file.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-/// The most bytes of a header's line, which is enough for some thousand adapters.
+/// The maximum number of bytes of a header's line, which is enough for some thousand adapters.
 const MAX_HEADER: u64 = 16 << 20;
-/// The most bytes of a frame file that are read; a longer one does not parse.
+/// The maximum number of bytes of a frame file that are read; a longer one does not parse.
 const MAX_FRAME: u64 = 512 << 20;
 /// The remedy for a damaged line.
 const REMEDY: &str = "remove the line, or record the run again";

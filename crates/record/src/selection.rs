@@ -12,7 +12,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-/// The most bytes of a list of cases.
+/// The maximum number of bytes of a list of cases.
 const MAX_BYTES: u64 = 256 << 20;
 
 /// Returns the digest of a selection, for [`Settings::selection`](crate::Settings::selection): the number

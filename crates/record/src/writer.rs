@@ -27,7 +27,7 @@ pub struct RunWriter {
     synced: Instant,
 }
 
-/// The interval between two syncs, which is the most of a run that a power cut can lose.
+/// The interval between two syncs. A power cut loses at most this part of a run.
 const SYNC_EVERY: Duration = Duration::from_secs(1);
 /// The files of a run other than its reports and records. The records are removed last: as long as they
 /// exist, the other files are known to belong to a run.
@@ -144,7 +144,7 @@ impl RunWriter {
     /// Syncs everything that was appended to the disk; [`RunWriter::append`] does this about once a second.
     ///
     /// # Errors
-    /// If the system cannot.
+    /// If the system fails to sync the file.
     pub fn sync(&mut self) -> Result<(), RecordError> {
         self.synced = Instant::now();
         let synced = self.file.sync_data();

@@ -138,9 +138,10 @@ pub(crate) struct CutTriangle<'a> {
     seen: Seen<'a>,
     vertices: [usize; 3],
     homogeneous: HomogeneousTriangle,
-    /// The corners of the visible part, as shares of the vertices.
+    /// The corners of the visible part, each as its weights of the three vertices.
     corners: Vec<[f64; 3]>,
-    /// The share of the visible part within its edges' error; from 1 on, the sign of its area is open.
+    /// The share of the visible area that is within the error of its edges. From 1 on, the area can have either
+    /// sign.
     flatness: f64,
 }
 
@@ -181,7 +182,7 @@ impl<'a> CutTriangle<'a> {
         [sum(0) / sum(2), sum(1) / sum(2)]
     }
 
-    /// Returns the share of the visible part within the error of its edges.
+    /// Returns the share of the visible area that is within the error of its edges.
     fn flatness(&self) -> f64 {
         let places: Vec<[f64; 2]> = self.corners.iter().map(|c| self.place(*c)).collect();
         let (mut area, mut around) = (0.0, 0.0);

@@ -135,7 +135,7 @@ fn wrong(legal: &LegalSet, frame: &Frame) -> Result<u64, FrameError> {
     compare(frame, legal, legal, 0).map(|found| found.texels.wrong)
 }
 
-/// Returns the middle of a range of steps; of a wide range, the geometric one.
+/// Returns the mean of a range of steps: the geometric mean if the range is wide.
 fn middle((low, high): (f64, f64)) -> f64 {
     if high > low * 4.0 {
         (low * high).sqrt()

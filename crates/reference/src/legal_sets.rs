@@ -221,9 +221,9 @@ fn counted(scene: &Scene) -> BTreeSet<Shape> {
         .collect()
 }
 
-/// Returns the story of one sample: the ruling, then every operation on it with its outcome and the citation
-/// of each permission that was used, and every draw and primitive that ends before it with its clause. If the
-/// frame that a driver returned is given, the ruling includes its values.
+/// Returns the story of one sample: the ruling, then every operation on it with its outcome and the citation of
+/// each permission that was used, and every draw and primitive that does not reach the sample, with the clause
+/// that stops it. If the frame that a driver returned is given, the ruling includes its values.
 pub fn explain(
     scene: &Scene,
     limits: &Limits,

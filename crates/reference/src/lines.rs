@@ -1,6 +1,6 @@
-//! Lines with too few fragments. It is open in which texel of a column a line has its fragment, so a missing
-//! line violates no single texel's legal set. The number of fragments is not open, though. A column counts as
-//! having one if any of its texels can contain what the line leaves there.
+//! Lines with too few fragments. The specifications leave open which texel of a column has a line's fragment,
+//! so a missing line violates no single texel's legal set. The number of fragments is not open, though. A
+//! column counts as having one if any of its texels can contain what the line leaves there.
 
 use crate::notes::Notes;
 use crate::primitive::{Edge, Shape, Side, SnappedPrimitive, line_times};

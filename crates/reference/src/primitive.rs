@@ -414,8 +414,8 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     if !near || (length > 0.0 && nearest > length * reach) {
         return (0, 0);
     }
-    // Certain texels are past half a texel for the diamond at an end, and one texel for a fragment that
-    // deviates or is missing.
+    // A texel is certain if it is more than 1.5 texels from both ends: half a texel for the diamond at an end,
+    // and one texel for a fragment that deviates or is missing.
     let along =
         |low: i64, high: i64, at: i64| at - units * 3 / 2 > low && at + units * 3 / 2 < high;
     // True if a line between two positions runs neither through the sample's texel nor through an adjacent

@@ -216,8 +216,8 @@ impl Walk<'_> {
         Some(self.decoded(index, hull))
     }
 
-    /// Returns the average at a position relative to the centre of the first texel: in floats, and in steps
-    /// that may be rounded to codes.
+    /// Returns the linearly filtered value at a position relative to the centre of the first texel: computed in
+    /// floats, and, if the rules allow it, in steps that are rounded to codes.
     fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Range; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];

@@ -342,7 +342,7 @@ impl Inputs {
     }
 }
 
-/// Returns a number below 4 for the facings that a triangle of such areas can have.
+/// Returns the facings that a triangle with areas in this range can have, as a number below 4.
 fn facings((least, most): (i64, i64)) -> u64 {
     u64::from(least < 0) | u64::from(most > 0) << 1
 }

@@ -55,7 +55,7 @@ pub(crate) struct Walk<'a> {
     pub(crate) undefined: Undefined,
     /// Samples of other texels that a story needed, by number of passes.
     known: RefCell<Known>,
-    /// A line that is made to cover a sample, even if the rules leave that open.
+    /// A line that the walk lets cover a sample, even if the rules leave that open.
     pub(crate) forced: Cell<Option<Forced>>,
     pub(crate) pictures: RefCell<Pictures>,
 }

@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// The folder of the scripts in a run folder.
 pub const CATALOGUE: &str = "cases";
-/// The most bytes of one area's pictures. Pictures beyond this limit are left out.
+/// The maximum number of bytes of one area's pictures. Pictures beyond this limit are left out.
 const PICTURE_BYTES: usize = 1_000_000;
 
 /// One case as intended.

@@ -66,7 +66,7 @@ impl<T: Hash + Eq + Clone> Interner<T> {
         self.places.contains_key(value)
     }
 
-    /// Returns the place of a value, and adds the value if it is new.
+    /// Returns the index of a value, and adds the value if it is new.
     pub(crate) fn place(&mut self, value: T) -> usize {
         if let Some(place) = self.places.get(&value) {
             return *place;

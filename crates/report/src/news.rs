@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// The most entries of a kind that a terminal lists.
+/// The maximum number of entries of a kind that a terminal lists.
 const LISTED: usize = 20;
 
 /// A run compared with the last run of each of its adapters.
@@ -17,7 +17,7 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// Records that are unexpected and were not before, the gravest first.
+    /// Records that are unexpected and were not before, the most serious first.
     pub broken: Vec<NewsEntry>,
     /// Records that were unexpected before and are not now.
     pub fixed: Vec<NewsEntry>,

@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Kind {
     /// The file that marks such a folder. It lists the files of the folder.
     pub(crate) mark: &'static str,
-    /// The top-level files and folders, for folders of earlier versions, whose mark lists no files.
+    /// The top-level files and folders. They identify the contents of folders of earlier versions, whose mark
+    /// lists no files.
     pub(crate) top: &'static [&'static str],
     /// The name, and the name with its kind.
     pub(crate) names: [&'static str; 2],

@@ -9,7 +9,7 @@ use tabled::settings::object::{Cell as Place, Columns, Rows};
 use tabled::settings::peaker::Priority;
 use tabled::settings::{Alignment, Color, Style, Width};
 
-/// The most characters of a cell on a terminal.
+/// The maximum number of characters of a cell on a terminal.
 const LONGEST: usize = 160;
 
 /// The content of a cell.

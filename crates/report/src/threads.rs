@@ -1,4 +1,4 @@
-//! Work on all processors.
+//! Functions that spread work over all processors.
 
 use etalon_frame::threads::each;
 use std::thread::available_parallelism;

@@ -95,8 +95,8 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
     }
 }
 
-/// Returns true if a case takes as long as hundreds of others: it draws to more than 64 by 64 texels, has
-/// many draws or vertices, or is submitted often. Such cases are drawn only with the bugs of their own
+/// Returns true if a case takes as long as hundreds of typical cases: it draws to more than 64 by 64 texels,
+/// has many draws or vertices, or is submitted often. Such cases are drawn only with the bugs of their own
 /// area.
 fn is_large(case: &Case) -> bool {
     let texels = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);

@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 const WARM_UP: u32 = 2;
 /// The total time of a case's timed frames, within the limits on their number.
 const BUDGET: Duration = Duration::from_millis(40);
-/// The fewest and the most frames that are timed.
+/// The minimum and the maximum number of frames that are timed.
 const FRAMES: [u32; 2] = [3, 31];
 
 /// The truths of a run's method cases, each computed once for all methods and adapters.

@@ -64,12 +64,12 @@ pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
     /// True if the process is a launcher, whose signals and memory say nothing about the worker.
     launched: bool,
-    /// Set when a worker has greeted.
+    /// Set once the worker has sent its greeting.
     greeted: Arc<AtomicBool>,
     /// Sends requests to the thread that writes them.
     requests: Option<Sender<Vec<u8>>>,
     responses: Receiver<Vec<Answer>>,
-    /// Answers that have arrived but were not asked for yet.
+    /// Answers that have arrived but that no caller has taken yet.
     came: VecDeque<Answer>,
     stderr: StderrTail,
     memory: Option<MemoryLimit>,

@@ -1,9 +1,8 @@
 //! Supervising one worker: it is started when needed, started again after a loss, and each failure becomes
 //! a report. Runs and benches use the same supervisor.
 //!
-//! A failed start is repeated at once, not later: all requests in flight must go to the same worker,
-//! because otherwise their answers could be confused.
-//! worker, or their answers would be taken for each other's.
+//! A failed start is repeated at once, not later: all requests in flight must go to the same worker, because
+//! otherwise their answers could be confused.
 
 use crate::failure_report::FailureReport;
 use crate::launch::{Launch, StartError};

@@ -14,7 +14,7 @@ use etalon_record::Record;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The most requests in flight.
+/// The maximum number of requests in flight.
 const MOST_AHEAD: usize = 4;
 
 /// A worker that is started again after each case that ends it.

@@ -17,7 +17,7 @@ pub struct Pass {
     /// Indices of the colour attachments, in location order.
     pub color: Vec<usize>,
     /// The attachment to which each colour attachment is resolved at the end of the pass: a single-sample
-    /// attachment of the same format and size. As long as `color`.
+    /// attachment of the same format and size. Has the same length as `color`.
     pub resolve: Vec<Option<usize>>,
     /// Index of the depth-stencil attachment.
     pub depth_stencil: Option<usize>,

@@ -101,8 +101,8 @@ impl Scene {
     }
 }
 
-/// Returns true if draws of a pass differ in their provoking vertex. A draw without one can share a pipeline
-/// that does not set it, which in Vulkan means the first vertex.
+/// Returns true if draws of a pass differ in their provoking vertex. A draw that does not set it counts as
+/// first: a Vulkan pipeline that does not set it uses the first vertex.
 fn mixes_provoking_vertices(pass: &Pass) -> bool {
     let last = |draw: &Draw| draw.provoking == Some(ProvokingVertex::Last);
     pass.draws

@@ -31,7 +31,7 @@ state_enum! {
         ClampToEdge = "clamp-to-edge",
         /// The texture repeats.
         Repeat = "repeat",
-        /// The texture repeats, every other time mirrored.
+        /// The texture repeats, and every second copy is mirrored.
         MirrorRepeat = "mirror-repeat",
     }
 }

@@ -125,7 +125,8 @@ mod tests {
     use super::*;
     use oorandom::Rand64;
 
-    /// Returns the slope over rounds whose frames take a fixed time, a time per unit, and noise of this size.
+    /// Returns the slope of simulated rounds. A frame takes a fixed time, `unit` seconds for each unit of work,
+    /// and noise of the size `noise`.
     fn planted(seed: u128, rounds: usize, unit: f64, noise: f64) -> Slope {
         let mut random = Rand64::new(seed);
         let mut frames = |work: f64| -> Vec<f64> {

@@ -72,7 +72,7 @@ impl Buffer {
             ),
         };
         let info = vk::BufferCreateInfo::default().size(self.size).usage(flags);
-        // SAFETY: the device lives, and `info` is complete.
+        // SAFETY: the device is alive, and `info` is complete.
         self.raw = unsafe { device.raw.create_buffer(&info, None) }.check("a buffer")?;
         // SAFETY: the buffer was just made.
         let needs = unsafe { device.raw.get_buffer_memory_requirements(self.raw) };

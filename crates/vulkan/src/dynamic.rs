@@ -1,8 +1,8 @@
 //! Dynamic state, set for each draw: all state that Vulkan 1.3 can make dynamic, so that draws share
 //! pipelines.
 //!
-//! Vulkan also requires the parameters of disabled tests, which must not act. They get values whose effect
-//! would be visible, so that a driver that ignores the enable does not pass by chance.
+//! Vulkan also requires the parameters of disabled tests, which must have no effect. They get values whose
+//! effect would be visible, so that a driver that ignores the enable does not pass by chance.
 
 use crate::clear::intersection;
 use crate::device::Device;

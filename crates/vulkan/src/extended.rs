@@ -76,11 +76,11 @@ impl Further {
     }
 }
 
-/// The logic operation that a pipeline holds if the operation is dynamic. It must not act.
+/// The logic operation that a pipeline is created with if the operation is dynamic. It must have no effect.
 const HELD: LogicOperation = LogicOperation::Equivalent;
 
-/// Returns the draw that a pipeline is made from: its values of the dynamic states differ from the draw's,
-/// and must not act. Draws of all logic operations then share a pipeline.
+/// Returns the draw that a pipeline is made from: its values of the dynamic states differ from the draw's, and
+/// must have no effect. Draws of all logic operations then share a pipeline.
 pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
     let logic = match further.logic {
         DynamicLogic::All if !draw.targets.is_empty() => Some(HELD),
@@ -99,8 +99,8 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
     }
 }
 
-/// Returns a draw whose values of [`STATES`] differ from this draw's, for its pipeline, where they must not
-/// act.
+/// Returns a draw whose values of [`STATES`] differ from this draw's. Its pipeline is made from it, and these
+/// values must have no effect.
 pub(crate) fn held(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,

@@ -232,7 +232,7 @@ impl Image {
                 .flags(shape.flags | vk::ImageCreateFlags::MUTABLE_FORMAT)
                 .push_next(&mut list);
         }
-        // SAFETY: the device lives, and it supports the format.
+        // SAFETY: the device is alive, and it supports the format.
         self.raw = unsafe { device.raw.create_image(&info, None) }.check("an image")?;
         // SAFETY: the image was just made.
         let needs = unsafe { device.raw.get_image_memory_requirements(self.raw) };

@@ -63,8 +63,9 @@ pub(crate) fn further(device: &Device, state: PathState) -> Further {
     }
 }
 
-/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
-/// plain: multisampled images have one level and no cube, and shaders cannot read a slice of a 3D image.
+/// Returns the part of a texture that the attachment is. An attachment that cannot be the part that the path
+/// names is a plain image: multisampled images have one level and no cube, and shaders cannot read a slice of a
+/// 3D image.
 pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> PathTarget {
     let single = attachment.samples == 1;
     let read_by_shader = || {

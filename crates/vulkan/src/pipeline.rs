@@ -148,7 +148,7 @@ impl Pipelines {
     /// Creates the driver's pipeline cache.
     pub(crate) fn create(&mut self, device: &Device) -> Result<(), BackendError> {
         let info = vk::PipelineCacheCreateInfo::default();
-        // SAFETY: the device lives.
+        // SAFETY: the device is alive.
         self.cache =
             unsafe { device.raw.create_pipeline_cache(&info, None) }.check("a pipeline cache")?;
         Ok(())

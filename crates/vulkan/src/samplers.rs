@@ -37,7 +37,7 @@ impl Samplers {
             .min_filter(filter)
             .address_mode_u(across)
             .address_mode_v(down);
-        // SAFETY: the device lives.
+        // SAFETY: the device is alive.
         let raw = unsafe { device.raw.create_sampler(&info, None) }.check("a sampler")?;
         self.samplers.insert(sampler, raw);
         Ok(raw)

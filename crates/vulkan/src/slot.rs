@@ -98,7 +98,7 @@ impl Slot {
             // SAFETY: the device was created with this family.
             self.pool = unsafe { api.create_command_pool(&info, None) }.check("a command pool")?;
             let info = vk::FenceCreateInfo::default();
-            // SAFETY: the device lives.
+            // SAFETY: the device is alive.
             self.fence = unsafe { api.create_fence(&info, None) }.check("a fence")?;
             if device.timestamp_bits > 0 {
                 self.timestamps
@@ -315,7 +315,7 @@ fn nth(
             .command_pool(pool)
             .level(level)
             .command_buffer_count(1);
-        // SAFETY: the pool lives.
+        // SAFETY: the pool is alive.
         let made = unsafe { device.raw.allocate_command_buffers(&info) };
         buffers.extend(made.check("a command buffer")?);
     }

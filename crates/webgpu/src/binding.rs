@@ -76,7 +76,7 @@ pub(crate) struct Groups<'s> {
     counting: &'s Counting,
     /// The scene's pool and its size in bytes.
     pub(crate) pool: Option<(usize, u64)>,
-    /// The buffer of the parameter blocks of all draws.
+    /// The buffer that holds the parameter blocks of all draws.
     buffer: Option<usize>,
     /// The contents of `buffer`.
     params: Vec<u8>,
@@ -142,7 +142,7 @@ impl<'s> Groups<'s> {
         Some(Bound { group, offset })
     }
 
-    /// Fills the buffer of the parameters.
+    /// Fills the parameter buffer.
     pub(crate) fn finish(self, lowering: &mut Lowering<'_>) {
         if let Some(buffer) = self.buffer {
             lowering.fill(buffer, self.params);

@@ -21,7 +21,7 @@ pub struct Device {
     pub uniform_alignment: u32,
     /// The alignment of the offset of a bound storage buffer, in bytes.
     pub storage_alignment: u32,
-    /// True if an indirect draw can have a first instance (feature `indirect-first-instance`).
+    /// True if the first instance of an indirect draw can be other than 0 (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
 }
 

@@ -56,7 +56,7 @@ pub struct Offer {
     pub features: BTreeSet<Feature>,
     /// True if the device executes indirect draws.
     pub indirect: bool,
-    /// True if an indirect draw can have a first instance (feature `indirect-first-instance`).
+    /// True if the first instance of an indirect draw can be other than 0 (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
     /// What WebGPU guarantees of the device.
     pub level: Level,

@@ -67,10 +67,10 @@ pub(crate) fn paths(
     PathValue::all().into_iter().filter(has).collect()
 }
 
-/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
-/// plain: multisampled textures have one level and layer (GPUTextureDescriptor), depth textures are not 3D,
-/// and the shaders of scenes read no slice of a 3D texture, and no single layer if the device has no views of
-/// one.
+/// Returns the part of a texture that the attachment is. An attachment that cannot be the part that the path
+/// names is a plain texture: multisampled textures have one level and layer (GPUTextureDescriptor), depth
+/// textures are not 3D, and the shaders of scenes read no slice of a 3D texture, and no single layer if the
+/// device has no views of one.
 pub(crate) fn target(scene: &Scene, index: usize, abilities: Abilities) -> PathTarget {
     let attachment = &scene.attachments[index];
     let read_by_shader = || {

@@ -14,7 +14,7 @@ use etalon_frame::{
 use etalon_scene::Sampler;
 use std::borrow::Cow;
 
-/// The attribute of values without interpolation.
+/// The WGSL attribute of inputs that are not interpolated.
 const FLAT: &str = "@interpolate(flat)";
 
 /// A texture, or the part of one that an attachment is.

@@ -100,7 +100,7 @@ pub(super) fn option(value: Option<Code>) -> Code {
     }
 }
 
-/// Returns a call of a WebGPU method. wgpu has the same method with its own spelling.
+/// Returns a call of a WebGPU method; wgpu has the same method with its own spelling.
 pub(super) fn call(on: &str, method: &str, arguments: impl IntoIterator<Item = Code>) -> Code {
     let arguments = joined(arguments);
     Code {
@@ -172,8 +172,8 @@ impl Structure {
         }
     }
 
-    /// Adds a field that corresponds to several members of the dictionary, names included; to no member
-    /// if that is empty.
+    /// Adds a field that corresponds to several members of the dictionary. The script's value includes their
+    /// names; if it is empty, the field has no member.
     pub(super) fn in_place(mut self, name: &str, value: Code) -> Self {
         self.rust.push(format!("{name}: {}", value.rust));
         match (&mut self.script, value.script) {

@@ -11,8 +11,8 @@ pub(crate) struct FetchWire {
     /// The size of an index.
     #[serde(default = "uint32")]
     pub(crate) index: IndexFormat,
-    /// The number added to every index; unused vertices come first to match it, or greater indices if it is
-    /// negative.
+    /// The number added to every index. That many unused vertices come first, so that the mesh stays the same;
+    /// if the number is negative, the indices are greater instead.
     #[serde(default)]
     pub(crate) base_vertex: i32,
     /// The number of unused indices before the used ones.

@@ -179,14 +179,14 @@ pub(crate) struct RelationWire {
 pub(crate) enum QuickWire {
     /// Enough that every two values of every two axes occur together.
     Pairwise,
-    /// Enough that every value of every axis occurs in this many, with different others: for products of two
-    /// long axes, where pairs would be everything.
+    /// Enough that every value of every axis occurs in this many cases, each time with different other values:
+    /// for products of two long axes, since a covering array of those would take every case.
     Each(NonZeroUsize),
     /// This many from the first one on: for seeds, which are interchangeable.
     First(NonZeroUsize),
     /// The cases in which these axes have the values of these names: for sizes that only a benchmark needs.
     Where(BTreeMap<String, String>),
-    /// The cases that any of these describes by values of some axes: for products that a few rows represent.
+    /// The cases that have all the values of one of these rows: for products that a few rows represent.
     Any(Vec<BTreeMap<String, String>>),
 }
 

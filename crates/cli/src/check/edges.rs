@@ -7,8 +7,8 @@
 use etalon_frame::LegalSet;
 use etalon_scene::{Draw, PolygonMode, PrimitiveTopology, PrimitiveVertices, Scene};
 
-/// The distance in texels below which an edge can pass on either side of a sample: both vertices can move to
-/// the nearest of the coarsest sub-pixel positions.
+/// The distance in texels below which an edge can pass on either side of a sample. A driver can snap both
+/// vertices to its sub-pixel grid, which has at least 16 positions per texel and axis.
 const NEAR: f64 = 1.0 / 16.0;
 /// The largest side of a picture that is checked, in texels.
 const MAX_SIZE: u32 = 256;
@@ -25,7 +25,8 @@ pub(crate) struct Near {
     pub(crate) distance: f64,
 }
 
-/// Returns the edge that passes nearest to the centre of a texel with several legal outcomes, if one passes too near.
+/// Returns the edge that passes nearest to the centre of a texel with several legal outcomes, if any passes too
+/// near.
 pub(crate) fn nearest(scene: &Scene, legal: &LegalSet) -> Option<Near> {
     let mut found: Option<Near> = None;
     for (p, pass) in scene.passes.iter().enumerate() {

@@ -18,8 +18,8 @@ pub(crate) struct Arguments {
     pub(crate) news: NewsArguments,
 }
 
-/// Rebuilds the reports of run and bench folders, for runs with the history if one is named. Returns the exit
-/// code that the runs and benches have by their records; of several the gravest.
+/// Rebuilds the reports of run and bench folders, and compares runs with the history if one is named. Returns
+/// the exit code that the records of the folders give; for several folders, the most serious one.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let options = table_options();

@@ -318,7 +318,7 @@ fn sample_by_sample(depth: bool, stencil: bool) -> Value {
     draws.collect()
 }
 
-/// Resolves to the first, the least or the greatest sample.
+/// Resolves depth and stencil to the first, the lowest or the highest sample.
 pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Checked {
     let depths = [("sample-zero", 1.0), ("min", 0.0), ("max", 1.0)];
     let stencils = [("sample-zero", 7), ("min", 3), ("max", 9), ("none", 100)];

@@ -1,4 +1,4 @@
-//! Prepared scenes: drawn again, side by side, one after another, and refused.
+//! Prepared scenes: drawn repeatedly, side by side and one after another, and refused.
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, RED};
@@ -111,9 +111,9 @@ pub(crate) fn reading_before_drawing_is_an_error(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Draws states that write nothing and never pass, then a plain scene; twice.
+/// Draws a scene whose states write nothing and whose tests never pass, then a plain scene, and both again.
 pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
-    // Factors that are not the default, if the driver lets min and max have any.
+    // A factor other than one, if the driver allows it with min.
     let factor = if s.offers(Feature::MinMaxBlendFactors) {
         "zero"
     } else {

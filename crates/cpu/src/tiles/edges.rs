@@ -13,9 +13,9 @@ const FAR: i64 = 1 << 30;
 /// A triangle's three edge functions over the window: a sample is inside if all three are at least 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edges {
-    /// The start of each edge, in sub-texel units.
+    /// The first vertex of each edge, in sub-texel units.
     from: [[i32; 2]; 3],
-    /// The growth per unit to the right and down.
+    /// The increments per unit to the right and down.
     across: [i32; 3],
     down: [i32; 3],
     /// 0 if samples on the edge are inside, otherwise -1.
@@ -112,8 +112,8 @@ impl Edges {
         }
     }
 
-    /// Returns numbers with the signs of the edge functions, at one point of the texels of a tile's rows,
-    /// beginning at a texel.
+    /// Returns numbers that have the signs of the edge functions at one point of each texel in a tile's rows,
+    /// starting from a given texel.
     #[inline(always)]
     pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
@@ -136,7 +136,7 @@ impl Edges {
 pub(crate) struct Rows {
     /// The values at the row's first texel.
     pub(crate) at: [i32; 3],
-    /// The growth to the next texel and to the next row.
+    /// The increments to the next texel and to the next row.
     pub(crate) across: [i32; 3],
     pub(crate) down: [i32; 3],
 }

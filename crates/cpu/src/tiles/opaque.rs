@@ -235,12 +235,13 @@ impl Source for Any<'_> {
     }
 }
 
-/// Codes of floats without a bias. Their growth to the right is known for one group of lanes.
+/// Codes of floats without a bias. Keeps the part of the depths that depends on the column, for one group of
+/// lanes.
 struct Floats<'a> {
     depths: &'a Depths,
     position: [i32; 2],
     columns: [f64; LANES],
-    /// The index of the group whose growth is known.
+    /// The index of the group of lanes that `columns` was computed for.
     chunk: i32,
 }
 

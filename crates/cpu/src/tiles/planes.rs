@@ -40,7 +40,7 @@ macro_rules! with_encoding {
 }
 pub(crate) use with_encoding;
 
-/// Computes the values of codes.
+/// Decodes codes to values.
 #[inline(always)]
 pub(crate) fn decode(encoding: ChannelEncoding, codes: &[u32], values: &mut Plane) {
     if encoding == ChannelEncoding::Srgb8 {

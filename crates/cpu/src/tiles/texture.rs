@@ -7,7 +7,7 @@ use crate::linear::{CENTER, UNITS};
 use etalon_pipeline::{DepthPlane, texel_position};
 use etalon_scene::{AddressMode, Draw};
 
-/// The limit of whole numbers that have 22 bits, which a float keeps exactly after adding three times this.
+/// Whole numbers below this limit have 22 bits, and stay exact as floats if three times the limit is added.
 const WHOLE: f32 = 4_194_304.0;
 
 /// A texture's texels, row by row.

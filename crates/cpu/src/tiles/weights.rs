@@ -1,8 +1,8 @@
 //! Blends of 8-bit unsigned normalized channels whose factors depend on several channels of the destination.
 //!
-//! Every factor is a sum of a constant, the destination's channel and the destination's alpha, the latter two
-//! times 0, 1 or -1, and is clamped to a limit. All numbers are between 0 and 1, so that products with 0 and
-//! sums with 0 change nothing.
+//! Every factor is a constant plus the destination's channel and the destination's alpha, each times 0, 1 or
+//! -1, clamped to a limit. All numbers are between 0 and 1, so that products with 0 and sums with 0 change
+//! nothing.
 
 use super::image::Texel;
 use crate::lanes::{Codes, LANES, Real};
@@ -19,7 +19,8 @@ const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
 pub(crate) struct Weights {
     /// The weights of each channel.
     channels: [ChannelWeights; 4],
-    /// The summand and the factor of the stored alpha: 1 and 0 if the format has no alpha.
+    /// The offset and the scale applied to the stored alpha: 1 and 0 if the format has no alpha, which then
+    /// counts as 1.
     alpha: [f32; 2],
     /// The mask of bits that are not written.
     keep: u32,

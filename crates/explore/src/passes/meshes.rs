@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 /// The mesh kinds with a single primitive, the simplest first.
 const WHOLE: [&str; 2] = ["full", "cover"];
-/// The most parts of a mesh that are tried as the whole mesh.
+/// The maximum number of parts of a mesh that are tried as the whole mesh.
 const PARTS: usize = 12;
 
 /// Simplifies the mesh of each draw.

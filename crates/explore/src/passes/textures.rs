@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 /// The shaders that replace others, the simplest first.
 const SIMPLE: [&str; 2] = ["uniform_color", "flat_color"];
-/// The most colours that are tried in place of a shader's own.
+/// The maximum number of colours that are tried in place of a shader's own.
 const COLORS: usize = 6;
 
 /// Simplifies the shader of each draw.

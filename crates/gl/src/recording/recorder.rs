@@ -109,7 +109,7 @@ pub(crate) fn counters(any: impl Iterator<Item = bool>) {
     });
 }
 
-/// Adds bytes of the memory that was written last to a counter, or the [`WHOLE`] memory.
+/// Adds a part of the memory that was written last to a counter: `bytes` bytes, or the [`WHOLE`] memory.
 pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
     with(|r| {
         let output = r.outputs.saturating_sub(1);

@@ -28,7 +28,7 @@ use wire::MethodName;
 
 /// The number of layers that are peeled, or of nodes per texel, if no `k` is given.
 const PEELED_LAYERS: u32 = 8;
-/// The most nodes per texel: no API requires support for larger storage buffers.
+/// The maximum number of nodes per texel: no API requires support for larger storage buffers.
 const MOST_NODES: f64 = 32.0;
 
 /// Draws the scene by the method.

@@ -7,7 +7,8 @@ use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Draw, Scene, Shader};
 
-/// The format of sums. Moments are differences of large numbers and need all bits of 32-bit floats.
+/// The format of the summed textures. The transmittance comes from differences of nearly equal moments, which
+/// need all bits of 32-bit floats.
 const SUMS: TextureFormat = TextureFormat::Rgba32Float;
 
 /// Builds three passes for any number of layers: absorbance and its moments, then colours by transmittance,

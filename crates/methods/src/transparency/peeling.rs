@@ -21,7 +21,7 @@ fn copy(texture: usize, blend: Option<BlendState>) -> Draw {
     copy
 }
 
-/// Peels `k` times the nearest layer behind the previous one, and composes it under the picture so far
+/// Peels `k` layers, each the nearest one behind the previous layer, and composes each under the picture so far
 /// (Everitt 2001).
 pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();

@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 const AREA: &str = "perf/matrix/";
 /// The axis in which the cases of a cell differ.
 const LAYERS: &str = "layers=";
-/// The most texels of a triangle that is counted as a triangle: the time of larger ones depends on their
-/// texels.
+/// The maximum size, in texels, of a triangle that is counted as a triangle. The time of larger ones depends on
+/// their texels.
 const LARGEST: u64 = 1024;
 
 /// Returns the name of the cell that a case belongs to: its id without the number of layers. `None` outside the

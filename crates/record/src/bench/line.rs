@@ -60,7 +60,7 @@ pub struct Round {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The round's number among the case's on this adapter, from 0, without gaps.
+    /// The number of the round, counted from 0 without gaps over the rounds of the case on this adapter.
     pub round: u32,
     /// The start of the round, since that of the bench.
     pub at: f64,

@@ -75,8 +75,8 @@ mod tests {
             assert_eq!(rules.name, limits.api.name());
             for (name, citation, _) in rules.permissions() {
                 assert!(citation.contains(':'), "{name}: {citation:?}");
-                // Before a version has a feature, its rule cites the first version that has it; where an API
-                // is silent, its rule names the others.
+                // If a version lacks a feature, its rule cites the first version that has the feature. If an
+                // API is silent, its rule names the other APIs.
                 let own = rules.text.split(" (").next().expect("a name");
                 let family = own.split(' ').next().expect("a word");
                 assert!(

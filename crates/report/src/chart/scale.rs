@@ -46,7 +46,7 @@ impl Scale {
         }
     }
 
-    /// Returns the place of a value.
+    /// Returns the position of a value, from 0 to 1.
     pub(crate) fn at(self, value: f64) -> f64 {
         let (low, high, value) = match self {
             Self::Linear(low, high) => (low, high, value),

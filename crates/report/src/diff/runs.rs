@@ -97,7 +97,7 @@ pub fn diff(
     Ok(found)
 }
 
-/// The sort key: worse, better, other; the gravest first; then by case file and case.
+/// The sort key: worse, better, other; the most serious first; then by case file and case.
 fn order(change: &Change) -> (Direction, Reverse<u8>, &str, &str, &[String; 2]) {
     let severity = match change.direction {
         Direction::Better => change.verdict[0],

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 
 /// The file has fewer bytes than this.
 pub(crate) const LIMIT: usize = 1_000_000;
-/// The most records that a list names; a longer one is for a page that can be searched.
+/// The maximum number of records that a list names; a longer one is for a page that can be searched.
 const LISTED: usize = 500;
 
 /// A text that grows up to a limit.

@@ -122,10 +122,10 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     all.collect()
 }
 
-/// Files of courses. Cases of a file with the same course share a text, as most do.
+/// Files of courses. Most cases of a file have the same course, and share its text.
 #[derive(Default)]
 pub(super) struct CaseFiles {
-    /// The place of the first case of each file except the first, among all cases.
+    /// For each file except the first, the index of its first case among all cases.
     first: Vec<usize>,
     files: Vec<String>,
     now: CaseFile,
@@ -346,7 +346,7 @@ pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, Stri
         .collect()
 }
 
-/// The most lines of news that are kept.
+/// The maximum number of lines of news that are kept.
 const NEWS: usize = 5_000;
 
 /// Returns all lines of news.

@@ -10,7 +10,7 @@ use etalon_stats::{Score, Scores as Both};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-/// The most columns of a table on the start page.
+/// The maximum number of columns of a table on the start page.
 const COLUMNS: usize = 8;
 
 /// Returns the runs that represent the versions: the last whole run of each version, or all whole runs if the

@@ -8,7 +8,7 @@ use etalon_history::{Subject, TriageEntry, TriageState};
 use etalon_stats::{Cause, ChangePoint, Event, Happening};
 use std::collections::BTreeMap;
 
-/// The most lines of news on the start page.
+/// The maximum number of lines of news on the start page.
 const LINES: usize = 24;
 /// The number of runs for which a change of times stays news, unless triage settles it.
 const RECENT: usize = 20;
@@ -68,8 +68,8 @@ pub(super) struct News {
     pub(super) counts: Vec<[u64; 5]>,
 }
 
-/// The events in the order of [`News::counts`] and of the data files, each with the kind and the word of its
-/// lines.
+/// The events in the order of [`News::counts`] and of the data files, each with its kind of line and the label
+/// of these lines.
 const EVENTS: [(Event, Kind, &str); 5] = [
     (Event::Broken, Kind::Broken, "✗ broken"),
     (Event::Flaky, Kind::Flaky, "⇄ flaky"),
@@ -78,7 +78,7 @@ const EVENTS: [(Event, Kind, &str); 5] = [
     (Event::Gone, Kind::Set, "− gone"),
 ];
 
-/// Returns the place of an event in [`EVENTS`].
+/// Returns the index of an event in [`EVENTS`].
 pub(super) fn number(event: Event) -> usize {
     let place = EVENTS.iter().position(|(known, ..)| *known == event);
     place.unwrap_or_default()

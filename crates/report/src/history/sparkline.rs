@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 const WIDTH: usize = 120;
 const HEIGHT: f64 = 18.0;
-/// The most points of a curve. A point shows the worst of the runs it stands for.
+/// The maximum number of points of a curve. A point shows the worst of the runs it stands for.
 const POINTS: usize = 60;
 
 /// Returns true if the score differs between runs.

@@ -95,7 +95,7 @@ const BASE: (&str, &[(&str, &str)]) = (
         ("samples", "1"),
     ],
 );
-/// The cell of clearing.
+/// The file and the axis values of the cell for clears.
 const CLEAR: (&str, &[(&str, &str)]) = ("clear", &[("format", "rgba8unorm")]);
 
 impl<'a> Matrix<'a> {

@@ -104,7 +104,7 @@ fn column<'a>(cell: &'a Cell, row_axes: &[&str]) -> (String, &'a str) {
     (tests, cell.axis("samples").unwrap_or("1"))
 }
 
-/// Returns the place of the first cell with these tests.
+/// Returns the index of the first cell with these tests.
 fn place(cells: &[&Cell], tests: &str, row_axes: &[&str]) -> Option<usize> {
     cells.iter().position(|c| column(c, row_axes).0 == tests)
 }

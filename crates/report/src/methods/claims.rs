@@ -73,7 +73,7 @@ struct Told {
     places: String,
 }
 
-/// The figures of each outcome and each adapter that has others, with the cases they were found in.
+/// Joins equal figures of a scene into one entry, with the adapters and the settings at which they were found.
 fn together(figures: &[Figure]) -> Vec<Told> {
     let groups = grouped(figures.iter().map(|f| ((f.holds, &*f.scene, f.text()), f)));
     let texts = groups.into_iter().map(|((holds, scene, _), figures)| {

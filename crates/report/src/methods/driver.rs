@@ -18,7 +18,7 @@ struct Figures<'a> {
     legal: Option<Accuracy>,
     /// The case with the largest of these distances.
     farthest: &'a str,
-    /// The accuracy of wrong frames, whose distances would hide all others.
+    /// The accuracy of wrong frames; kept apart, since their large distances would hide all others.
     wrong: Option<Accuracy>,
 }
 

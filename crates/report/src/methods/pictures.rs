@@ -9,7 +9,7 @@ use etalon_record::Run;
 use maud::{Markup, html};
 use std::path::Path;
 
-/// The most bytes of one picture, and of all pictures of the page together.
+/// The maximum number of bytes of one picture, and of all pictures of the page together.
 const PICTURE: u64 = 256 << 10;
 const PICTURES: usize = 12 << 20;
 

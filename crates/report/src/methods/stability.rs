@@ -121,7 +121,8 @@ pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
     panels
 }
 
-/// The breaks of a scene: each crossing in a sentence, all that never crosses together.
+/// Lists the breaks of a scene: a sentence for each crossing, and one item for all series that stay on the same
+/// side.
 pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
     let methods = shown.methods;
     let (broken, steady): (Vec<_>, Vec<_>) = found(shown).into_iter().partition(|f| f.crosses());
@@ -299,7 +300,7 @@ fn panel(
     chart(HEIGHT, &title, &about, &body)
 }
 
-/// The explanation of the charts of stability.
+/// The caption that explains the charts of stability.
 pub(super) fn caption() -> Markup {
     html! {
         p {

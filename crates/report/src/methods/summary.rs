@@ -8,7 +8,7 @@ use crate::table::{Cell, Table};
 use crate::words::plain;
 use maud::{Markup, html};
 
-/// The most scenes that the terminal lists.
+/// The maximum number of scenes that the terminal lists.
 const LISTED: usize = 40;
 
 /// The best methods of a scene on adapters of a kind, all at one setting.
@@ -76,7 +76,7 @@ fn candidates<'s, 'a>(
     of_kind.filter_map(|(series, point)| Some((series, point, point.error()?)))
 }
 
-/// The most accurate method; of equal ones the faster.
+/// The most accurate method; if several are equal, the fastest of them.
 fn accurate<'s, 'a, 'c>(candidates: &'c [Candidate<'s, 'a>]) -> Option<&'c Candidate<'s, 'a>> {
     let time = |point: &Point<'_>| point.wall().unwrap_or(f64::INFINITY);
     candidates

@@ -4,7 +4,7 @@ use crate::numbers::count;
 use crate::words::plain;
 use etalon_record::{Dead, DeadKind};
 
-/// The most lines of each kind.
+/// The maximum number of lines of each kind.
 const LISTED: usize = 5;
 
 /// Returns the meaning of a kind.

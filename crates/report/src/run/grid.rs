@@ -4,8 +4,8 @@ use crate::words::Tone;
 use etalon_record::{Record, Run, Verdict};
 use std::collections::{BTreeMap, HashMap};
 
-/// The most adapters that have a column of their own, and one for all others: a damaged run may name as
-/// many as it has records.
+/// The maximum number of columns: one per adapter, and the last one for all others. A damaged run can name as
+/// many adapters as it has records.
 const MAX_COLUMNS: usize = 1000;
 const LAST_COLUMN: usize = MAX_COLUMNS - 1;
 /// The name of that column.
@@ -142,11 +142,11 @@ pub(crate) fn rate(records: &[&Record]) -> Option<f64> {
 /// Counts of records by verdict.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// Counts, the gravest first: unexpected verdicts before expected ones.
+    /// Counts, the most serious first: unexpected verdicts before expected ones.
     counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
     /// The number of unexpected records.
     pub(crate) unexpected: u64,
-    /// The gravest unexpected verdict. A missed selftest counts as a Fail.
+    /// The worst unexpected verdict. A missed selftest counts as a Fail.
     pub(crate) worst: Option<Verdict>,
     /// Records in all.
     pub(crate) total: u64,
@@ -176,7 +176,7 @@ impl Tally {
         tally
     }
 
-    /// Verdict, tone and count, the gravest first.
+    /// Verdict, tone and count, the most serious first.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (Verdict, Tone, u64)> {
         self.counts.iter().map(|((_, _, v, t), n)| (*v, *t, *n))
     }

@@ -168,7 +168,7 @@ fn state(run: &Run, dead: &[Dead]) -> Markup {
     }
 }
 
-/// Counts over the whole run, which are the legend at the same time.
+/// Counts over the whole run, which also serve as the legend.
 fn totals(run: &Run) -> Markup {
     let tally = Tally::of(&run.records);
     page::totals(tally.entries().map(|(verdict, tone, n)| {

@@ -11,10 +11,10 @@ use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
 use tabled::settings::Color;
 
-/// The most unexpected records that are listed.
+/// The maximum number of unexpected records that are listed.
 const LISTED: usize = 20;
 
-/// The most reasons for cases that were not drawn.
+/// The maximum number of reasons for cases that were not drawn.
 const REASONS: usize = 10;
 
 /// Verdicts of cases without a frame to judge; one column together.
@@ -28,9 +28,9 @@ const BROKEN: [Verdict; 7] = [
     Verdict::InternalError,
 ];
 
-/// A table with a row per adapter, then the reasons for which cases were not drawn, then a line per unexpected record (20 at most), then what is
-/// missing. A bad verdict that was expected or due is counted under `expected` only, so that a
-/// row's counts add up to its records; the rate counts records per second of drawing and judging.
+/// A table with a row per adapter, then the reasons why cases were not drawn, then a line per unexpected record
+/// (20 at most), then what is missing. A bad verdict that was expected or due is counted under `expected` only,
+/// so that a row's counts add up to its records; the rate counts records per second of drawing and judging.
 /// Always ends in a newline.
 pub fn table(run: &Run, options: TableOptions) -> String {
     if run.records.is_empty() {

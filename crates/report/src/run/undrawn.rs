@@ -5,7 +5,7 @@ use etalon_record::{Run, Verdict};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The verdicts of cases that were not drawn, the gravest first.
+/// The verdicts of cases that were not drawn, the most serious first.
 const VERDICTS: [Verdict; 3] = [Verdict::Blocked, Verdict::NotSupported, Verdict::Skipped];
 
 /// Records of cases that were not drawn for one reason.

@@ -62,15 +62,15 @@ pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
 }
 
 /// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
-/// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
-/// its place and then renamed, so that a reader never sees half a report.
+/// `results/<adapter>.csv`, and `methods.html` if the run has records of methods. Each is written to a
+/// temporary file and then renamed, so that a reader never sees half a report.
 ///
-/// The summary of a run that was compared with the one before it tells news first. [`News::settle`] gives the run in
-/// which what triage settled does not count.
+/// If the run was compared with an earlier one, the summary begins with the news. [`News::settle`] returns the
+/// run as reports show it, in which records that triage settled do not count.
 ///
 /// # Errors
-/// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame file
-/// that is missing or damaged is no error: the page names it.
+/// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame
+/// file that is missing or damaged is not an error: the page names it.
 pub fn write_run_with_news(
     folder: &Path,
     run: &Run,

@@ -30,7 +30,7 @@ pub(super) fn draw_name(pass: usize, draw: usize, several_passes: bool) -> Strin
     }
 }
 
-/// Returns the place of an event in its scene.
+/// Returns where in its scene an event happens, in words.
 fn place(origin: &Origin) -> String {
     match origin {
         Origin::Attachment(name) => format!("attachment {name}"),

@@ -18,12 +18,12 @@ const SLOT: u32 = 0;
 const STRETCH: usize = 5;
 /// The largest relative difference of the medians of the two stretches after the warm-up.
 const STEADY: f64 = 0.05;
-/// The most frames of a warm-up.
+/// The maximum number of frames of a warm-up.
 const MOST_WARM_UP: usize = 60;
-/// The fewest and the most timed frames of a round. More rounds give more information than more frames per
-/// round.
+/// The minimum and the maximum number of timed frames of a round. More rounds give more information than more
+/// frames per round.
 const FRAMES: [u32; 2] = [3, 25];
-/// The most times that a frame is read back in a round.
+/// The maximum number of times that a frame is read back in a round.
 const MOST_READ_BACKS: usize = 3;
 
 /// The measurements of one round.

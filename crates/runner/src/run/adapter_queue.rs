@@ -14,12 +14,12 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock};
 use std::time::{Duration, Instant};
 
-/// The most cases that a thread takes at a time. Neighbouring cases share states that drivers cache, so
-/// they should go to the same worker.
+/// The maximum number of cases that a thread takes at a time. Neighbouring cases share states that drivers
+/// cache, so they should go to the same worker.
 const CHUNK: usize = 16;
-/// The most cases of an adapter that are checked again.
+/// The maximum number of cases of an adapter that are checked again.
 const MAX_RECHECKS: u32 = 256;
-/// The most cases of an adapter for which the runner searches the cases that must precede them.
+/// The maximum number of cases of an adapter for which the runner searches the cases that must precede them.
 const MAX_SEARCHES: u32 = 8;
 
 /// The queue of one adapter's cases.
@@ -35,7 +35,7 @@ pub(super) struct AdapterQueue {
     /// The result of the round trips, once all are drawn.
     round_trips: OnceLock<RoundTrips>,
     taken: Mutex<usize>,
-    /// The number of threads that take from it.
+    /// The number of threads that take cases from the queue.
     threads: AtomicUsize,
     /// The worker that was started to discover the adapter, and is still running.
     running: Mutex<Option<Worker>>,

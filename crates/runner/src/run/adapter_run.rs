@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 const IMPRECISE_FRAMES: u32 = 3;
 /// The factor by which a case that is measured may take longer than other cases.
 const MEASURING: u32 = 4;
-/// The most bytes of one validation message that a record keeps.
+/// The maximum number of bytes of one validation message that a record keeps.
 const MESSAGE_BYTES: usize = 1000;
 
 /// A judged drawing that has not been written yet.

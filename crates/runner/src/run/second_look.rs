@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const SEARCH_TIME: Duration = Duration::from_secs(120);
 /// The number of times that a cause must be confirmed.
 const CONFIRMATIONS: u32 = 5;
-/// The most cases that a record names.
+/// The maximum number of cases that a record names.
 const MAX_NAMED: usize = 8;
 
 /// Draws a case again in fresh processes, if `--repeat` asks for it, or if its verdict is bad and

@@ -12,8 +12,8 @@ use crate::summary::CONFIDENCE;
 /// The minimum number of runs that can drift.
 const MIN_DRIFT: usize = 20;
 
-/// The number of stretches at one of two levels from which on a series alternates: four changes between the
-/// levels.
+/// The number of stretches, each at one of two levels, from which on a series counts as alternating: four
+/// changes between the levels.
 const VISITS: usize = 5;
 
 /// The changes of a series.

@@ -4,7 +4,7 @@
 //! place, with exponent 1. Sums of distances between numbers need no pairs: a Fenwick tree over ranks keeps
 //! count and sum of the values so far, so all places of n values take n log n steps.
 
-/// Returns the place from `least` to `len - least` that divides the values best, if there is one.
+/// Returns the index from `least` to `len - least` that divides the values best, if there is one.
 pub(super) fn best_place(values: &[f64], least: usize) -> Option<usize> {
     let n = values.len();
     let last = n.checked_sub(least).filter(|last| *last >= least)?;

@@ -21,7 +21,7 @@ pub struct RunDiff {
     pub unpaired: Vec<Unpaired>,
     /// The adapters that are compared.
     pub pairs: Vec<Pair>,
-    /// Cases that changed: worse, better, other; in each group the gravest first.
+    /// Cases that changed: worse, better, other; the most serious of each group first.
     pub changes: Vec<Change>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,

@@ -19,13 +19,13 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 const OWN_STYLE: &str = include_str!("runs.css");
-/// The most changes of each direction that the page lists.
+/// The maximum number of changes of each direction that the page lists.
 const LISTED: usize = 1000;
-/// The most changes of a case file and direction that are shown in full.
+/// The maximum number of changes of a case file and direction that are shown in full.
 const BODIES: usize = 20;
-/// The most bytes of all pictures of the page together.
+/// The maximum number of bytes of all pictures of the page together.
 const PICTURE_BYTES: usize = 4 << 20;
-/// The most rows of a table of cases.
+/// The maximum number of rows of a table of cases.
 const ROWS: usize = 500;
 
 /// Writes a comparison of two runs as one page. The folders of the runs hold the frames for its pictures.

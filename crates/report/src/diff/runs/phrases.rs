@@ -157,8 +157,8 @@ pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
     these
 }
 
-/// Groups the cases in one run only by case file, adapter, side and whether that is worse. Returns one case
-/// of each group, with the number of cases.
+/// Groups the cases that only one run has: by case file, adapter, side, and whether the difference is worse.
+/// Returns one case of each group, with the number of cases.
 pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
     let mut found: BTreeMap<(bool, &str, &str, bool), (&Only, u64)> = BTreeMap::new();
     for feature in only {

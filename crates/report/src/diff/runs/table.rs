@@ -9,22 +9,22 @@ use crate::table::{Table, some};
 use crate::terminal::TableOptions;
 use crate::words::{name, plain};
 
-/// The most changes of a direction that the table lists.
+/// The maximum number of changes of a direction that the table lists.
 const LISTED: [(Direction, usize); 3] = [
     (Direction::Worse, 20),
     (Direction::Better, 10),
     (Direction::Other, 10),
 ];
-/// The most lines of cases in one run only, and of methods.
+/// The maximum number of lines of cases in one run only, and of methods.
 const LINES: usize = 10;
-/// The most figures of a change in the table.
+/// The maximum number of figures of a change in the table.
 const FIGURES: usize = 4;
 
 /// Returns the comparison as text: warnings, differences of the headers, a table of adapters, changes, cases
 /// in one run only, times, and the sum.
 ///
 /// Lists at most 20 worse changes, 10 better and 10 others, one of each kind before the second of any, the
-/// gravest first. The text always ends in a newline.
+/// most serious first. The text always ends in a newline.
 pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for warning in &diff.warnings {

@@ -65,7 +65,7 @@ struct Figures<'a> {
     area: &'a str,
     aspect: Aspect,
     adapters: Vec<&'a str>,
-    /// The fewest and the most channels that were judged on one of them.
+    /// The smallest and the largest number of channels that were judged on one of them.
     channels: [u64; 2],
     shown: [String; 6],
 }

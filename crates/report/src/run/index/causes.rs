@@ -14,9 +14,9 @@ use maud::{Markup, html};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The most causes that are listed.
+/// The maximum number of causes that are listed.
 const LISTED: usize = 60;
-/// The most listed case files of a cause.
+/// The maximum number of listed case files of a cause.
 const FILES: usize = 12;
 
 /// Records of one adapter and kind.

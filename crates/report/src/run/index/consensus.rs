@@ -1,9 +1,9 @@
 //! The verdict that the adapters which drew a case agree on, and the adapters that differ.
 //!
-//! Every adapter that drew the case has a vote: *right* for Pass, Imprecise and Measured, *wrong* for
-//! every bad verdict, whether it was expected or not, since an expectation changes nothing in what the
-//! driver does. NotSupported, Skipped and a missing record are no votes: nothing was drawn. A selftest
-//! that is due to fail has none either, since its judge sees another scene than its drivers.
+//! Every adapter that drew the case has a vote: *right* for Pass, Imprecise and Measured, *wrong* for every bad
+//! verdict, whether it was expected or not, since an expectation changes nothing in what the driver does.
+//! NotSupported, Skipped and a missing record do not vote: nothing was drawn. A selftest that is due to fail
+//! has none either, since its judge sees another scene than its drivers.
 //!
 //! More than half of the votes are the consensus, and the adapters of the other side are odd. If both sides
 //! have the same number of votes, no adapter is odd. A single vote makes no consensus.

@@ -16,7 +16,7 @@ use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 use std::collections::HashMap;
 
-/// The most bytes that messages and other texts take together.
+/// The maximum number of bytes that messages and other texts take together.
 const TEXT_BYTES: usize = 8 << 20;
 /// Signs for the kinds of cells; more than there are verdicts and tones.
 const SIGNS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
@@ -26,7 +26,7 @@ const NO_RECORD: char = '.';
 #[derive(Serialize)]
 struct Data<'a> {
     adapters: &'a [&'a str],
-    /// The meaning of each sign, the gravest first.
+    /// The meaning of each sign, the most serious first.
     cells: Vec<Cell>,
     /// Text, distribution of votes, odd adapters.
     consensus: Interner<(String, &'static str, Vec<usize>)>,
@@ -129,7 +129,7 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
     }
 }
 
-/// The kinds of cells that the run has, the gravest first, with the sign of each.
+/// The kinds of cells that the run has, the most serious first, with the sign of each.
 fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
     let tally = Tally::of(&grid.run.records);
     let mut signs = HashMap::new();

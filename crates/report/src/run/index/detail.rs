@@ -15,9 +15,9 @@ use etalon_record::{FrameFile, Record, RecordError, Run};
 use maud::{Markup, html};
 use std::path::Path;
 
-/// The most wrong texels in a table.
+/// The maximum number of wrong texels in a table.
 const TEXELS: usize = 6;
-/// The most bytes that all pictures of a page take together.
+/// The maximum number of bytes that all pictures of a page take together.
 const PICTURE_BYTES: usize = 3 << 20;
 
 /// The room that pictures take.

@@ -7,11 +7,12 @@ use etalon_frame::{Band, CounterOutcome};
 use etalon_record::{Assertion, Record};
 use maud::{Markup, html};
 
-/// The most characters of a message that the page keeps; the end of it, where the reason usually stands.
+/// The maximum number of characters of a message that the page keeps: those at its end, which usually has the
+/// reason.
 const LONGEST: usize = 4000;
 
-/// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
-/// from a driver, `case` for an id that can be followed, `code`.
+/// The words, the form, and true if an entry under Findings shows the same fact. Forms: `text`, `pre` for text
+/// from a driver, `case` for an id that becomes a link, `code`.
 pub(crate) type Label = (&'static str, &'static str, bool);
 
 /// Returns the note that replaces the facts of a record if there is no room for them.

@@ -13,13 +13,13 @@ use maud::{Markup, html};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
-/// The most records that are shown with everything known about them.
+/// The maximum number of records that are shown with everything known about them.
 const BODIES: usize = 160;
-/// The most imprecise records of a case file and adapter that are shown with all facts.
+/// The maximum number of imprecise records of a case file and adapter that are shown with all facts.
 const IMPRECISE_BODIES: usize = 3;
-/// The most lines of a case file and adapter.
+/// The maximum number of lines of a case file and adapter.
 const LINES: usize = 20;
-/// The most lines in total. The rest is only under "All cases", which costs a browser less.
+/// The maximum number of lines in total. The rest is only under "All cases", which costs a browser less.
 const ALL_LINES: usize = 5000;
 
 /// The listed records, and whether each is shown with all facts.
@@ -94,7 +94,7 @@ pub(crate) fn kind(record: &Record) -> usize {
     }
 }
 
-/// Returns the records of a case file on one adapter that get an entry, the gravest kind first.
+/// Returns the records of a case file on one adapter that get an entry, the most serious kind first.
 fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
     let worth = |i: &usize| {
         let r = grid.record(*i);

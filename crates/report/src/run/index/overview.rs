@@ -76,7 +76,7 @@ fn cell_class(tally: &Tally) -> &'static str {
     }
 }
 
-/// The most rows of each table.
+/// The maximum number of rows of each table.
 const ROWS: usize = 500;
 
 /// The cases that were not drawn: a row per reason, a column per adapter.
