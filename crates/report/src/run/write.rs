@@ -65,7 +65,7 @@ pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
 /// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
 /// its place and then renamed, so that a reader never sees half a report.
 ///
-/// The summary of a run that was compared with the one before it tells news first. [`News::settle`] gives the run in
+/// The page and the summary of a run that was compared with the last run tell news first. [`News::settle`] gives the run in
 /// which what triage settled does not count.
 ///
 /// # Errors
@@ -81,7 +81,7 @@ pub fn write_run_with_news(
     // The page reads frames and takes as long as all others together.
     let (html, others) = join(
         || {
-            let page = index::page(folder, run, &dead, found.as_ref());
+            let page = index::page(folder, run, &dead, found.as_ref(), news);
             replace(folder, HTML, page.as_bytes())
         },
         || others(folder, run, found.as_ref(), news),
