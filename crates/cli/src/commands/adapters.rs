@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Tell what each adapter needs that cannot be used
+    /// Tell what each unavailable adapter needs
     #[arg(long)]
     pub(crate) remedies: bool,
     /// Output format; JSON is an array with one object per adapter that can be used
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     ];
     let hidden = adapters.absent.len() + adapters.not_enabled.len() > 0 && !arguments.remedies;
     let hint =
-        hidden.then(|| "etalon adapters --remedies tells what each of these needs\n".to_owned());
+        hidden.then(|| "etalon adapters --remedies tells what each of them needs\n".to_owned());
     let parts: Vec<String> = lists
         .into_iter()
         .chain(hint)
