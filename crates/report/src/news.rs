@@ -4,7 +4,7 @@ mod compare;
 
 use crate::terminal::TableOptions;
 use crate::words::plain;
-use etalon_record::{Expected, Run};
+use etalon_record::{Expected, Run, Verdict};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -44,8 +44,8 @@ pub struct NewsEntry {
     /// The adapter.
     pub adapter: String,
     /// The verdict of this run.
-    pub verdict: String,
-    /// The verdict before, or the reason why the record does not count.
+    pub verdict: Verdict,
+    /// The verdict before, or the reason for which it does not count.
     pub note: String,
 }
 

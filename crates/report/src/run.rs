@@ -3,8 +3,8 @@
 mod dead;
 pub(crate) mod grid;
 mod index;
+mod reasons;
 mod table;
-mod undrawn;
 pub(crate) mod unexpected;
 mod write;
 

@@ -12,6 +12,9 @@ use tabled::settings::{Alignment, Color, Style, Width};
 /// The maximum number of characters of a cell on a terminal.
 const LONGEST: usize = 160;
 
+/// The most rows of a page's table that stand in front of its summary.
+const FIRST: usize = 5;
+
 /// The content of a cell.
 #[derive(Clone, Default)]
 pub(crate) struct Cell {
@@ -206,6 +209,23 @@ impl<'a, R> Table<'a, R> {
                     tr class=[class((self.row_class)(&row))] { @for column in &self.columns { (self.cell_on_page(column, &row)) } }
                 } }
             } }
+        }
+    }
+
+    /// The table on a page: the first rows, then the others behind a summary.
+    pub(crate) fn folded(&self, rows: &[R]) -> Markup
+    where
+        R: Copy,
+    {
+        let (first, others) = rows.split_at(rows.len().min(FIRST));
+        html! {
+            (self.page(first.iter().copied()))
+            @if !others.is_empty() {
+                details {
+                    summary { (others.len()) " more" }
+                    (self.page(others.iter().copied()))
+                }
+            }
         }
     }
 

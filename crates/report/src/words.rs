@@ -11,6 +11,7 @@ mod texel;
 mod value;
 mod verdict;
 
+pub use header::api_name;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;
 pub(crate) use record::{headline, process_end};

@@ -5,13 +5,19 @@ use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, Format};
 use crate::output::{print, print_json};
 use clap::Args;
-use etalon_record::AdapterRecord;
+use etalon_frame::Api;
+use etalon_record::{AbsentAdapter, AdapterRecord};
+use etalon_report::api_name;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
+    /// Tell what each unavailable adapter needs
+    #[arg(long)]
+    pub(crate) remedies: bool,
     /// Output format; JSON is an array with one object per adapter that can be used
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -26,7 +32,7 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists the usable adapters, and the others with reason and remedy.
+/// Lists the adapters that can be used, and the others with reason and, where wanted, remedy.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),
@@ -45,35 +51,66 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Ok(0);
     }
     let ready: Vec<&AdapterRecord> = ready.iter().map(|facts| &facts.record).collect();
-    let mut text = String::new();
-    let width = ready.iter().map(|a| a.name.len()).max().unwrap_or(0);
-    for adapter in &ready {
-        text.push_str(&format!(
-            "{:width$}  {}; {}; {}\n",
+    let lists = [
+        usable(&ready),
+        others("Unavailable", &adapters.absent, arguments.remedies),
+        others("Not enabled", &adapters.not_enabled, arguments.remedies),
+    ];
+    let hidden = adapters.absent.len() + adapters.not_enabled.len() > 0 && !arguments.remedies;
+    let hint =
+        hidden.then(|| "etalon adapters --remedies tells what each of them needs\n".to_owned());
+    let parts: Vec<String> = lists
+        .into_iter()
+        .chain(hint)
+        .filter(|part| !part.is_empty())
+        .collect();
+    print(&parts.join("\n"))?;
+    Ok(0)
+}
+
+/// The adapters that can be used, by API, in columns.
+fn usable(adapters: &[&AdapterRecord]) -> String {
+    let widest = |text: fn(&AdapterRecord) -> String| {
+        let widths = adapters.iter().map(|adapter| text(adapter).chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let name = widest(|adapter| adapter.name.clone());
+    let device = widest(|adapter| adapter.device.clone());
+    let driver = widest(AdapterRecord::driver_text);
+    let mut groups: BTreeMap<Api, String> = BTreeMap::new();
+    for adapter in adapters {
+        let api = adapter.limits.api;
+        let group = groups
+            .entry(api)
+            .or_insert_with(|| format!("{}\n", api_name(api)));
+        *group += &format!(
+            "  {:name$}  {:device$}  {:driver$}  {}\n",
             adapter.name,
             adapter.device,
             adapter.driver_text(),
             adapter.api_version
-        ));
+        );
     }
-    if !adapters.absent.is_empty() {
-        text.push_str("\nUnavailable:\n");
-        for absent in &adapters.absent {
-            text.push_str(&format!(
-                "  {}: {}\n      {}\n",
-                absent.name, absent.reason, absent.remedy
-            ));
+    groups.into_values().collect::<Vec<_>>().join("\n")
+}
+
+/// Adapters that cannot be used, with reasons; remedies only where they are wanted.
+fn others(title: &str, adapters: &[AbsentAdapter], remedies: bool) -> String {
+    let mut text = String::new();
+    for adapter in adapters {
+        let AbsentAdapter {
+            name,
+            reason,
+            remedy,
+        } = adapter;
+        text += &format!("  {name}: {reason}\n");
+        if remedies {
+            text += &format!("      {remedy}\n");
         }
     }
-    if !adapters.not_enabled.is_empty() {
-        text.push('\n');
-        for adapter in &adapters.not_enabled {
-            text.push_str(&format!(
-                "Not enabled: {}: {}\n",
-                adapter.name, adapter.remedy
-            ));
-        }
+    if adapters.is_empty() {
+        String::new()
+    } else {
+        format!("{title}\n{text}")
     }
-    print(&text)?;
-    Ok(0)
 }

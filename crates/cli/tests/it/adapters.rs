@@ -295,18 +295,25 @@ fn the_facts_of_each_adapter_are_there_for_programs() {
 }
 
 #[test]
-fn an_adapter_that_a_variable_names_is_told_with_its_remedy_or_in_one_quiet_line() {
-    // The lines below the table; the table depends on the machine.
-    let below = |command: &mut Command| {
+fn an_adapter_that_a_variable_names_is_listed_and_its_remedy_when_asked_for() {
+    // The lines below the tables, which are the machine's.
+    let below = |command: &mut Command, head: &str| {
         let assert = command.assert().code(0);
         let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-        text.split_once("\n\n").unwrap().1.to_owned()
+        text[text.find(head).unwrap()..].to_owned()
     };
-    let mut unset = etalon(&["adapters"]);
-    insta::assert_snapshot!("adapters-not-enabled", below(&mut unset));
-    let mut wrong = etalon(&["adapters"]);
-    wrong.env("ETALON_ANGLE", "/none");
-    insta::assert_snapshot!("adapters-unavailable", below(&mut wrong));
+    for (name, flags) in [
+        ("", &["adapters"][..]),
+        ("-remedies", &["adapters", "--remedies"]),
+    ] {
+        let mut unset = etalon(flags);
+        let not_enabled = format!("adapters-not-enabled{name}");
+        insta::assert_snapshot!(not_enabled, below(&mut unset, "Not enabled\n"));
+        let mut wrong = etalon(flags);
+        wrong.env("ETALON_ANGLE", "/none");
+        let unavailable = format!("adapters-unavailable{name}");
+        insta::assert_snapshot!(unavailable, below(&mut wrong, "Unavailable\n"));
+    }
     let out = tempfile::tempdir().unwrap();
     let mut run = etalon(&["run", CASE, "--adapter", "gl:es:angle", "--out"]);
     let assert = run.arg(out.path().join("out")).assert().code(64);

@@ -155,7 +155,7 @@ fn told(text: &mut Text, news: &News) {
         text.lines(entries, LISTED / 4, |entry: &NewsEntry| {
             format!(
                 "- **{}** {} on {}: {}",
-                escaped(&entry.verdict, 60),
+                name(entry.verdict),
                 code(&entry.case, 400),
                 code(&entry.adapter, 100),
                 escaped(&entry.note, 300)

@@ -13,12 +13,31 @@ use etalon_methods::claims;
 use maud::{Markup, html};
 use outcome::{Figure, Holds, Reproduction};
 
+/// All claims; those that the run has no measurement for are the second list.
+fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
+    claims()
+        .map(|c| check(c, methods))
+        .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()))
+}
+
+/// The outcomes of claims for a terminal.
+pub(super) fn lines(methods: &Methods<'_>) -> Vec<String> {
+    let (drawn, others) = checked(methods);
+    let line = |checked: &Checked<'_>| {
+        let found = Reproduction::of(&checked.figures);
+        format!("{}: {}", found.text(), checked.claim.title)
+    };
+    let mut lines: Vec<String> = drawn.iter().map(line).collect();
+    if !others.is_empty() {
+        let others = count(others.len() as u64, "claim");
+        lines.push(format!("– {others} that this run did not draw"));
+    }
+    lines
+}
+
 /// The table of claims.
 pub(super) fn section(methods: &Methods<'_>) -> Markup {
-    // Claims without any measurement are listed after the others.
-    let (drawn, others): (Vec<Checked<'_>>, Vec<_>) = claims()
-        .map(|c| check(c, methods))
-        .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()));
+    let (drawn, others) = checked(methods);
     html! {
         p {
             "Claims of publications, and this run's measurements of them. A claim is checked in every case where all that it "

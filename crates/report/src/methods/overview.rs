@@ -44,7 +44,7 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup 
                 (limit("most-error", "RMSE at most"))
             }
             div.cards {
-                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, shown, q, question)) }
+                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, q, &Answer::of(question, shown))) }
             }
         }
     }
@@ -57,18 +57,70 @@ fn limit(id: &str, name: &str) -> Markup {
     }
 }
 
-fn card(
-    methods: &Methods<'_>,
-    shown: &[Shown<'_, '_>],
-    number: usize,
-    question: &Question<'_>,
-) -> Markup {
-    let scenes: Vec<&Shown<'_, '_>> = shown
-        .iter()
-        .filter(|shown| std::ptr::eq(shown.question, question))
-        .collect();
-    let timed: Vec<Vec<Timed<'_>>> = scenes.iter().map(|shown| timed(shown)).collect();
-    let points: Vec<_> = timed
+/// The most adapters of a question that a terminal lists.
+const ADAPTERS: usize = 4;
+
+/// A question's scenes, and their methods as they were timed.
+struct Answer<'s, 'a> {
+    question: &'s Question<'a>,
+    scenes: Vec<&'s Shown<'s, 'a>>,
+    /// By scene.
+    timed: Vec<Vec<Timed<'a>>>,
+}
+
+impl<'s, 'a> Answer<'s, 'a> {
+    fn of(question: &'s Question<'a>, shown: &'s [Shown<'s, 'a>]) -> Self {
+        let scenes = shown
+            .iter()
+            .filter(|shown| std::ptr::eq(shown.question, question));
+        let scenes: Vec<&Shown<'_, '_>> = scenes.collect();
+        Self {
+            question,
+            timed: scenes.iter().map(|shown| timed(shown)).collect(),
+            scenes,
+        }
+    }
+
+    /// The scene that most methods were timed in, with them; `None` if no method was timed.
+    fn fullest(&self) -> Option<(&'s Shown<'s, 'a>, &[Timed<'a>])> {
+        let timed = self.timed.iter().enumerate();
+        let fullest = timed.max_by_key(|(place, all)| (all.len(), std::cmp::Reverse(*place)));
+        let (place, all) = fullest.filter(|(_, all)| !all.is_empty())?;
+        Some((self.scenes[place], all))
+    }
+}
+
+/// The sentences of all questions for a terminal, one per adapter.
+pub(super) fn lines(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for question in &methods.questions {
+        let found = Answer::of(question, shown);
+        let Some((scene, timed)) = found.fullest() else {
+            lines.push(format!("{}: not timed", question.name));
+            continue;
+        };
+        lines.push(format!(
+            "{}, in {}{}",
+            question.name,
+            scene.scene.name,
+            scene.settings[scene.main].at()
+        ));
+        let adapters = methods.adapters.iter().enumerate();
+        lines.extend(
+            adapters
+                .take(ADAPTERS)
+                .map(|(number, adapter)| format!("  {}: {}", adapter.name, answer(timed, number))),
+        );
+        if let Some(more @ 1..) = methods.adapters.len().checked_sub(ADAPTERS) {
+            lines.push(format!("  and {}", count(more as u64, "more adapter")));
+        }
+    }
+    lines
+}
+
+fn card(methods: &Methods<'_>, number: usize, found: &Answer<'_, '_>) -> Markup {
+    let points: Vec<_> = found
+        .timed
         .iter()
         .enumerate()
         .flat_map(|(scene, all)| {
@@ -76,28 +128,25 @@ fn card(
                 .map(move |t| json!([t.method, scene, t.adapter, t.time, t.error]))
         })
         .collect();
-    let fullest = timed
-        .iter()
-        .enumerate()
-        .max_by_key(|(place, all)| (all.len(), std::cmp::Reverse(*place)));
+    let fullest = found.fullest();
     html! {
         article.card data-points=(json!(points)) {
-            h3 { a href={ "#q" (number) } { (super::name::title(question.name)) } }
+            h3 { a href={ "#q" (number) } { (super::name::title(found.question.name)) } }
             @match fullest {
-                Some((place, all)) if !all.is_empty() => {
+                Some((scene, all)) => {
                     @for (adapter, _) in methods.adapters.iter().enumerate() {
                         div class=(if adapter == 0 { "on" } else { "on off" }) data-on=(adapter) {
-                            (chart(question, scenes[place], all, adapter))
+                            (chart(found.question, scene, all, adapter))
                             p.answer { (answer(all, adapter)) }
                         }
                     }
                 }
-                _ => p.u { "Not timed." }
+                None => p.u { "Not timed." }
             }
             p.left {}
             p.of {
-                @if let Some((place, _)) = fullest { "In " (scenes[place].scene.name) ", one of " }
-                (count(scenes.len() as u64, "scene"))
+                @if let Some((scene, _)) = fullest { "In " (scene.scene.name) ", one of " }
+                (count(found.scenes.len() as u64, "scene"))
             }
         }
     }

@@ -153,6 +153,22 @@ pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
     }
 }
 
+/// The breaks of all scenes for a terminal.
+pub(super) fn lines(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Vec<String> {
+    let breaks = shown.iter().flat_map(|shown| {
+        let broken = found(shown).into_iter().filter(CurveBreak::crosses);
+        broken.map(move |found| (shown.scene, found))
+    });
+    let line = |(scene, found): (&SceneSeries<'_>, CurveBreak<'_>)| {
+        let on = who(methods, &found);
+        format!(
+            "{}/{}: {} ({on})",
+            scene.question, scene.name, found.sentence
+        )
+    };
+    breaks.map(line).collect()
+}
+
 /// The adapters that a break was found on.
 pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
     if found.adapters.len() == methods.adapters.len() {

@@ -3,20 +3,21 @@
 use super::breaks::LIMIT;
 use super::data::{Kind, Methods, Point, SceneSeries, Series, Setting};
 use super::name::PAGE;
-use crate::numbers::{count, duration, share};
+use super::{claims, overview, stability};
+use crate::numbers::{duration, share};
 use crate::table::{Cell, Table};
 use crate::words::plain;
 use maud::{Markup, html};
 
-/// The maximum number of scenes that the terminal lists.
-const LISTED: usize = 40;
+/// The most lines of each part on a terminal.
+const LISTED: usize = 60;
+/// The most characters of a line on a terminal.
+const LONGEST: usize = 300;
 
 /// The best methods of a scene on adapters of a kind, all at one setting.
 struct Best<'a> {
     /// The place of the scene in the page of methods.
     anchor: String,
-    /// The scene's number among all scenes.
-    number: usize,
     scene: String,
     setting: Setting<'a>,
     kind: Kind,
@@ -38,7 +39,7 @@ enum Fast<'a> {
 /// Finds the best methods of all scenes.
 fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
     let mut found = Vec::new();
-    for (number, shown) in methods.shown().into_iter().enumerate() {
+    for shown in methods.shown() {
         let Some(setting) = shown.scene.main() else {
             continue;
         };
@@ -49,7 +50,6 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
             };
             found.push(Best {
                 anchor: shown.anchor.clone(),
-                number,
                 scene: format!("{}/{}", shown.scene.question, shown.scene.name),
                 setting: setting.clone(),
                 kind,
@@ -147,14 +147,43 @@ pub(crate) fn section(methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// Returns a line per scene for the terminal; empty if there are no methods.
-pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
-    let mut text = String::from(
-        "\nMethods at the same parameters: the most accurate, and the fastest within 1 % RMSE\n",
-    );
+/// The methods of a run for a terminal, in the order of their page: the answer to each question, break points, scenes,
+/// claims.
+pub(crate) fn lines(methods: &Methods<'_>) -> String {
+    let shown = methods.shown();
+    let parts = [
+        (
+            "Methods: accuracy against time",
+            overview::lines(methods, &shown),
+        ),
+        (
+            "Break points, at 1 % RMSE",
+            stability::lines(methods, &shown),
+        ),
+        (
+            "Scenes: the most accurate method, and the fastest within 1 % RMSE",
+            scenes(methods),
+        ),
+        ("Claims of the literature", claims::lines(methods)),
+    ];
+    let mut text = String::new();
+    for (title, lines) in parts.iter().filter(|(_, lines)| !lines.is_empty()) {
+        text += &format!("\n{title}\n");
+        for line in lines.iter().take(LISTED) {
+            text += &format!("  {}\n", plain(line, LONGEST));
+        }
+        if let Some(more @ 1..) = lines.len().checked_sub(LISTED) {
+            text += &format!("  and {more} more\n");
+        }
+    }
+    text
+}
+
+/// A line per scene.
+fn scenes(methods: &Methods<'_>) -> Vec<String> {
     let several = methods.kinds().len() > 1;
-    for best in best(methods).iter().filter(|best| best.number < LISTED) {
-        let mut line = format!("  {}{}", best.scene, best.setting.at());
+    let line = |best: Best<'_>| {
+        let mut line = format!("{}{}", best.scene, best.setting.at());
         if several {
             line += &format!(" ({})", best.kind.name());
         }
@@ -166,14 +195,9 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
                 format!(": {method} {error}; {fast} {} on {adapter}", duration(time))
             }
         });
-        text += &format!("{}\n", plain(&line, width.max(20)));
-    }
-    let scenes = methods.scenes().count();
-    if scenes > LISTED {
-        let more = count((scenes - LISTED) as u64, "more scene");
-        text += &format!("  and {more}\n");
-    }
-    text
+        line
+    };
+    best(methods).into_iter().map(line).collect()
 }
 
 #[cfg(test)]
@@ -195,7 +219,7 @@ mod tests {
             candidate("ssaa", 4.0, 0.015),
         ]);
         let methods = Methods::of(&mixed).unwrap();
-        let text = lines(&methods, 100);
+        let text = lines(&methods);
         assert!(
             text.contains("aa/wedge at opening 4: ssaa 1.5\u{a0}%; none within"),
             "{text}"
@@ -211,7 +235,7 @@ mod tests {
             candidate("msaa-4", 4.0, 0.02),
         ]);
         let methods = Methods::of(&alone).unwrap();
-        let text = lines(&methods, 100);
+        let text = lines(&methods);
         assert!(
             text.contains("aa/wedge at opening 24: only none measured, 0.1\u{a0}%"),
             "{text}"

@@ -80,7 +80,7 @@ impl News {
                 let entry = |note: String| NewsEntry {
                     case: record.case.clone(),
                     adapter: record.adapter.clone(),
-                    verdict: record.verdict.name().to_owned(),
+                    verdict: record.verdict,
                     note,
                 };
                 if !record.unexpected() {

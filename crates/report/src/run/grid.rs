@@ -148,6 +148,10 @@ pub(crate) struct Tally {
     pub(crate) unexpected: u64,
     /// The worst unexpected verdict. A missed selftest counts as a Fail.
     pub(crate) worst: Option<Verdict>,
+    /// Bad verdicts that were expected. Selftests that fail as they are due to are not among them.
+    pub(crate) known: u64,
+    /// Records that say that the driver, or the selftest, does what it should.
+    pub(crate) right: u64,
     /// Records in all.
     pub(crate) total: u64,
 }
@@ -158,6 +162,14 @@ impl Tally {
         for record in records {
             tally.total += 1;
             let tone = Tone::of(record);
+            match (tone, record.verdict) {
+                (Tone::Excused, _) if record.expected.is_none() => tally.right += 1,
+                (Tone::Excused, _) => tally.known += 1,
+                (Tone::Plain, Verdict::Pass | Verdict::Imprecise | Verdict::Measured) => {
+                    tally.right += 1;
+                }
+                _ => {}
+            }
             let weight = match tone {
                 Tone::Missed => Verdict::Fail,
                 _ => record.verdict,

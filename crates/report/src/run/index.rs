@@ -1,35 +1,42 @@
 //! `index.html` of a run.
 //!
-//! The totals, the matrix and the findings need no script; the script adds the table of all cases, with
+//! The page tells what changed since the last run, what is new, what is known and what was not drawn, in this order;
+//! then come the matrix and everything else. All of it but two parts needs no script; the script adds the table of all cases, with
 //! search and filters, and the view of one case. Every view has an address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
 mod assertions;
 mod cases;
 mod causes;
+mod changed;
 mod consensus;
 mod data;
 mod detail;
 mod facts;
 mod findings;
+mod matrix;
 mod overview;
 
 use crate::catalogue::scripts;
 use crate::chart;
 use crate::mark::class;
 use crate::methods::{self, Methods};
+use crate::news::News;
 use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
-use crate::run::undrawn::{Undrawn, undrawn};
+use crate::run::reasons::{Reason, undrawn};
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
 use std::path::Path;
 
-const CASES_STYLE: &str = include_str!("index/cases.css");
-/// The script, inside one function so that the page adds no global names.
+const STYLE: &str = concat!(
+    include_str!("index/matrix.css"),
+    include_str!("index/cases.css")
+);
+/// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../page/base.js"),
@@ -48,6 +55,7 @@ pub(crate) fn page(
     run: &Run,
     dead: &[Dead],
     methods: Option<&Methods<'_>>,
+    news: Option<&News>,
 ) -> String {
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
@@ -57,14 +65,16 @@ pub(crate) fn page(
     let main = html! {
         (cases::view())
         div id="report" {
-            (head(run, dead, methods.is_some(), drivers.is_some()))
+            (head(run, dead, news, methods.is_some(), drivers.is_some()))
             @if run.records.is_empty() {
                 p { "No case was run." }
             } @else {
-                (causes::section(&grid))
-                (totals(run))
-                (overview::matrix(&grid))
+                @if let Some(news) = news { (changed::section(news)) }
+                (causes::section(&grid, news))
+                (overview::known(run))
                 (overview::not_drawn(run))
+                (matrix::section(&grid))
+                (totals(run))
                 (overview::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
@@ -78,10 +88,11 @@ pub(crate) fn page(
                 (assertions::section(&grid))
             }
             (page::adapter::section(&run.header.adapters, &run.header.absent))
+            (about(run))
         }
     };
     Page::new(&title(run), "run.jsonl and frames/ in this folder", &main)
-        .style(CASES_STYLE)
+        .style(STYLE)
         .style(&charts.unwrap_or_default())
         .script(SCRIPT, !scripts.is_empty())
         .html()
@@ -95,22 +106,16 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run, dead: &[Dead], methods: bool, drivers: bool) -> Markup {
+fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
     html! {
         header {
             h1 { "etalon" }
-            p.lead { "Conformance of graphics drivers' per-fragment operations." }
-            (state(run, dead))
-            dl.facts {
-                (origin!(h))
-                dt { "Scope" } dd {
-                    (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
-                    ", " (count(run.records.len() as u64, "record"))
-                }
-                @let settings = words::settings(&h.settings);
-                @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
+            p.lead {
+                (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
+                ", " (count(run.records.len() as u64, "record")) ", started " (h.started)
             }
+            (state(run, dead, news))
             @if !run.records.is_empty() {
             nav aria-label="Parts of the page" {
                 a href="#matrix" { "Matrix" } " "
@@ -119,18 +124,19 @@ fn head(run: &Run, dead: &[Dead], methods: bool, drivers: bool) -> Markup {
                 a href="#cases" { "All cases" } " "
                 a href="#findings" { "Findings" } " "
                 a href="#asserted" { "What was asserted" } " "
-                a href="#adapters" { "Adapters" }
+                a href="#adapters" { "Adapters" } " "
+                a href="#about" { "About the run" }
             }
             }
         }
     }
 }
 
-/// The state of the run: incomplete, unexpected records, improvements.
-fn state(run: &Run, dead: &[Dead]) -> Markup {
+/// The state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
+fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
     let tally = Tally::of(&run.records);
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
-    let undrawn: u64 = undrawn(run).iter().map(Undrawn::records).sum();
+    let undrawn: u64 = undrawn(run).iter().map(Reason::records).sum();
     let missing = run.missing();
     html! {
         @if run.truncated || missing > 0 {
@@ -142,6 +148,12 @@ fn state(run: &Run, dead: &[Dead]) -> Markup {
                 @if run.truncated { "The last record was cut off: the run did not end by itself." }
             }
         }
+        @if let Some(news) = news {
+            p.state.n {
+                b { "Since the last run: " }
+                a href="#changed" { (news.broken.len()) " broken, " (news.fixed.len()) " fixed" } "."
+            }
+        }
         @if tally.unexpected > 0 {
             p.state.bad {
                 b { (words::symbol(Verdict::Fail)) " " (count(tally.unexpected, "unexpected record")) }
@@ -150,19 +162,36 @@ fn state(run: &Run, dead: &[Dead]) -> Markup {
         } @else if !run.records.is_empty() {
             p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }
         }
-        @if undrawn > 0 {
-            p.soft {
-                a href="#undrawn" { (count(undrawn, "record")) } " of " (run.records.len())
-                " are of cases that were not drawn."
-            }
-        }
-        @if !dead.is_empty() {
-            p.soft { a href="#dead" { (count(dead.len() as u64, "dead expectation")) } "." }
+        @if tally.known > 0 {
+            p.soft { b { "Known: " } a href="#known" { (count(tally.known, "bad verdict")) } "." }
         }
         @if improvements > 0 {
             p.state.good {
                 b { (count(improvements, "improvement")) }
                 ": their expectations can be removed."
+            }
+        }
+        @if undrawn > 0 {
+            p.soft {
+                b { "Not drawn: " }
+                a href="#undrawn" { (undrawn) " of " (count(run.records.len() as u64, "record")) } "."
+            }
+        }
+        @if !dead.is_empty() {
+            p.soft { a href="#dead" { (count(dead.len() as u64, "dead expectation")) } "." }
+        }
+    }
+}
+
+/// Where the run comes from.
+fn about(run: &Run) -> Markup {
+    let settings = words::settings(&run.header.settings);
+    html! {
+        section id="about" {
+            h2 { "About the run" }
+            dl.facts {
+                (origin!(run.header))
+                @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
             }
         }
     }

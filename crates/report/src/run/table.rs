@@ -3,7 +3,7 @@
 use crate::methods;
 use crate::numbers::count;
 use crate::run::grid::{Grid, Tally, rate};
-use crate::run::undrawn::{Undrawn, undrawn};
+use crate::run::reasons::{Reason, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
 use crate::terminal::{self, TableOptions};
@@ -44,7 +44,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
         .collect();
     let mut text = format!("{}\n{}", adapters(&rows, options), not_drawn(run, options));
     if let Some(found) = methods::Methods::of(run) {
-        text.push_str(&methods::lines(&found, options.width));
+        text.push_str(&methods::lines(&found));
     }
     text.push_str(&unexpected(run, options));
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
@@ -135,26 +135,24 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     if reasons.is_empty() {
         return String::new();
     }
-    let undrawn_records: u64 = reasons.iter().map(Undrawn::records).sum();
+    let undrawn_records: u64 = reasons.iter().map(Reason::records).sum();
     let mut text = format!(
         "\nNot drawn: {undrawn_records} of {}\n",
         count(run.records.len() as u64, "record")
     );
     let width = undrawn_records.to_string().len();
     for reason in reasons.iter().take(REASONS) {
-        let adapters = reason.adapters.iter();
-        let each: Vec<String> = adapters.map(|(name, n)| format!("{name} {n}")).collect();
         let head = format!(
             "  {:>width$}  {}: ",
             reason.records(),
-            plain(&reason.text(), 160)
+            plain(&reason.sentence(), 160)
         );
-        text.push_str(&terminal::listed(&head, &each, width + 6, options));
+        text.push_str(&terminal::listed(&head, &reason.each(), width + 6, options));
         text.push('\n');
     }
     if reasons.len() > REASONS {
         let others = &reasons[REASONS..];
-        let n: u64 = others.iter().map(Undrawn::records).sum();
+        let n: u64 = others.iter().map(Reason::records).sum();
         text += &format!(
             "  {n:>width$}  for {}\n",
             count(others.len() as u64, "other reason")

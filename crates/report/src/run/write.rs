@@ -65,8 +65,8 @@ pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
 /// `results/<adapter>.csv`, and `methods.html` if the run has records of methods. Each is written to a
 /// temporary file and then renamed, so that a reader never sees half a report.
 ///
-/// If the run was compared with an earlier one, the summary begins with the news. [`News::settle`] returns the
-/// run as reports show it, in which records that triage settled do not count.
+/// The page and the summary of a run that was compared with the last run tell news first. [`News::settle`] gives the run in
+/// which what triage settled does not count.
 ///
 /// # Errors
 /// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame
@@ -81,7 +81,7 @@ pub fn write_run_with_news(
     // The page reads frames and takes as long as all others together.
     let (html, others) = join(
         || {
-            let page = index::page(folder, run, &dead, found.as_ref());
+            let page = index::page(folder, run, &dead, found.as_ref(), news);
             replace(folder, HTML, page.as_bytes())
         },
         || others(folder, run, found.as_ref(), news),

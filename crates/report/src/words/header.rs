@@ -1,7 +1,18 @@
 //! The header of a run in words.
 
 use crate::numbers::{count, round_duration};
+use etalon_frame::Api;
 use etalon_record::{Machine, Settings};
+
+/// Returns the name of an API as its authors spell it.
+pub fn api_name(api: Api) -> &'static str {
+    match api {
+        Api::Vulkan => "Vulkan",
+        Api::OpenGl => "OpenGL",
+        Api::OpenGlEs => "OpenGL ES",
+        Api::WebGpu => "WebGPU",
+    }
+}
 
 /// `Example CPU, 4 cores, Linux 6.12`.
 pub(crate) fn machine(machine: &Machine) -> String {

@@ -1,6 +1,7 @@
 //! The pages in a browser: opened from the file system, used by clicks and keys. One Chromium serves all
 //! checks, since its start costs more than most of them; each check has its own tab.
 
+mod areas;
 mod cdp;
 mod driver;
 mod history;
@@ -44,6 +45,9 @@ fn pages_work_in_a_browser() {
     });
     check("history", &|| {
         history::news_lead_to_cases_runs_and_back(&chromium)
+    });
+    check("areas of twenty adapters", &|| {
+        areas::twenty_adapters_fit_and_rows_open(&chromium)
     });
     check("large run", &|| {
         large::eighty_thousand_records_open_and_are_searched(&chromium);

@@ -3,6 +3,7 @@
 //! difference.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+mod areas;
 mod bench;
 mod browser;
 mod damage;

@@ -379,6 +379,41 @@ fn methods_get_a_page_of_charts() {
         text.contains("transparency/windows at alpha 0.5 (hardware): depth-peeling 0;"),
         "{text}"
     );
+    terminal_and_page_agree(&text, &page);
+}
+
+/// The terminal answers each question with the sentences of the page, and keeps the page's order.
+fn terminal_and_page_agree(text: &str, page: &str) {
+    let order = [
+        "Methods: accuracy against time",
+        "Break points",
+        "Scenes:",
+        "Claims",
+    ];
+    let places = order.map(|title| {
+        text.find(title)
+            .unwrap_or_else(|| panic!("{title}: {text}"))
+    });
+    assert!(places.is_sorted(), "{text}");
+    let answers: Vec<&str> = page
+        .split("<p class=\"answer\">")
+        .skip(1)
+        .map(|rest| rest.split("</p>").next().unwrap())
+        .collect();
+    let first = &text[places[0]..places[1]];
+    assert_eq!(first.lines().count(), 1 + 2 * (1 + 4) + 1, "{first}");
+    for answer in &answers {
+        assert!(
+            first.contains(&format!(": {answer}\n")),
+            "{answer}: {first}"
+        );
+    }
+    assert_eq!(answers.len(), 2 * 4);
+    let breaks = &text[places[1]..places[2]];
+    assert!(
+        breaks.contains("weighted-blended leaves 1\u{a0}% RMSE at alpha 0.53"),
+        "{breaks}"
+    );
 }
 
 fn claims(page: &str) -> usize {

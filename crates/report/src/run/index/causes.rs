@@ -4,6 +4,7 @@
 //! A hundred red rows are a dozen bugs. Nothing here knows a bug: the groups come from records alone.
 
 use crate::mark::{class, mark};
+use crate::news::News;
 use crate::numbers::count;
 use crate::page::link;
 use crate::run::grid::Grid;
@@ -14,7 +15,9 @@ use maud::{Markup, html};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The maximum number of causes that are listed.
+/// The most causes that stand in front of a summary.
+const FIRST: usize = 12;
+/// The most causes behind it.
 const LISTED: usize = 60;
 /// The maximum number of listed case files of a cause.
 const FILES: usize = 12;
@@ -28,22 +31,30 @@ struct Cause<'a> {
     files: Vec<(&'a str, Condition, &'a Record)>,
 }
 
-/// Returns the section; empty if nothing is unexpected.
-pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+/// The section; nothing where nothing is unexpected.
+pub(crate) fn section(grid: &Grid<'_>, news: Option<&News>) -> Markup {
     let causes = causes(grid);
     let verdicts: usize = causes.iter().map(|c| c.records).sum();
     html! {
         @if !causes.is_empty() {
             section id="causes" {
-                h2 { "Causes" }
+                h2 { "New" }
                 p {
                     (count(verdicts as u64, "unexpected verdict")) " in " (count(causes.len() as u64, "group"))
-                    ": one adapter, one kind of violation, and what the cases of a file have in common that the others "
-                    "drawn have not. Worst first."
+                    ", one for each adapter and kind of violation, worst first. An entry states the axis values that set its cases "
+                    "apart from the others of their file."
+                    @if let Some(old @ 1..) = news.map(|news| news.old.len()) { " In the last run, " (old) " were unexpected already." }
                 }
-                @for cause in causes.iter().take(LISTED) { (entry(cause)) }
-                @if causes.len() > LISTED {
-                    p.note { "and " (causes.len() - LISTED) " more, under " a href="#findings" { "Findings" } "." }
+                @let (first, others) = causes.split_at(causes.len().min(FIRST));
+                @for cause in first { (entry(cause)) }
+                @if !others.is_empty() {
+                    details {
+                        summary { (others.len()) " more" }
+                        @for cause in others.iter().take(LISTED) { (entry(cause)) }
+                        @if others.len() > LISTED {
+                            p.note { "and " (others.len() - LISTED) " more, under " a href="#findings" { "Findings" } "." }
+                        }
+                    }
                 }
             }
         }

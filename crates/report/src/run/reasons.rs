@@ -1,0 +1,88 @@
+//! Records by the reason for which they count for nothing: cases that were not drawn, and failures that are known.
+
+use crate::words::{Tone, headline, name};
+use etalon_record::{Record, Run, Verdict};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// The verdicts of cases that were not drawn, the gravest first.
+const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::NotSupported, Verdict::Skipped];
+
+/// Records of one verdict and one reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Reason {
+    pub(crate) verdict: Verdict,
+    /// What is missing, what failed, what skips them, or the expectation.
+    pub(crate) text: String,
+    /// The number of records on each adapter that has any, in the order of the run's adapters.
+    pub(crate) adapters: Vec<(String, u64)>,
+}
+
+impl Reason {
+    /// The number of records.
+    pub(crate) fn records(&self) -> u64 {
+        self.adapters.iter().map(|(_, n)| n).sum()
+    }
+
+    /// The adapters with their numbers of records: `gl:softpipe 12`.
+    pub(crate) fn each(&self) -> Vec<String> {
+        let adapters = self.adapters.iter();
+        adapters.map(|(name, n)| format!("{name} {n}")).collect()
+    }
+
+    /// `blocked: texture format r8unorm does not survive`; what is not supported needs no word before it.
+    pub(crate) fn sentence(&self) -> String {
+        match self.verdict {
+            Verdict::NotSupported => self.text.clone(),
+            verdict => format!("{}: {}", name(verdict), self.text),
+        }
+    }
+}
+
+/// The reasons why cases of a run were not drawn, by verdict, the most frequent first.
+pub(crate) fn undrawn(run: &Run) -> Vec<Reason> {
+    let place = |verdict| UNDRAWN.iter().position(|v| *v == verdict);
+    let mut reasons = reasons(run, |record| {
+        place(record.verdict).map(|_| headline(record))
+    });
+    reasons.sort_by_key(|reason| (place(reason.verdict), Reverse(reason.records())));
+    reasons
+}
+
+/// The expectations that failures of a run met, the most frequent first. Selftests that are due to fail are not
+/// among them.
+pub(crate) fn known(run: &Run) -> Vec<Reason> {
+    let mut reasons = reasons(run, |record| {
+        let expected = record.expected.as_ref();
+        let expected = expected.filter(|_| Tone::of(record) == Tone::Excused);
+        expected.map(|expected| expected.reason.clone())
+    });
+    reasons.sort_by_key(|reason| Reverse(reason.records()));
+    reasons
+}
+
+/// The records that have a reason, by verdict and reason.
+fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<Reason> {
+    let mut found: BTreeMap<(Verdict, String), BTreeMap<usize, u64>> = BTreeMap::new();
+    let adapters = &run.header.adapters;
+    for record in &run.records {
+        let Some(reason) = reason(record) else {
+            continue;
+        };
+        let place = adapters.iter().position(|a| a.name == record.adapter);
+        let counts = found.entry((record.verdict, reason)).or_default();
+        *counts.entry(place.unwrap_or(usize::MAX)).or_default() += 1;
+    }
+    let named = |(place, n): (usize, u64)| {
+        let name = adapters.get(place).map_or("?", |a| &a.name);
+        (name.to_owned(), n)
+    };
+    let found = found.into_iter();
+    found
+        .map(|((verdict, text), counts)| Reason {
+            verdict,
+            text,
+            adapters: counts.into_iter().map(named).collect(),
+        })
+        .collect()
+}
