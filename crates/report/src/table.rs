@@ -12,7 +12,7 @@ use tabled::settings::{Alignment, Color, Style, Width};
 /// The maximum number of characters of a cell on a terminal.
 const LONGEST: usize = 160;
 
-/// The most rows of a page's table that stand in front of its summary.
+/// The maximum number of rows that a table of a page shows before its summary.
 const FIRST: usize = 5;
 
 /// The content of a cell.

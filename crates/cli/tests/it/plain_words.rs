@@ -32,7 +32,11 @@ const STUMBLES: [(&str, &str); 19] = [
 ];
 
 /// Lines that use such a phrase rightly: a file, a part of the line, and the reason.
-const EXCEPTIONS: [(&str, &str, &str); 0] = [];
+const EXCEPTIONS: [(&str, &str, &str); 1] = [(
+    "reports/upstream/softpipe-3/report.md",
+    "lies on a common edge",
+    "geometry: a centre lies on an edge",
+)];
 
 /// Pages that a test or a command writes from data.
 const WRITTEN: [&str; 1] = ["ci/findings.md"];

@@ -87,7 +87,7 @@ impl<'a> Places<'a> {
 }
 
 impl Line<'_> {
-    /// Marks the whole runs: those that came to their end and have at least nine tenths of the records of the
+    /// Marks the whole runs: completed runs that have at least nine tenths of the records of the
     /// longest run nearby. If no run qualifies, all count as whole. The history does not record which cases a
     /// run should have drawn.
     fn mark_whole(&mut self, runs: &[&RunInfo]) {

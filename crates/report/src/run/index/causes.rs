@@ -15,7 +15,7 @@ use maud::{Markup, html};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The most causes that stand in front of a summary.
+/// The maximum number of causes that are shown before a summary.
 const FIRST: usize = 12;
 /// The most causes behind it.
 const LISTED: usize = 60;

@@ -39,7 +39,7 @@ pub(super) fn section(news: &News) -> Markup {
 
 fn kind(name: &str, entries: &[NewsEntry]) -> Markup {
     let mut shown: Vec<&NewsEntry> = entries.iter().collect();
-    // One of each case file and adapter stands before the second of any.
+    // The first of each case file and adapter comes before the second of any.
     lists::spread(&mut shown, |entry| {
         let file = entry
             .case
