@@ -5,16 +5,16 @@
 //! one message there and one back. The page knows nothing of scenes.
 //!
 //! The browser is started by the worker, or by a person who opens the page. A started one is kept by a process of its
-//! own ([`keep()`]), which ends it together with the worker however that ends.
+//! own ([`etalon_keeper`]), which ends it together with the worker however that ends.
 
 mod adapter;
 mod backend;
-mod keeper;
+mod browser;
 mod message;
 mod page;
 mod request_head;
 mod server;
 mod session;
 
-pub use backend::{BrowserBackend, Options, Source, WAITING, open, token};
-pub use keeper::{Browser, keep};
+pub use backend::{BrowserBackend, Options, Source, WAITING, open};
+pub use browser::Browser;

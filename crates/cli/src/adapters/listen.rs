@@ -18,7 +18,7 @@ pub(crate) struct Listen {
 impl Listen {
     /// A place with a new token. All workers of a run share it, so that a page finds the next one.
     pub(super) fn new(address: SocketAddr) -> Self {
-        let token = etalon_browser::token();
+        let token = etalon_keeper::token();
         Self { address, token }
     }
 

@@ -38,6 +38,7 @@ mod reduce;
 mod round_trips;
 mod runs;
 mod sample;
+mod servers;
 mod stories;
 mod survive;
 mod version;
