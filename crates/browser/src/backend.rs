@@ -1,7 +1,7 @@
 //! The backend that draws in a page.
 
 use crate::adapter;
-use crate::keeper::{Browser, Kept};
+use crate::browser::Browser;
 use crate::message::{Failed, FailedKind, Request, Times};
 use crate::server::Server;
 use crate::session::Session;
@@ -9,10 +9,10 @@ use etalon_backend::{
     AdapterInfo, Backend, BackendError, Fault, FrameTime, Prepared, Recording, Unavailable,
 };
 use etalon_frame::{Frame, Limits};
+use etalon_keeper::{Kept, token};
 use etalon_scene::Scene;
 use etalon_webgpu::{CallList, Device, lower, plant};
 use std::cell::{Cell, RefCell};
-use std::hash::{BuildHasher, Hasher, RandomState};
 use std::net::SocketAddr;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -82,9 +82,8 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
         Source::Started(browser, keeper) => {
             let url = format!("http://{}/{token}/", server.address);
             let keeper = std::mem::replace(keeper, Command::new(""));
-            let kept = Kept::start(keeper, browser, &url);
-            let kept =
-                kept.map_err(|error| failed(format!("the browser cannot be started: {error}")))?;
+            let kept = Kept::start(keeper, &browser.program(&url));
+            let kept = kept.map_err(|error| failed(format!("no browser is started: {error}")))?;
             (Some(kept), OPENING)
         }
         Source::Listening(..) => (None, WAITING),
@@ -170,12 +169,6 @@ fn listening(address: SocketAddr, token: &str) -> io::Result<Server> {
             other => return other,
         }
     }
-}
-
-/// Returns a token that cannot be guessed: 128 bits of the keys that the system gives for hash tables.
-pub fn token() -> String {
-    let word = || RandomState::new().build_hasher().finish();
-    format!("{:016x}{:016x}", word(), word())
 }
 
 fn step(counter: &Cell<u64>) -> u64 {

@@ -4,17 +4,17 @@
 //! calls ([`etalon_webgpu`]). The page executes them on its device and returns the bytes that are read.
 //! Drawing a scene takes one message in each direction. The page knows nothing about scenes.
 //!
-//! The worker starts the browser, or a person opens the page. A browser that the worker started is kept by a
-//! process of its own ([`keep()`]), which ends it when the worker ends, for whatever reason.
+//! The browser is started by the worker, or by a person who opens the page. A started one is kept by a process of its
+//! own ([`etalon_keeper`]), which ends it together with the worker however that ends.
 
 mod adapter;
 mod backend;
-mod keeper;
+mod browser;
 mod message;
 mod page;
 mod request_head;
 mod server;
 mod session;
 
-pub use backend::{BrowserBackend, Options, Source, WAITING, open, token};
-pub use keeper::{Browser, keep};
+pub use backend::{BrowserBackend, Options, Source, WAITING, open};
+pub use browser::Browser;

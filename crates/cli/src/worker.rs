@@ -6,6 +6,7 @@ use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_browser::Source;
 use etalon_cpu::CpuBackend;
+use etalon_keeper::Served;
 use etalon_runner::Setup;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
@@ -20,7 +21,7 @@ pub(crate) struct Arguments {
     /// List the devices of this backend as JSON
     #[arg(long)]
     pub(crate) enumerate: Option<String>,
-    /// Start the browser that standard input names, and keep it until the input ends
+    /// Keep the program that standard input names
     #[arg(long)]
     pub(crate) keep: bool,
 }
@@ -28,7 +29,7 @@ pub(crate) struct Arguments {
 /// Serves one adapter, or prints the devices of a backend.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.keep {
-        etalon_browser::keep(BufReader::new(io::stdin()))?;
+        etalon_keeper::keep(BufReader::new(io::stdin()))?;
         return Ok(0);
     }
     let text = match arguments.open.as_deref() {
@@ -50,8 +51,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let input = BufReader::new(io::stdin());
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
-    match etalon_runner::serve(|| open(&what, pipe), input, &mut output) {
-        // The parent has closed the pipe.
+    // It ends with this process.
+    let mut server = None;
+    let open = || {
+        server = started_server(&what)?;
+        let opened = open(&what, pipe);
+        server.iter_mut().for_each(Served::connected);
+        opened
+    };
+    match etalon_runner::serve(open, input, &mut output) {
+        // The parent wants no more.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
         served => Ok(served.map(|()| 0)?),
     }
@@ -157,20 +166,33 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
     }
 }
 
+/// Returns the command of a keeper.
+fn keeper() -> Result<Command, Unavailable> {
+    let program = std::env::current_exe().map_err(|error| {
+        Unavailable::new(
+            format!("cannot find the program file of etalon: {error}"),
+            "start it by its path",
+        )
+    })?;
+    let mut keeper = Command::new(program);
+    keeper.args(["worker", "--keep"]);
+    Ok(keeper)
+}
+
+/// Starts the server of an adapter's driver, if it has one.
+fn started_server(what: &Open) -> Result<Option<Served>, Unavailable> {
+    let Some(server) = &what.server else {
+        return Ok(None);
+    };
+    let served = server.start(keeper()?);
+    let served = served.map_err(|error| Unavailable::new(error.to_string(), error.remedy()))?;
+    Ok(Some(served))
+}
+
 /// Starts the browser of an adapter, or waits for one.
 fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
     let source = match (&what.browser, &what.listen) {
-        (Some(browser), _) => {
-            let program = std::env::current_exe().map_err(|error| {
-                Unavailable::new(
-                    format!("cannot find the program file of etalon: {error}"),
-                    "start it by its path",
-                )
-            })?;
-            let mut keeper = Command::new(program);
-            keeper.args(["worker", "--keep"]);
-            Source::Started(browser.clone(), keeper)
-        }
+        (Some(browser), _) => Source::Started(browser.clone(), keeper()?),
         (None, Some(listen)) => Source::Listening(listen.address, listen.token.clone()),
         (None, None) => {
             return Err(Unavailable::new(

@@ -25,8 +25,14 @@ pub const ZINK: &[(&str, &str)] = &[
     ("MESA_LOADER_DRIVER_OVERRIDE", "zink"),
     ("GALLIUM_DRIVER", "zink"),
 ];
-/// The remedy if these drivers are missing.
-pub const GALLIUM_INSTALL: &str = "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers";
+/// The environment of Mesa's virgl, whose server is one of virglrenderer.
+pub const VIRGL: &[(&str, &str)] = &[
+    ("LIBGL_ALWAYS_SOFTWARE", "1"),
+    ("GALLIUM_DRIVER", "virpipe"),
+];
+/// The remedy where these are missing.
+pub const GALLIUM_INSTALL: &str =
+    "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers virgl-server";
 
 /// How tests open a driver, and what they know about it.
 pub struct Driver<'a> {

@@ -87,6 +87,13 @@ pub const KNOWN: &[Known] = &[
     driver("gl:es:llvmpipe", Api::OpenGlEs, ES, &[]),
     driver("gl:es:zink", Api::OpenGlEs, ES, &[ZINK_WRONG]),
     driver(
+        "gl:virgl",
+        Api::OpenGl,
+        GL_VIRGL,
+        &[VIRGL_WRONG, VIRGL_SOURCES],
+    ),
+    driver("gl:es:virgl", Api::OpenGlEs, ES_VIRGL, &[VIRGL_SOURCES]),
+    driver(
         "gl:es:softpipe",
         Api::OpenGlEs,
         ES_SOFTPIPE,
@@ -158,6 +165,14 @@ const GL_SOFTPIPE: Lacks = Lacks {
     samples: &[EVERY_FORMAT],
     ..GL
 };
+/// virgl offers OpenGL 4.3 over a llvmpipe that has 4.5.
+const GL_VIRGL: Lacks = Lacks {
+    features: &[
+        "advanced-blend-coherent cull-distances depth-bounds fragment-invocations inherited-queries mirrored-viewport upper-left-domain",
+        RESOLVES,
+    ],
+    ..GL
+};
 
 const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
     forced-early-tests-with-depth fragment-invocations fragment-shader-absent fragment-shader-absent-with-color inherited-queries linear-interpolation logic-operations \
@@ -168,6 +183,10 @@ const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
     formats: &["bgra8unorm"],
     ..NOTHING
+};
+const ES_VIRGL: Lacks = Lacks {
+    features: &[ES_FEATURES, RESOLVES, "advanced-blend-coherent"],
+    ..ES
 };
 const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
@@ -263,7 +282,20 @@ const LAVAPIPE_WRONG: &[Defect] = &[
 const ZINK_WRONG: &[Defect] = &[
     ("passes::masked_clears_keep_the_rest", "stencil that a masked clear sets to 0 instead of its value"),
 ];
-/// Softpipe's defects in OpenGL and OpenGL ES.
+/// Defects of virglrenderer through OpenGL. OpenGL ES reads depth by a shader.
+#[rustfmt::skip]
+const VIRGL_WRONG: &[Defect] = &[
+    ("depth::depths_start_from_their_clear", SIXTEEN_BITS),
+    ("depth::depths_are_compared_with_the_stored_one", SIXTEEN_BITS),
+    ("targets::logic_operations_follow_their_truth_tables", "the first operation, as long as operations stay enabled"),
+];
+const SIXTEEN_BITS: &str = "depths of 24 bits that are read back without their low eight";
+/// Functions of targets without blending stay as they were, and OpenGL refuses a draw to two targets.
+#[rustfmt::skip]
+const VIRGL_SOURCES: &[Defect] = &[
+    ("targets::later_draws_have_one_source", "a connection that the server closes after the draw fails"),
+];
+/// Softpipe's defects through OpenGL and OpenGL ES.
 const SOFTPIPE_DEFECTS: &[&[Defect]] = &[SOFTPIPE_WRONG, SOFTPIPE_CLAMPS, SOFTPIPE_CLEARS];
 #[rustfmt::skip]
 /// Checks that softpipe fails in OpenGL and OpenGL ES.

@@ -23,7 +23,7 @@ mod subject;
 
 pub use checks::{CHECKS, Check};
 pub use child::in_child;
-pub use driver::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK};
+pub use driver::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, VIRGL, ZINK};
 pub use driver::{in_driver, run, run_all, variables};
 pub use known::{
     COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, Known, SOFTPIPE_CLEARS, SOFTPIPE_WRONG, known,

@@ -1,9 +1,10 @@
 //! The browsers. A missing one is a failure: nothing would have been tested.
 
 use etalon_backend::{Backend, Fault};
-use etalon_browser::{Browser, BrowserBackend, Options, Source, keep, open};
+use etalon_browser::{Browser, BrowserBackend, Options, Source, open};
 use etalon_conformance::{Driver, Value, known};
 use etalon_frame::{Api, TextureFormat};
+use etalon_keeper::keep;
 use std::io::{BufReader, stdin};
 use std::process::Command;
 

@@ -1,9 +1,10 @@
 //! What a page may send, and what its server answers.
 
 use etalon_backend::{Backend, BackendError};
-use etalon_browser::{BrowserBackend, Options, Source, open, token};
+use etalon_browser::{BrowserBackend, Options, Source, open};
 use etalon_conformance::{Value, json, scene};
 use etalon_frame::ErrorKind;
+use etalon_keeper::token;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::thread::{self, JoinHandle};

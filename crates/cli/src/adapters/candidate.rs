@@ -28,7 +28,7 @@ pub(super) enum Candidate {
     /// An entry of this file; `None` is the built-in one.
     Described(Box<Description>, Option<PathBuf>),
     /// A device that a backend enumerated.
-    Enumerated(Open),
+    Enumerated(Box<Open>),
 }
 
 /// A usable adapter.
@@ -57,6 +57,7 @@ fn open(name: &str, backend: BackendName) -> Open {
         device: None,
         egl: None,
         browser: None,
+        server: None,
         listen: None,
         validate: false,
         record: false,
@@ -70,10 +71,10 @@ impl Candidate {
     }
 
     pub(super) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
-        Self::Enumerated(Open {
+        Self::Enumerated(Box::new(Open {
             device: Some(device.device),
             ..open(&device.name, backend)
-        })
+        }))
     }
 
     /// Returns the adapter with a planted fault, under the given name; `None` if its backend cannot have this
@@ -89,11 +90,13 @@ impl Candidate {
                 }
                 Some(Self::Described(description, file.clone()))
             }
-            Self::Enumerated(open) if fits(fault, open.backend) => Some(Self::Enumerated(Open {
-                name: name.to_owned(),
-                fault: Some(fault),
-                ..open.clone()
-            })),
+            Self::Enumerated(open) if fits(fault, open.backend) => {
+                Some(Self::Enumerated(Box::new(Open {
+                    name: name.to_owned(),
+                    fault: Some(fault),
+                    ..(**open).clone()
+                })))
+            }
             _ => None,
         }
     }
@@ -137,8 +140,9 @@ impl Candidate {
         };
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
-                // The file's remedy names the driver's packages, but not those of validation layers.
-                let starts_itself = query.validate || self.remedy().is_empty();
+                // The file names packages, but not those of validation layers. A server is installed by now.
+                let starts_itself =
+                    query.validate || self.remedy().is_empty() || resolved.server.is_some();
                 let remedy = if starts_itself {
                     &u.remedy
                 } else {
@@ -214,11 +218,12 @@ impl Candidate {
                 device: description.device,
                 egl: resolved.egl.clone(),
                 browser: resolved.browser.clone(),
+                server: resolved.server.clone(),
                 listen: resolved.listen.clone(),
                 fault: description.fault,
                 ..open(&description.name, description.backend)
             },
-            Self::Enumerated(open) => open.clone(),
+            Self::Enumerated(open) => (**open).clone(),
         };
         open.validate = query.validate;
         open.record = query.record;

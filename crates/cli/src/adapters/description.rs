@@ -8,6 +8,7 @@ use etalon_backend::Fault;
 use etalon_browser::Browser;
 use etalon_case::parse_json;
 use etalon_frame::without_mark;
+use etalon_keeper::Server;
 use etalon_record::Release;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,8 +62,10 @@ pub(super) struct Description {
     /// The address at which a browser, possibly on another machine, opens the worker's page, for the backend
     /// `webgpu`.
     pub(super) listen: Option<SocketAddr>,
-    /// The index of the device in the backend's order. By default the first device; in OpenGL the device that
-    /// the environment selects.
+    /// The server that the driver sends its commands to.
+    server: Option<Server>,
+    /// The index of the device in the order of the backend; by default the first one, and in OpenGL the one that the
+    /// environment selects.
     pub(super) device: Option<usize>,
     /// A word that the name of the device or driver must contain: if the driver that the environment selects
     /// is missing, a different driver answers.
@@ -97,7 +100,8 @@ pub(super) struct Resolved {
     pub(super) egl: Option<PathBuf>,
     pub(super) library_path: Vec<PathBuf>,
     pub(super) browser: Option<Browser>,
-    /// The address of the page, with a token of this run.
+    pub(super) server: Option<Server>,
+    /// The place of the page, with a token of this run.
     pub(super) listen: Option<Listen>,
 }
 
@@ -247,7 +251,8 @@ impl Description {
                  `.` and `@`, at most {MAX_NAME} in all"
             ));
         }
-        for (name, value) in &self.environment {
+        let served = self.server.iter().flat_map(|server| &server.environment);
+        for (name, value) in self.environment.iter().chain(served) {
             let value = value.as_deref().unwrap_or_default();
             if name.is_empty() || name.contains(['=', '\0']) || value.contains('\0') {
                 return Err(format!(
@@ -265,6 +270,9 @@ impl Description {
         }
         self.check_launcher()?;
         self.check_browser()?;
+        if let Some(fault) = self.server.as_ref().and_then(Server::fault) {
+            return Err(fault.to_owned());
+        }
         self.check_release()?;
         let is_gl = matches!(self.backend, BackendName::Gl | BackendName::GlEs);
         if self.egl.is_some() && !is_gl {
@@ -418,6 +426,21 @@ impl Description {
                 }
             }
             resolved.browser = Some(browser);
+        }
+        if let Some(mut server) = self.server.clone() {
+            let values = server.environment.values_mut().flatten();
+            for text in server.command.iter_mut().chain(values) {
+                *text = expand(text, variable)?;
+            }
+            if let Some(program) = server.command.first_mut() {
+                if program.contains('/') {
+                    *program = folder.join(&*program).to_string_lossy().into_owned();
+                }
+                if here && !is_program(program, variable) {
+                    return Err(missing(format!("the server {program} is not installed")));
+                }
+            }
+            resolved.server = Some(server);
         }
         let manifests = self.manifests.iter().map(|text| path(text));
         let manifests = manifests.collect::<Result<Vec<_>, _>>()?;
@@ -597,6 +620,18 @@ mod tests {
             (
                 r#"[{"name":"a","backend":"vulkan","launcher":["env"],"manifests":["x.json"]}]"#,
                 "the path there",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","server":{"command":[],"socket":"/s"}}]"#,
+                "no command",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","server":{"command":["x"],"socket":"/s"}}]"#,
+                "needs a word with `{socket}`",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","server":{"command":["x","{socket}"],"socket":"s"}}]"#,
+                "a path from the root",
             ),
             (
                 r#"[{"name":"a","backend":"gl","line":"mesa"}]"#,

@@ -19,7 +19,7 @@ impl Listen {
     /// Makes an address with a new token. All workers of a run share it, so that a page finds the next
     /// worker.
     pub(super) fn new(address: SocketAddr) -> Self {
-        let token = etalon_browser::token();
+        let token = etalon_keeper::token();
         Self { address, token }
     }
 

@@ -5,6 +5,7 @@ use super::backend_name::BackendName;
 use super::listen::Listen;
 use etalon_backend::Fault;
 use etalon_browser::Browser;
+use etalon_keeper::Server;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -25,7 +26,10 @@ pub(crate) struct Open {
     /// The browser that the worker starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) browser: Option<Browser>,
-    /// The address at which a browser opens the worker's page.
+    /// The server of the driver, which the worker starts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) server: Option<Server>,
+    /// The place at which a browser opens the page of the worker.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) listen: Option<Listen>,
     /// True if validation layers and debug output are enabled.

@@ -14,13 +14,15 @@ use tempfile::TempDir;
 /// A case that every adapter supports.
 const CASE: &str = "depth/clear/clear=1/format=depth32float";
 /// Software drivers whose packages `ci/test` installs.
-const DUE: [&str; 13] = [
+const DUE: [&str; 15] = [
     "cpu",
     "gl:es:llvmpipe",
     "gl:es:softpipe",
+    "gl:es:virgl",
     "gl:es:zink",
     "gl:llvmpipe",
     "gl:softpipe",
+    "gl:virgl",
     "gl:zink",
     "vulkan:lavapipe",
     "vulkan:swiftshader",

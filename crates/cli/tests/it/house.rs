@@ -7,9 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder of each crate, the workspace crates that it can use, and its graphics APIs. Development
-/// dependencies are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 28] = [
+/// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
+/// are not restricted.
+const TABLE: [(&str, &[&str], &[&str]); 29] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -32,7 +32,12 @@ const TABLE: [(&str, &[&str], &[&str]); 28] = [
         &["glow", "khronos-egl", "naga"],
     ),
     ("webgpu", &["backend", "frame", "scene"], &[]),
-    ("browser", &["backend", "frame", "scene", "webgpu"], &[]),
+    ("keeper", &[], &[]),
+    (
+        "browser",
+        &["backend", "frame", "keeper", "scene", "webgpu"],
+        &[],
+    ),
     (
         "wgpu",
         &["backend", "frame", "scene", "webgpu"],
@@ -91,6 +96,7 @@ const TABLE: [(&str, &[&str], &[&str]); 28] = [
             "gl",
             "history",
             "judge",
+            "keeper",
             "mutants",
             "pipeline",
             "record",

@@ -39,6 +39,7 @@ mod reduce;
 mod round_trips;
 mod runs;
 mod sample;
+mod servers;
 mod stories;
 mod survive;
 mod version;

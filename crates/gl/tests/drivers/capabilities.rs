@@ -1,6 +1,6 @@
 //! Formats and read paths of OpenGL drivers.
 
-use crate::drivers::{self, context, is_softpipe};
+use crate::drivers::{self, context, is};
 use etalon_backend::Backend;
 use etalon_conformance::{LLVMPIPE, in_child, json, run_all, variables};
 use etalon_frame::{Api, ReadPath, TextureFormat};
@@ -15,7 +15,13 @@ pub(crate) fn offers(backend: &dyn Backend) {
         assert_eq!(support.read, due, "{format}");
     }
     let rgba8 = &limits.formats[&TextureFormat::Rgba8Unorm];
-    let due: &[u32] = if is_softpipe(backend) { &[1] } else { &[1, 4] };
+    let due: &[u32] = if is(backend, "softpipe") {
+        &[1]
+    } else if is(backend, "virgl") {
+        &[1, 2, 4]
+    } else {
+        &[1, 4]
+    };
     assert_eq!(rgba8.samples, due);
 }
 

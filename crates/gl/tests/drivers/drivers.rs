@@ -1,9 +1,45 @@
 //! The contexts under test. A missing driver fails the test: without it nothing is tested.
 
 use etalon_backend::Backend;
-use etalon_conformance::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, known, variables};
+use etalon_conformance::{
+    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, VIRGL, Value, ZINK, known, variables,
+};
 use etalon_frame::Api;
 use etalon_gl::{GlBackend, Options, Platform, Profile, open};
+use etalon_keeper::{Served, Server, keep};
+use std::io::{BufReader, stdin};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// The adapters as `etalon` starts them.
+const ADAPTERS: &str = include_str!("../../../cli/adapters.json");
+
+/// The server of virgl, which ends with this process.
+static SERVED: OnceLock<Served> = OnceLock::new();
+
+/// The process that keeps a server; started by the tests alone.
+#[test]
+#[ignore = "a process of the other tests"]
+fn keeper() {
+    keep(BufReader::new(stdin())).expect("the server is kept");
+}
+
+/// Opens a context of virgl, whose server is started for it.
+fn virgl_context(profile: Profile) -> Box<dyn Backend> {
+    let adapters: Vec<Value> = serde_json::from_str(ADAPTERS).expect("the built-in file is JSON");
+    let virgl = adapters.iter().find(|entry| entry["name"] == "gl:virgl");
+    let server = virgl.expect("virgl is built in")["server"].clone();
+    let server: Server = serde_json::from_value(server).expect("a server");
+    let program = std::env::current_exe().expect("this program has a path");
+    let mut keeper = Command::new(program);
+    keeper.args(["--exact", "drivers::keeper", "--ignored", "--nocapture"]);
+    let served = server.start(keeper);
+    let mut served = served.unwrap_or_else(|e| panic!("{e} ({GALLIUM_INSTALL})"));
+    let backend = context(profile, "virgl");
+    served.connected();
+    assert!(SERVED.set(served).is_ok(), "a process opens virgl once");
+    Box::new(backend)
+}
 
 /// Opens a context, and asserts that it has the requested driver.
 pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
@@ -32,9 +68,10 @@ pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
     backend
 }
 
-pub(crate) fn is_softpipe(backend: &dyn Backend) -> bool {
+/// True if the device is this driver's.
+pub(crate) fn is(backend: &dyn Backend, driver: &str) -> bool {
     let device = backend.adapter().device.to_lowercase();
-    device.starts_with("softpipe")
+    device.starts_with(driver)
 }
 
 fn driver(
@@ -78,4 +115,12 @@ pub(crate) fn zink() -> Driver<'static> {
 pub(crate) fn zink_es() -> Driver<'static> {
     let open = |_| Box::new(context(Profile::Es, "zink")) as Box<dyn Backend>;
     driver("gl:es:zink", ZINK, open)
+}
+
+pub(crate) fn virgl() -> Driver<'static> {
+    driver("gl:virgl", VIRGL, |_| virgl_context(Profile::Core))
+}
+
+pub(crate) fn virgl_es() -> Driver<'static> {
+    driver("gl:es:virgl", VIRGL, |_| virgl_context(Profile::Es))
 }

@@ -1,13 +1,13 @@
 //! A sample of the built-in cases on each context; `ETALON_TESTS=all` draws all of them.
 
-use crate::drivers::is_softpipe;
+use crate::drivers::is;
 use etalon_backend::Backend;
 use etalon_case::Profile;
 use etalon_conformance::{Share, Subject, draw_library};
 
 /// Full axes if states cost nothing to compile, otherwise the quick profile.
 pub(crate) fn sample(backend: &dyn Backend) {
-    let (profile, per_file) = if is_softpipe(backend) {
+    let (profile, per_file) = if is(backend, "softpipe") {
         (Profile::Full, 2)
     } else {
         (Profile::Quick, 3)

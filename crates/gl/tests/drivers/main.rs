@@ -6,6 +6,6 @@ mod drivers;
 mod library;
 
 etalon_conformance::driver_tests! {
-    llvmpipe llvmpipe_es softpipe softpipe_es zink zink_es;
+    llvmpipe llvmpipe_es softpipe softpipe_es virgl virgl_es zink zink_es;
     [capabilities::offers library::sample]
 }

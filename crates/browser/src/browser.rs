@@ -1,0 +1,58 @@
+//! A browser, and the program that a keeper starts for it.
+
+use etalon_keeper::{Program, new_folder};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The word of a command in place of which the page's address stands.
+const URL: &str = "{url}";
+/// The part of a word in place of which the profile's folder stands.
+const PROFILE: &str = "{profile}";
+
+/// A browser as an adapter's description names it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Browser {
+    /// The words of its command. `{url}` and `{profile}` are replaced.
+    pub command: Vec<String>,
+    /// Files of its profile, which is a new folder: names and texts.
+    pub profile: BTreeMap<String, String>,
+}
+
+impl Browser {
+    /// Returns what is wrong with it, if anything is.
+    pub fn fault(&self) -> Option<&'static str> {
+        let has = |word: &str| self.command.iter().any(|w| w.contains(word));
+        if self.command.first().is_none_or(String::is_empty) {
+            Some("`browser` names no command")
+        } else if !has(URL) {
+            Some("`browser` needs a word `{url}`, the address of the page")
+        } else if !has(PROFILE) {
+            Some("`browser` needs a word with `{profile}`, a new folder for the browser's profile")
+        } else if self.profile.keys().any(|name| !is_plain(name)) {
+            Some("a file of `profile` needs a plain name")
+        } else {
+            None
+        }
+    }
+
+    /// Returns the program that opens the page at this address.
+    pub(crate) fn program(&self, url: &str) -> Program {
+        let folder = new_folder("etalon-browser-");
+        let profile = folder.display().to_string();
+        let words = self.command.iter();
+        Program {
+            name: "the browser".to_owned(),
+            command: words
+                .map(|word| word.replace(URL, url).replace(PROFILE, &profile))
+                .collect(),
+            environment: BTreeMap::new(),
+            folder,
+            files: self.profile.clone(),
+        }
+    }
+}
+
+fn is_plain(name: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
+    !name.starts_with('.') && !name.is_empty() && name.chars().all(plain)
+}

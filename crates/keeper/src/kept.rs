@@ -1,0 +1,193 @@
+//! A program, the process that keeps it, and the worker's handle of that process.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::io::{self, BufRead, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The time that a program has to end on request.
+const GRACE: Duration = Duration::from_secs(2);
+/// The pause between checks of a program.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// A program with a folder of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Program {
+    /// The name in messages, such as "the browser".
+    pub name: String,
+    /// The words of its command.
+    pub command: Vec<String>,
+    /// Environment variables on top of the worker's; `None` removes one.
+    pub environment: BTreeMap<String, Option<String>>,
+    /// A new folder, which is removed with the program; see [`new_folder`].
+    pub folder: PathBuf,
+    /// Files of the folder: names and contents.
+    pub files: BTreeMap<String, String>,
+}
+
+/// The worker's handle of a keeper. Dropping it makes the keeper end the program.
+pub struct Kept {
+    keeper: Child,
+    /// The pipe to the keeper. Its end shows that the worker ended.
+    _input: ChildStdin,
+}
+
+impl Kept {
+    /// Starts a keeper by its command, and a program.
+    ///
+    /// # Errors
+    /// If the keeper cannot be started.
+    pub fn start(mut keeper: Command, program: &Program) -> io::Result<Self> {
+        // A separate process group, so that the worker's signals do not reach it.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut keeper, 0);
+        let mut keeper = keeper.stdin(Stdio::piped()).stdout(Stdio::null()).spawn()?;
+        let missing = || io::Error::other("the keeper has no input");
+        let mut input = keeper.stdin.take().ok_or_else(missing)?;
+        serde_json::to_writer(&mut input, program)?;
+        input.write_all(b"\n")?;
+        input.flush()?;
+        Ok(Self {
+            keeper,
+            _input: input,
+        })
+    }
+
+    /// Returns true while the program runs.
+    pub fn lives(&mut self) -> bool {
+        matches!(self.keeper.try_wait(), Ok(None))
+    }
+
+    /// Waits a moment for the keeper's last messages about a program that seems to have ended.
+    pub fn wait(&mut self) {
+        let begun = Instant::now();
+        while self.lives() && begun.elapsed() < GRACE {
+            thread::sleep(PAUSE);
+        }
+    }
+}
+
+/// Returns an unused path for a temporary folder.
+pub fn new_folder(prefix: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("{prefix}{}", token()))
+}
+
+/// Returns a token that cannot be guessed: 128 bits of the keys that the system gives for hash tables.
+pub fn token() -> String {
+    let word = || RandomState::new().build_hasher().finish();
+    format!("{:016x}{:016x}", word(), word())
+}
+
+/// Keeps a program until `input` or the program ends. Messages go to standard error.
+///
+/// # Errors
+/// If the first line of `input` is not a [`Program`], or it cannot be started.
+pub fn keep(mut input: impl BufRead + Send + 'static) -> io::Result<()> {
+    let mut line = String::new();
+    input.read_line(&mut line)?;
+    let program: Program = serde_json::from_str(&line)?;
+    make(&program.folder)?;
+    let kept = keep_started(&program, input);
+    remove(&program.folder);
+    kept
+}
+
+fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> io::Result<()> {
+    for (name, text) in &program.files {
+        fs::write(program.folder.join(name), text)?;
+    }
+    let mut child = start(program)?;
+    let (sender, ended) = channel::<()>();
+    thread::Builder::new().spawn(move || {
+        // Nothing is sent; only the end matters.
+        let _ = io::copy(&mut input, &mut io::sink());
+        drop(sender);
+    })?;
+    loop {
+        if let Some(status) = child.try_wait()? {
+            eprintln!("{} has ended: {status}", program.name);
+            break;
+        }
+        match ended.recv_timeout(PAUSE) {
+            Err(RecvTimeoutError::Timeout) => {}
+            _ => break,
+        }
+    }
+    end(&mut child);
+    Ok(())
+}
+
+/// Creates a folder that only this user can open.
+fn make(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)
+}
+
+fn start(program: &Program) -> io::Result<Child> {
+    let (name, words) = program.command.split_first().unzip();
+    let name = name.map_or("", String::as_str);
+    let mut command = Command::new(name);
+    command
+        .args(words.unwrap_or_default())
+        .stdin(Stdio::null())
+        .stdout(Stdio::null());
+    for (variable, value) in &program.environment {
+        match value {
+            Some(value) => command.env(variable, value),
+            None => command.env_remove(variable),
+        };
+    }
+    // A separate process group, so that all processes of the program end together.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    command
+        .spawn()
+        .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))
+}
+
+/// Ends a program and all its processes.
+fn end(child: &mut Child) {
+    signal(child, false);
+    let begun = Instant::now();
+    while waited(child).is_none() && begun.elapsed() < GRACE {
+        thread::sleep(PAUSE);
+    }
+    signal(child, true);
+    // It has ended, or nothing ends it.
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+fn waited(child: &mut Child) -> Option<ExitStatus> {
+    child.try_wait().ok().flatten()
+}
+
+/// Asks the processes of a program to end, or kills them.
+#[cfg(unix)]
+fn signal(child: &Child, at_once: bool) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let signal = if at_once { Signal::KILL } else { Signal::TERM };
+    if let Some(group) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+        // They might have ended already.
+        let _ = kill_process_group(group, signal);
+    }
+}
+
+#[cfg(not(unix))]
+fn signal(_: &Child, _: bool) {}
+
+/// Removes a folder. Ending processes might still write to it, so it tries again for a while.
+fn remove(folder: &Path) {
+    let begun = Instant::now();
+    while fs::remove_dir_all(folder).is_err() && folder.exists() && begun.elapsed() < GRACE {
+        thread::sleep(PAUSE);
+    }
+}
