@@ -4,22 +4,22 @@ use etalon_keeper::{Program, new_folder};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The word of a command in place of which the page's address stands.
+/// The word of a command that is replaced by the page's address.
 const URL: &str = "{url}";
-/// The part of a word in place of which the profile's folder stands.
+/// The part of a word that is replaced by the profile's folder.
 const PROFILE: &str = "{profile}";
 
-/// A browser as an adapter's description names it.
+/// A browser, as an adapter's description defines it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Browser {
     /// The words of its command. `{url}` and `{profile}` are replaced.
     pub command: Vec<String>,
-    /// Files of its profile, which is a new folder: names and texts.
+    /// The files of its profile, which is a new folder: names and contents.
     pub profile: BTreeMap<String, String>,
 }
 
 impl Browser {
-    /// Returns what is wrong with it, if anything is.
+    /// Returns what is wrong with the description, if anything.
     pub fn fault(&self) -> Option<&'static str> {
         let has = |word: &str| self.command.iter().any(|w| w.contains(word));
         if self.command.first().is_none_or(String::is_empty) {

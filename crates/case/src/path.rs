@@ -352,7 +352,7 @@ mod tests {
                 json!({ "start": "load-operation" }),
                 "start=load-operation",
             ),
-            (&grey, json!({ "start": "draw" }), "kept exactly"),
+            (&grey, json!({ "start": "draw" }), "stored exactly"),
             (&several, json!({ "target": "mip-level" }), "single sample"),
             (&several, json!({ "end": "blit" }), "single sample"),
             (&float, json!({ "views": "srgb" }), "sRGB conversion"),

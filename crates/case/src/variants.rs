@@ -137,7 +137,7 @@ mod tests {
     fn submissions_that_make_no_sense_are_refused() {
         for (more, words) in [
             (r#""submissions":[1,1]"#, "1 occurs twice"),
-            (r#""submissions":[5000]"#, "1024 times"),
+            (r#""submissions":[5000]"#, "at most 1024"),
             (r#""submissions":[0]"#, "nonzero"),
             (
                 r#""submissions":[1],"relation":{"same":"contents"}"#,

@@ -64,8 +64,8 @@ pub(super) struct Description {
     pub(super) listen: Option<SocketAddr>,
     /// The server that the driver sends its commands to.
     server: Option<Server>,
-    /// The index of the device in the order of the backend; by default the first one, and in OpenGL the one that the
-    /// environment selects.
+    /// The index of the device in the backend's order. By default the first device; in OpenGL the device that
+    /// the environment selects.
     pub(super) device: Option<usize>,
     /// A word that the name of the device or driver must contain: if the driver that the environment selects
     /// is missing, a different driver answers.
