@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Tell what each unavailable adapter needs
+    /// Show what each unavailable adapter needs
     #[arg(long)]
     pub(crate) remedies: bool,
     /// Output format; JSON is an array with one object per adapter that can be used
@@ -32,7 +32,7 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists the adapters that can be used, and the others with reason and, where wanted, remedy.
+/// Lists the usable adapters, and the others with their reason and, on request, their remedy.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     ];
     let hidden = adapters.absent.len() + adapters.not_enabled.len() > 0 && !arguments.remedies;
     let hint =
-        hidden.then(|| "etalon adapters --remedies tells what each of them needs\n".to_owned());
+        hidden.then(|| "etalon adapters --remedies shows what each of them needs\n".to_owned());
     let parts: Vec<String> = lists
         .into_iter()
         .chain(hint)
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// The adapters that can be used, by API, in columns.
+/// The usable adapters in columns, by the API whose rules judge them.
 fn usable(adapters: &[&AdapterRecord]) -> String {
     let widest = |text: fn(&AdapterRecord) -> String| {
         let widths = adapters.iter().map(|adapter| text(adapter).chars().count());
@@ -82,7 +82,7 @@ fn usable(adapters: &[&AdapterRecord]) -> String {
         let api = adapter.limits.api;
         let group = groups
             .entry(api)
-            .or_insert_with(|| format!("{}\n", api_name(api)));
+            .or_insert_with(|| format!("By the rules of {}\n", api_name(api)));
         *group += &format!(
             "  {:name$}  {:device$}  {:driver$}  {}\n",
             adapter.name,
@@ -94,7 +94,7 @@ fn usable(adapters: &[&AdapterRecord]) -> String {
     groups.into_values().collect::<Vec<_>>().join("\n")
 }
 
-/// Adapters that cannot be used, with reasons; remedies only where they are wanted.
+/// Adapters that cannot be used, with reasons and, on request, remedies.
 fn others(title: &str, adapters: &[AbsentAdapter], remedies: bool) -> String {
     let mut text = String::new();
     for adapter in adapters {

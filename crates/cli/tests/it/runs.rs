@@ -516,9 +516,13 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     bare(&["adapters"])
         .assert()
         .code(0)
-        .stdout(contains("Unavailable:"))
+        .stdout(contains("\nUnavailable\n"))
         .stdout(contains("vulkan:lavapipe: libvulkan.so.1"))
         .stdout(contains("gl:softpipe: libEGL.so.1"))
+        .stdout(contains("apt-get").not());
+    bare(&["adapters", "--remedies"])
+        .assert()
+        .code(0)
         .stdout(contains("apt-get install mesa-vulkan-drivers"));
 
     let out = folder();
