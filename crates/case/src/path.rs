@@ -354,7 +354,7 @@ mod tests {
             ),
             (&grey, json!({ "start": "draw" }), "stored exactly"),
             (&several, json!({ "target": "mip-level" }), "single sample"),
-            (&several, json!({ "end": "blit" }), "single sample"),
+            (&several, json!({ "end": "blit" }), "single-sample"),
             (&float, json!({ "views": "srgb" }), "sRGB conversion"),
             (&float, json!({ "views": "uint", "end": "blit" }), "blitted"),
             (
