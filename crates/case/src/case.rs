@@ -34,7 +34,7 @@ pub struct Case {
     pub method: Option<Method>,
 }
 
-/// One literal colour that must come back.
+/// A colour that a texel of the frame must have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expect {
     /// Index into the scene's attachments.

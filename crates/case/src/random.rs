@@ -341,7 +341,8 @@ impl Maker {
         }
     }
 
-    /// Returns a scissor rectangle; none with several samples, where a driver's bug would hide all others.
+    /// Returns a scissor rectangle. Multisampled scenes get none, because a known driver bug would hide all
+    /// others.
     fn scissor(&mut self) -> Value {
         match self.samples {
             1 => json!(self.rect()),

@@ -92,7 +92,7 @@ fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> Vertex {
     }
 }
 
-/// What the primitives of a draw share.
+/// Data that the primitives of a draw share.
 struct Raster<'a, S> {
     draw: &'a Draw,
     steps: &'a S,

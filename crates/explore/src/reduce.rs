@@ -31,7 +31,7 @@ pub struct Budget<'a> {
 }
 
 impl<'a> Budget<'a> {
-    /// Limits the number of drawings, but not the time.
+    /// Limits how often scenes are drawn, but not the time.
     pub fn draws(draws: usize) -> Self {
         Self {
             draws,

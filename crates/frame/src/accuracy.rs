@@ -299,7 +299,7 @@ mod tests {
             ]
         );
         assert!(!result[0].is_alike(&result[1]));
-        // As shares of the encodings' ranges, the distances are comparable.
+        // Relative to the encodings' ranges, the distances are comparable.
         assert_eq!(
             result[0].max / ChannelEncoding::Unorm(8).range(),
             2.0 / 255.0

@@ -282,9 +282,9 @@ pub enum Step {
         /// The cull mode.
         mode: String,
     },
-    /// Sample coverage by a share.
+    /// Sample coverage (a fraction of the samples).
     SampleCoverage {
-        /// The share of samples that are covered.
+        /// The fraction of samples that are covered.
         share: f32,
         /// True if the covered samples are excluded instead.
         inverted: bool,

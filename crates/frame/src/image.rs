@@ -72,7 +72,7 @@ pub enum FrameError {
         /// The number of requested images.
         expected: usize,
     },
-    /// The frame has another number of counts than the legal set has counters.
+    /// The number of the frame's counts differs from the number of the legal set's counters.
     #[error("the frame has {actual} counts, {expected} were requested")]
     CounterCount {
         /// The number of counts that came back.
@@ -80,7 +80,7 @@ pub enum FrameError {
         /// The number of requested counts.
         expected: usize,
     },
-    /// An image differs from the one requested in its place.
+    /// An image of the frame is not the requested one.
     #[error("image {index} of the frame is {actual}, {expected} was requested")]
     Image {
         /// Position in the frame.

@@ -167,7 +167,7 @@ pub struct Values {
     pub more_outcomes: usize,
     /// The operations that decide, in order.
     pub reasons: Vec<Reason>,
-    /// The number of further draws that end before the sample.
+    /// The number of further draws that do not reach the sample.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub more_draws: usize,
     /// The values that came back, if there is a frame.

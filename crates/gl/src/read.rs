@@ -459,7 +459,7 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
     }
 }
 
-/// Records where the depths are that were just copied with stencil.
+/// Records the position of depth within the depth-stencil texels that were just copied.
 fn note_depth(plan: ReadPlan) {
     let (texel, place) = match plan {
         ReadPlan::DepthFloatStencil8 => (8, [0, 32]),

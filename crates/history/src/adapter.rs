@@ -19,7 +19,7 @@ pub struct Adapter {
     pub driver_id: String,
     /// The API's version; empty if unknown.
     pub api_version: String,
-    /// True if the device is known to be the processor.
+    /// True if the device is known to be a software renderer.
     pub software: bool,
     /// The line of the driver, or empty.
     pub line: String,

@@ -41,7 +41,7 @@ pub enum Wire {
     Pictures {
         /// The method.
         method: DissolveMethod,
-        /// The share of the second picture, 0 to 1.
+        /// The weight of the second picture, 0 to 1.
         t: f64,
     },
 }

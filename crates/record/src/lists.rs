@@ -188,8 +188,8 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
 }
 
 impl Expectations {
-    /// Returns the expectations about these cases on one adapter, as lists of deqp-runner. Verdicts that
-    /// have no status there become `Fail`.
+    /// Returns the expectations about these cases on one adapter, as lists of deqp-runner. Verdicts without a
+    /// deqp-runner status become `Fail`.
     pub fn lists(&self, adapter: &AdapterRecord, ids: &[String]) -> Lists {
         let mut lists = Lists::default();
         for id in ids {

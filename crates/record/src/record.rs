@@ -45,7 +45,7 @@ pub struct Record {
     pub message: String,
     /// The number of samples by result; all zero if no frame came back.
     pub texels: TexelCounts,
-    /// The asserted share and sharpness, per aspect.
+    /// The asserted fraction and the sharpness, per aspect.
     pub assertions: Vec<Assertion>,
     /// The distance of the frame from the ideal, per aspect; empty if no frame came back.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -313,7 +313,7 @@ impl Assertion {
             .saturating_add(other.yardstick_asserted);
     }
 
-    /// Returns the asserted share of all channels, 0 to 1; 0 without channels.
+    /// Returns the asserted fraction of all channels, 0 to 1; 0 without channels.
     pub fn share(&self) -> f64 {
         ratio(self.asserted, self.channels).unwrap_or(0.0)
     }
@@ -328,7 +328,7 @@ impl Assertion {
         ratio(self.yardstick_codes, self.yardstick_asserted)
     }
 
-    /// Returns the share of all channels that the yardstick asserts, 0 to 1.
+    /// Returns the fraction of all channels that the yardstick asserts, 0 to 1.
     pub fn yardstick_share(&self) -> f64 {
         ratio(self.yardstick_asserted, self.channels).unwrap_or(0.0)
     }

@@ -28,7 +28,8 @@ const ROUNDINGS: f64 = 8.0;
 /// How far beyond a viewport a primitive is followed, in texels: nothing farther out can reach into it.
 const BEYOND: f64 = 64.0;
 
-/// The share of w by which the near and far planes are moved out, so that roundings stay between them.
+/// The fraction of w by which the near and far planes are moved outwards, so that rounded vertices stay
+/// between them.
 const DEPTH_SLACK: f64 = 1.0 / 1024.0;
 
 /// Returns true if the perspective division or the grid cannot place one of the vertices.
@@ -101,8 +102,8 @@ impl<'a> Seen<'a> {
         ]
     }
 
-    /// Returns functions that are both non-negative between the near and far planes, which are moved out by a
-    /// share of w.
+    /// Returns functions that are both non-negative between the near and far planes, which are moved outwards
+    /// by a fraction of w.
     fn between_planes(&self, vertex: usize, slack: f64) -> [f64; 2] {
         let [.., z, w] = self.draw.mesh.vertices[vertex].position.map(f64::from);
         if self.draw.depth_clamp {
@@ -111,7 +112,7 @@ impl<'a> Seen<'a> {
         [z + slack * w, w * (1.0 + slack) - z]
     }
 
-    /// Grows the vertex error for a corner that is given as shares of the primitive's vertices.
+    /// Increases the vertex error for a corner that is given by weights of the primitive's vertices.
     fn grow(&mut self, vertices: &[usize], shares: &[f64]) {
         let sum = |value: &dyn Fn(usize) -> f64| -> f64 {
             let each = vertices.iter().zip(shares);
@@ -140,8 +141,8 @@ pub(crate) struct CutTriangle<'a> {
     homogeneous: HomogeneousTriangle,
     /// The corners of the visible part, each as its weights of the three vertices.
     corners: Vec<[f64; 3]>,
-    /// The share of the visible area that is within the error of its edges. From 1 on, the area can have either
-    /// sign.
+    /// The fraction of the visible area that is within the error of its edges. At 1 and above, the area can
+    /// have either sign.
     flatness: f64,
 }
 
@@ -182,7 +183,7 @@ impl<'a> CutTriangle<'a> {
         [sum(0) / sum(2), sum(1) / sum(2)]
     }
 
-    /// Returns the share of the visible area that is within the error of its edges.
+    /// Returns the fraction of the visible area that is within the error of its edges.
     fn flatness(&self) -> f64 {
         let places: Vec<[f64; 2]> = self.corners.iter().map(|c| self.place(*c)).collect();
         let (mut area, mut around) = (0.0, 0.0);
@@ -395,7 +396,7 @@ impl CutLine {
             let axis = |axis: usize| {
                 let places = end(i).into_iter().map(|t| {
                     let exact = sum(t, windows.map(|v| v[axis])) / w(t);
-                    // Equal places stay equal, whatever the rounding of their shares.
+                    // Equal positions stay equal, however their weights are rounded.
                     Interval::exact((exact * 1024.0).round() / 1024.0)
                 });
                 let hull = places

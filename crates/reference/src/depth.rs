@@ -11,7 +11,7 @@ pub(crate) struct Depth {
     /// The planes through the legally snapped vertices, except planes that are nowhere extreme near the
     /// primitive. Empty if the depth is constant or only the vertices' depths are known.
     planes: Vec<DepthPlane>,
-    /// The largest growth of any plane over one unit right and one down.
+    /// The largest change of any plane over one unit to the right and one down.
     pub(crate) steepest: f64,
     /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
@@ -188,8 +188,8 @@ fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     highest.into_iter().map(|i| all[i]).collect()
 }
 
-/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's growth
-/// is a quotient of functions that are linear in each coordinate, so its extremes are at corners.
+/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's slope is
+/// a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
     let corners = |b: SnapBox| {
         let all = b.corners();

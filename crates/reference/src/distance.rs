@@ -30,7 +30,7 @@ pub(crate) enum Distance {
 }
 
 impl Distance {
-    /// Returns a distance that is constant, or whose course between the vertices is unknown.
+    /// Returns a distance that is constant, or that varies between the vertices in an unknown way.
     pub(crate) fn between(values: &[f64]) -> Self {
         let all = values.iter().map(|v| Interval::exact(*v));
         let hull = all.reduce(Interval::hull);

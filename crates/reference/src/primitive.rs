@@ -195,8 +195,8 @@ impl Triangle {
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
-            // The edge function over the texel of column x is at least start + growth * x, and at most that
-            // plus the variation within a texel.
+            // Over the texel in column x, the edge function is at least start + growth * x, and greater by at
+            // most the variation within a texel.
             let start = dy * p.x;
             let lowest = start + one.min(other) + growth.min(0);
             let highest = start + one.max(other) + growth.max(0);

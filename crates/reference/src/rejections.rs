@@ -1,5 +1,5 @@
-//! Notes of what does not happen: the draws, primitives and fragments that change nothing at a sample.
-//! Primitives with the same reason share a note: most of a mesh covers other texels.
+//! Notes of rejections: the draws, primitives and fragments that change nothing at a sample. Primitives with
+//! the same reason share a note: most of a mesh covers other texels.
 
 use crate::clause::clause;
 use crate::notes::{Note, Notes, Skipped};

@@ -25,7 +25,7 @@ struct Vertex {
     id: VertexId,
 }
 
-/// What the primitives of one draw share.
+/// Data that the primitives of one draw share.
 struct Vertices {
     /// The vertices that have been set up for an earlier primitive.
     known: Vec<Option<Vertex>>,

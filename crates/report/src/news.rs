@@ -17,11 +17,11 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// Records that are unexpected and were not before, the most serious first.
+    /// Records that became unexpected, the most serious first.
     pub broken: Vec<NewsEntry>,
-    /// Records that were unexpected before and are not now.
+    /// Records that are no longer unexpected.
     pub fixed: Vec<NewsEntry>,
-    /// Records that are unexpected as before.
+    /// Records that are still unexpected.
     pub old: Vec<NewsEntry>,
     /// Unexpected records that triage settled as real or ignored. They do not count.
     pub triaged: Vec<NewsEntry>,
@@ -32,7 +32,7 @@ pub struct News {
 pub struct Since {
     /// The adapter's name.
     pub adapter: String,
-    /// The run before, with its driver and commit; `None` if there is no earlier run to compare with.
+    /// The previous run, with its driver and commit; `None` if there is none to compare with.
     pub run: Option<String>,
 }
 

@@ -10,7 +10,7 @@ use maud::{Markup, Render, html};
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
-/// The largest side of a texel on the page, in pixels, which images of up to 20 texels have.
+/// The largest side of a texel on the page, in pixels. Images of up to 20 texels use it.
 const ENLARGED: u32 = 8;
 /// The approximate width to which images are enlarged on the page, in pixels.
 const TARGET: u32 = 160;

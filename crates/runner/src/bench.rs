@@ -500,8 +500,8 @@ impl Bench<'_, '_> {
     }
 }
 
-/// Returns true if the interval of a pair is within a share of its value: the rate of its cell, or
-/// otherwise its wall time.
+/// Returns true if the interval of a pair's value is narrow enough, relative to the value. The value is the
+/// rate of its cell, or otherwise its wall time.
 fn is_narrow(pair: &Pair, pairs: &[Pair], software: bool, share: f64) -> bool {
     if let Some(cell) = &pair.cell {
         let other = pairs.iter().find(|other| {

@@ -25,8 +25,8 @@ pub struct HuntPlan<'a> {
 /// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
 /// plan. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
 ///
-/// Every thread has its own share of the bugs and draws the cases in order, so that state that a bug
-/// carries from one case to the next is always the same.
+/// Every thread has its own part of the bugs and draws the cases in order, so that state that a bug carries
+/// from one case to the next is always the same.
 pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),

@@ -37,7 +37,7 @@ pub(crate) enum Response {
         /// The request's slot.
         slot: u32,
         outcome: Result<Payload, BackendError>,
-        /// The time that the worker spent.
+        /// The time that the worker spent on the request.
         elapsed: Duration,
         /// Messages of validation layers and debug output since the last answer.
         messages: Vec<String>,

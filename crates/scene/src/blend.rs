@@ -98,7 +98,8 @@ pub struct BlendState {
 
 state_enum! {
     /// A separable mode of advanced blending: a function f of source and destination, each divided by its
-    /// alpha. Source and destination are premultiplied; where only one of them covers, it counts in full.
+    /// alpha. Source and destination are premultiplied. In the part of the pixel that only one of them
+    /// covers, that one counts in full.
     AdvancedBlend {
         /// Source times destination.
         Multiply = "multiply",

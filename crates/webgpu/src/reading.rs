@@ -37,9 +37,9 @@ impl Reading {
 /// The results of a counter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CounterReading {
-    /// The places of the numbers whose sum is the result.
+    /// Where the numbers are that add up to the result.
     pub parts: Vec<Place>,
-    /// True if the result is 1 if the sum is greater than 0, and 0 otherwise.
+    /// True if the result only says whether the sum is greater than 0, as 1 or 0.
     pub any: bool,
 }
 

@@ -184,9 +184,9 @@ faults! {
     BlitScale = "blit-scale" in "paths/blits*/end=blit-scaled/*";
     /// Blits filter nothing.
     BlitFilter = "blit-filter" in "paths/blits/end=blit-linear/*";
-    /// Blits begin at the first texel of the destination.
+    /// Blits begin at the destination's first texel, whatever their offset.
     BlitPlace = "blit-place" in "paths/blits/end=blit-part/*";
-    /// Blits of only depth, or only stencil, to another place are skipped.
+    /// Blits of only depth, or only stencil, to another position are skipped.
     BlitAspectAlone = "blit-aspect-alone" in "paths/blits-depth-stencil/end=blit-part/*" of OpenGl;
     /// Of the regions of a blit, only the first is copied.
     BlitFirstRegion = "blit-first-region" in "paths/blits/end=blit-part/*" of Vulkan;

@@ -201,13 +201,13 @@ impl QuickWire {
     }
 }
 
-/// One literal colour that must come back.
+/// A colour that a texel of the frame must have.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpectWire {
     pub(crate) attachment: String,
     /// Column and row.
     pub(crate) texel: [u32; 2],
-    /// The values, channel by channel, as exact arithmetic gives them; the nearest code must come back.
+    /// The exact value of each channel; the frame must have the nearest code.
     pub(crate) value: Vec<f64>,
 }

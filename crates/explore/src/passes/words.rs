@@ -25,7 +25,7 @@ const SIMPLE: [(&str, &[&str]); 14] = [
 /// Formats of depth and stencil, the simplest first.
 const DEPTH: [&str; 3] = ["depth32float", "stencil8", "depth24plus-stencil8"];
 
-/// Simplifies the words of states, and booleans.
+/// Replaces named values of states by simpler ones, and `true` by `false`.
 pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     walk(

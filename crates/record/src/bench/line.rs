@@ -31,7 +31,7 @@ pub struct Picture {
     pub adapter: String,
     /// The verdict; see [`Picture::may_be_timed`].
     pub verdict: Verdict,
-    /// The share of asserted channels among all channels of all samples, 0 to 1.
+    /// The fraction of asserted channels among all channels of all samples, 0 to 1.
     pub asserted: f64,
     /// The missing requirement, the error, or the first wrong texel.
     #[serde(default, skip_serializing_if = "String::is_empty")]

@@ -348,7 +348,7 @@ pub enum InputMask {
     /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
     /// can have the sample and any others.
     OfAnyRun,
-    /// As `OfAnyRun`; with a minimum share of sample shading, also the sample and any others.
+    /// As `OfAnyRun`; with sample shading, also the sample and any others.
     OfRunIfAsked,
     /// All samples, or the sample alone.
     AllOrOwn,
@@ -456,7 +456,8 @@ rules! {
     depth_order: DepthOrder,
     /// The unit of a constant depth bias.
     depth_bias_unit: BiasUnit,
-    /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger growth.
+    /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger of
+    /// the two.
     slope_root: bool,
     /// True if biased depths are clamped at fragments; otherwise at fragments or at vertices.
     bias_clamps_fragments: bool,
@@ -541,8 +542,8 @@ rules! {
     /// True if it runs at most once per fragment, or per covered sample if there are several; otherwise any
     /// number of times.
     runs_once: bool,
-    /// True if the minimum share of sample shading sets the least number of runs; otherwise one run may serve
-    /// all samples.
+    /// True if the sample shading fraction requires a minimum number of shader runs; otherwise one run may
+    /// serve all samples.
     runs_by_share: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
@@ -551,8 +552,8 @@ rules! {
     sample_coverage: AlphaToCoverage,
     /// The fragment coordinates that a shader reads with several samples.
     frag_coord: FragCoord,
-    /// True if with a sample shading share of 1 each sample's inputs are those at its position; otherwise at
-    /// any point of the texel.
+    /// True if, with a sample shading fraction of 1, each sample's inputs are evaluated at its position;
+    /// otherwise they may be evaluated at any point of the texel.
     inputs_at_samples: bool,
 }
 

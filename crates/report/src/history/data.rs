@@ -122,7 +122,7 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     all.collect()
 }
 
-/// Files of courses. Most cases of a file have the same course, and share its text.
+/// Files of case histories. Most cases of a file have the same history, and share its text.
 #[derive(Default)]
 pub(super) struct CaseFiles {
     /// For each file except the first, the index of its first case among all cases.
@@ -143,7 +143,7 @@ struct CaseFile {
 }
 
 impl CaseFiles {
-    /// Adds the case at this place: its course on all timelines, the file of its times, and its triage
+    /// Adds the case with this index: its history on all timelines, the file of its times, and its triage
     /// entries.
     pub(super) fn push(
         &mut self,

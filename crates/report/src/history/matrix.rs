@@ -1,4 +1,4 @@
-//! The share of good cases by area and version, one table per timeline.
+//! The percentage of good cases by area and version, one table per timeline.
 
 use super::families::Families;
 use super::model::{Model, Timeline};
@@ -118,7 +118,7 @@ fn cell(both: &Both, before: Option<Score>) -> Cell {
         .with("style", shade(both.common))
 }
 
-/// Returns a shade between the colours of bad and good cases, over shares from 90 % to 100 %.
+/// Returns a shade between the colours of bad and good cases, for 90 % to 100 % good cases.
 fn shade(score: Score) -> Option<String> {
     let share = score.share()?;
     let good = ((share - 0.9) * 1000.0).round().clamp(0.0, 100.0);

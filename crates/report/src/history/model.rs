@@ -21,7 +21,7 @@ pub(super) struct Model<'a> {
     pub(super) states: TriageStates,
 }
 
-/// A timeline with its courses and scores.
+/// A timeline, with the histories and scores of its cases.
 pub(super) struct Timeline<'a> {
     pub(super) line: &'a Line<'a>,
     pub(super) courses: Courses,

@@ -136,7 +136,7 @@ impl News {
         Self { items, counts }
     }
 
-    /// Returns the lines for a screen: each kind gets its share, and the worst kinds get the room that is
+    /// Returns the lines for a screen: each kind gets an equal part, and the worst kinds get the room that is
     /// left.
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);

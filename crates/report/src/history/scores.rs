@@ -29,7 +29,7 @@ impl Scores {
         count(&mut self.own[family as usize][run], class);
     }
 
-    /// Finds the cases that all whole runs have, and counts them.
+    /// Counts the cases that all complete runs have.
     pub(super) fn compare(
         &mut self,
         courses: &Courses,
@@ -56,7 +56,7 @@ impl Scores {
         }
     }
 
-    /// Returns the score of a family in a run over the cases that all whole runs have.
+    /// Returns the score of a family in a run over the cases that all complete runs have.
     pub(super) fn common(&self, family: usize, run: usize) -> Score {
         self.common[family][run]
     }

@@ -124,7 +124,7 @@ impl Measured<'_> {
     }
 }
 
-/// Returns the entries about the steps of a series: the time, the place of the run, and the entry.
+/// Returns the triage entries about the steps of a series, each with its time and the index of its run.
 fn said<'a>(
     history: &History,
     key: &SeriesKey,

@@ -31,9 +31,9 @@ pub(crate) struct Cell {
 /// A cell on one adapter.
 pub(crate) struct Entry {
     pub(crate) outcome: CellOutcome,
-    /// Its rate as a share of the base cell's, if both count texels.
+    /// The cell's rate divided by the base cell's, if both count texels.
     pub(crate) of_base: Option<f64>,
-    /// Its rate as a share of the rate of clearing.
+    /// The cell's rate divided by the rate of clearing.
     pub(crate) of_clear: Option<f64>,
 }
 
@@ -170,7 +170,7 @@ impl Cell {
     }
 }
 
-/// Computes each rate's share of the base cell's and of clearing.
+/// Divides each rate by the base cell's rate and by the rate of clearing.
 fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
     let sizes = distinct(cells.iter().map(|c| c.size.as_str()));
     let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();

@@ -498,7 +498,7 @@ mod tests {
     fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
         let setting_of =
             |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
-        // A covering array: each method has its own value, and two share 4.
+        // A covering array: each method has its own value, except two methods with 4.
         let run = run(&[
             setting_of("a", 1.0),
             setting_of("b", 2.0),

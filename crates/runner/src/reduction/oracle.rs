@@ -29,7 +29,7 @@ pub enum Unconfirmed {
     FailsAfterOthers(Verdict),
 }
 
-/// Draws a case in a new process, where it must fail with this symptom.
+/// Draws a case in a new process and checks that it fails there with this symptom.
 ///
 /// # Errors
 /// If the process does not start, or the case fails in another way or not at all.
@@ -98,7 +98,7 @@ impl<'a> DriverOracle<'a> {
         }
     }
 
-    /// Reduces the case with at most `draws` drawings.
+    /// Reduces the case, drawing scenes at most `draws` times.
     pub(super) fn reduce(
         &mut self,
         failing: Candidate,

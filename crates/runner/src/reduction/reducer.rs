@@ -18,7 +18,7 @@ use std::time::Duration;
 const MOST_KEYS: usize = 600;
 
 /// The largest number of draws of a reduction. 95 % of reductions need fewer than 260; most of the others
-/// depend on earlier drawings.
+/// depend on what was drawn earlier.
 const DRAWS: usize = 400;
 
 /// A failing scene after its reduction.

@@ -8,8 +8,8 @@ use etalon_diagnose::Symptom;
 use etalon_record::{Record, Verdict};
 use std::time::Duration;
 
-/// The number of processes that draw a case at the start, and the number of drawings in each. A failure that
-/// depends on either is not steady.
+/// The number of processes that draw a case at the start, and how often each draws it. A failure that depends
+/// on either is not steady.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
 /// The number of processes for a case that hangs; each costs the full time limit.

@@ -121,8 +121,8 @@ impl AdapterQueue {
         }
     }
 
-    /// Takes the next cases; empty if all are taken. The share shrinks with the number of cases left, so
-    /// that all workers end at about the same time.
+    /// Takes the next cases; empty if all are taken. The number taken shrinks with the number of cases left,
+    /// so that all workers end at about the same time.
     pub(super) fn take(&self) -> VecDeque<usize> {
         let mut taken = lock(&self.taken);
         let left = self.numbers.len() - *taken;

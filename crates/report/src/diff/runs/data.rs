@@ -134,9 +134,9 @@ pub struct Unpaired {
 /// Two adapters that are compared.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pair {
-    /// Their names.
+    /// The names of the two adapters.
     pub adapter: [String; 2],
-    /// Their facts side by side.
+    /// The facts of both adapters, side by side.
     pub facts: Vec<Fact>,
     /// Record pairs that were compared.
     pub compared: u64,
@@ -152,7 +152,7 @@ pub struct Pair {
     pub only: [u64; 2],
     /// Changes of verdicts, the most frequent first.
     pub transitions: Vec<Transition>,
-    /// The share of channels with an assertion, over the records of each run; 0 to 1.
+    /// The fraction of channels with an assertion, over the records of each run; 0 to 1.
     pub asserted: [f64; 2],
     #[serde(skip)]
     channels: [[u64; 2]; 2],
@@ -320,7 +320,8 @@ pub struct Only {
     pub worse: bool,
 }
 
-/// Seconds of preparing, drawing and reading back, each case once and while doing other work.
+/// Seconds that an area's cases take to prepare, draw and read back. Each case is timed once, while other
+/// work is in progress.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AreaTime {
     /// The adapters.
@@ -329,9 +330,9 @@ pub struct AreaTime {
     pub area: String,
     /// The number of cases that were drawn in both runs.
     pub cases: u64,
-    /// The sum of their seconds.
+    /// The sum of the cases' seconds, per run.
     pub sum: [f64; 2],
-    /// The median of their seconds.
+    /// The median of the cases' seconds, per run.
     pub median: [f64; 2],
 }
 

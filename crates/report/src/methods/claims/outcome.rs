@@ -24,7 +24,7 @@ pub(super) struct Figure {
 pub(super) enum Unit {
     /// A ratio of two measurements: `×0.52`.
     Factor,
-    /// A share of full brightness.
+    /// A fraction of full brightness.
     Share,
     /// A number of these things.
     Count(&'static str),
