@@ -22,7 +22,7 @@ pub struct Blit {
 pub struct Piece {
     /// The first texel after the blits.
     pub from: [u32; 2],
-    /// Its place in the attachment.
+    /// The position in the attachment, in texels.
     pub to: [u32; 2],
     /// The width and the height.
     pub size: [u32; 2],

@@ -78,14 +78,14 @@ pub enum Phase {
     Read,
 }
 
-/// One call.
+/// A recorded call.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Call {
     /// The part of the work that the call belongs to.
     pub phase: Phase,
     /// The function's name in the API.
     pub function: String,
-    /// Its arguments.
+    /// The call's arguments.
     pub arguments: Vec<Argument>,
     /// The new object or location that the call returns, if later calls can use it.
     pub result: Option<Argument>,
@@ -132,7 +132,7 @@ pub enum Argument {
     Struct {
         /// The name of the structure's type.
         kind: String,
-        /// Its size in bytes.
+        /// The structure's size in bytes.
         size: u64,
         /// The members in order.
         members: Vec<Member>,

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// The functions that make the recorded calls.
 pub(crate) struct Body {
-    /// Their definitions.
+    /// The definitions of these functions.
     pub(crate) definitions: String,
     /// The statements that call them in order.
     pub(crate) calls: String,

@@ -9,9 +9,9 @@ type Pair = (usize, usize, usize, usize);
 /// The coverage that the rows must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cover {
-    /// Each pair of values of any two axes, at least once.
+    /// Each pair of values of any two axes occurs at least once.
     Pairs,
-    /// Each value this many times, or as often as the product allows.
+    /// Each value occurs this many times, or as often as the product allows.
     Each(usize),
 }
 

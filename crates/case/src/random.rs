@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 pub(crate) enum Flavor {
     /// Depth, stencil, blending, culling, masks, scissor and viewport, in the form that every API has.
     Common,
-    /// The same with four samples, sample masks and alpha to coverage.
+    /// [`Flavor::Common`] with four samples, sample masks and alpha to coverage.
     Multisample,
     /// [`Flavor::Common`] plus one state per scene that only some APIs have: separate stencil masks, two
     /// sources, logic operations, depth bounds, depth clamp or reversed depth.
@@ -116,7 +116,7 @@ const BEHIND: [[[f64; 3]; 3]; 6] = [
 
 /// Returns the scene of a seed. A seed must always give the same scene, because ids contain it.
 pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
-    // Flavours with the same seed share nothing.
+    // Flavours with the same seed make unrelated scenes.
     let mut dice = Dice(SplitMix64(seed ^ (0x9e37_79b9 * (flavor as u64 + 1))));
     let samples = if flavor == Flavor::Multisample { 4 } else { 1 };
     let extra = match flavor {
@@ -475,7 +475,7 @@ impl Maker {
             ])
         };
         let second = self.extra == Extra::DualSource;
-        // Not every API has constant alpha as a factor for colours.
+        // Some APIs lack constant alpha as a factor for colours.
         let usable = |factor: &BlendFactor, is_color: bool| {
             (second || !factor.is_second_source())
                 && !(is_color

@@ -36,7 +36,7 @@ pub const GALLIUM_INSTALL: &str =
 
 /// How tests open a driver, and what they know about it.
 pub struct Driver<'a> {
-    /// Its missing features and known faults.
+    /// The driver's missing features and known faults.
     pub known: Known,
     /// Environment variables of the process that opens it; if empty, it is opened in this process.
     pub environment: Vec<(&'a str, String)>,

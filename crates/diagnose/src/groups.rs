@@ -53,9 +53,9 @@ impl Key {
     }
 }
 
-/// One way to fail, with the reduced form of its first scene.
+/// A way to fail, with the reduced form of its first scene.
 pub struct Group<S> {
-    /// Its first scene, reduced.
+    /// The group's first scene, reduced.
     pub scene: S,
     /// The number of scenes.
     pub count: u64,

@@ -68,7 +68,7 @@ pub enum Subject {
         kind: LossKind,
         /// The signal that ended it.
         signal: Option<i32>,
-        /// Its exit status.
+        /// The process's exit status.
         exit: Option<i32>,
     },
     /// The backend failed.
@@ -82,7 +82,7 @@ pub enum Subject {
 pub enum Direction {
     /// All wrong values are too high.
     High,
-    /// All are too low.
+    /// All wrong values are too low.
     Low,
     /// Some are too high, and some too low.
     Both,

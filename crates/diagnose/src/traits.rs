@@ -16,9 +16,9 @@ use std::fmt;
 pub struct Traits {
     /// The violation.
     pub way: Violation,
-    /// Its states.
+    /// The states of the failing scene.
     pub states: Signature,
-    /// Its states with their words.
+    /// The states of the failing scene, with their values.
     pub words: Signature,
 }
 
@@ -78,9 +78,9 @@ impl fmt::Display for Violation {
 pub enum Likeness {
     /// The same violation, states and words.
     Same,
-    /// All groups of states of the known failure, and its violation, possibly with more states.
+    /// The known failure's violation and all its groups of states, possibly with further states.
     Alike,
-    /// The same with another violation; the failures share several groups of states.
+    /// Several of the known failure's groups of states, but another violation.
     Elsewhere,
 }
 

@@ -7,7 +7,7 @@ use crate::contents::{Codes, Contents, ValueRange};
 use crate::format::Aspect;
 use serde::{Deserialize, Serialize};
 
-/// One operation on one sample.
+/// An operation on a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Event {
@@ -99,8 +99,8 @@ pub enum Origin {
 }
 
 impl Event {
-    /// Returns true if both events have the same place in the same scene; all primitives of a draw count as
-    /// one place.
+    /// Returns true if both events have the same position in the same scene. All primitives of a draw count
+    /// as one position.
     pub fn is_beside(&self, other: &Self) -> bool {
         let place = match (&self.origin, &other.origin) {
             (Origin::Draw { .. }, Origin::Draw { .. }) => self.origin.draw() == other.origin.draw(),
@@ -135,7 +135,7 @@ impl Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Effect {
-    /// It decides nothing about the sample.
+    /// The operation decides nothing about the sample.
     #[default]
     None,
     /// The draw, the primitives or the fragment end here.
@@ -188,9 +188,9 @@ pub enum Rejection {
     NearFar,
     /// A clip distance clips it.
     ClipDistance,
-    /// All of its vertices have a negative cull distance.
+    /// All vertices of the primitive have a negative cull distance.
     CullDistance,
-    /// Its face is culled.
+    /// The primitive's face is culled.
     Culling,
     /// The scissor rectangle excludes the texel.
     Scissor,
@@ -377,7 +377,7 @@ pub enum Step {
     StoreDepth {
         /// The depth.
         depth: ValueRange,
-        /// Its codes in the attachment.
+        /// The stored codes of the depth.
         codes: Codes,
     },
     /// Depth is not stored.
@@ -424,7 +424,7 @@ pub enum Step {
     StencilExport {
         /// The number that it writes.
         written: i32,
-        /// Its lowest 8 bits.
+        /// The reference: the lowest 8 bits of the value.
         reference: u8,
         /// The reference of the draw.
         draw: u8,
@@ -460,7 +460,7 @@ pub enum ResolveChoice {
     Average,
     /// The first sample.
     First,
-    /// One of the samples.
+    /// The value of any one sample.
     Any,
 }
 

@@ -31,11 +31,11 @@ pub struct Story {
     pub told: Vec<ToldLine>,
 }
 
-/// One line of a story from a run folder before format 4.
+/// A line of a story in a run folder older than format 4.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToldLine {
-    /// The place in the scene; for a verdict, its subject.
+    /// The position in the scene; for a verdict, its subject.
     pub at: String,
     /// The operation; `verdict` for the first line of most stories.
     pub operation: String,
@@ -146,7 +146,7 @@ pub enum Demand {
         sides: [Side; 2],
         /// The texel of the second picture.
         texel: [u32; 2],
-        /// The channels that differ: the first side's value as the legal one, the second side's as the actual one.
+        /// The channels that differ. The first side's value is given as legal, the second side's as actual.
         channels: Vec<ChannelMismatch>,
         /// The clause that demands it.
         citation: String,
@@ -198,7 +198,7 @@ pub struct Allowed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initial {
-    /// It was cleared.
+    /// The attachment was cleared.
     Clear,
     /// Texels were uploaded.
     Upload,

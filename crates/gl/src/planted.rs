@@ -478,7 +478,7 @@ fn arrays(mode: u32, count: i32) -> DrawNumbers {
     }
 }
 
-/// Returns the numbers of a draw with indices of this type, which begin at this place.
+/// Returns the numbers of a draw with indices of this type, which begin at this offset.
 fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
     DrawNumbers {
         indexed: true,

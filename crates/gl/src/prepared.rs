@@ -199,7 +199,7 @@ impl<'a> PreparedScene<'a> {
     }
 
     /// Fills one buffer with all vertices, one with all indices, and one with all parameter blocks. Returns
-    /// the place of each draw's geometry, and of its arguments if it is indirect.
+    /// the location of each draw's geometry, and of its arguments if it is indirect.
     fn buffers(
         &mut self,
         pool: &mut Pool,

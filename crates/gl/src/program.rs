@@ -60,7 +60,7 @@ pub(crate) enum Reader {
 /// The kind of texture that a read-back program fetches from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum View {
-    /// One image.
+    /// A view of a single image.
     Plain,
     /// A multisampled image.
     Samples,

@@ -85,7 +85,7 @@ struct Link {
 
 impl Drop for Link {
     fn drop(&mut self) {
-        // It might be removed already.
+        // The file might be removed already.
         let _ = fs::remove_file(&self.path);
     }
 }

@@ -32,7 +32,7 @@ pub struct Claim {
 /// The values of a scene's parameter that count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
-    /// All of them.
+    /// All values.
     All,
     /// Values between two bounds, inclusive.
     Between(f64, f64),

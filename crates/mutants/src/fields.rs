@@ -1,4 +1,4 @@
-//! The fields of a draw: their places, and which of them can be stale.
+//! The fields of a draw: where they are, and which of them can be stale.
 
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, ColorTarget, CompareFunction, CullMode, DepthBias,
@@ -6,7 +6,8 @@ use etalon_scene::{
     Sampler, StencilFace, StencilOperation, StencilState, Vertex,
 };
 
-/// Returns the places of a field in a draw: none if it is off, several if each face or target has its own.
+/// Returns references to a field of a draw: none if the field is off, several if each face or target has its
+/// own.
 pub(super) type Places<T> = for<'a> fn(&'a mut Draw) -> Vec<&'a mut T>;
 
 /// Declares [`Places`] from expressions that can be iterated.
@@ -97,7 +98,7 @@ impl Field {
     }
 }
 
-/// Copies a part of each of a field's places from another draw.
+/// Copies a part of a field from another draw, for each face or target.
 fn part<T>(places: Places<T>, before: &Draw, draw: &mut Draw, part: fn(&mut T, &T)) {
     let mut before = before.clone();
     let places = places(draw).into_iter().zip(places(&mut before));

@@ -1,4 +1,4 @@
-//! One planted bug.
+//! A planted bug.
 
 use crate::plant::Plant;
 

@@ -44,7 +44,7 @@ pub enum RecordError {
     Holds {
         /// The folder.
         path: PathBuf,
-        /// Its content.
+        /// The kind of the folder's content.
         kind: FolderKind,
     },
     /// The folder holds files that no command recorded.

@@ -22,9 +22,9 @@ state_enum! {
 pub struct Shown<'a> {
     /// The verdict.
     pub verdict: Verdict,
-    /// The wrong samples that it lists.
+    /// The wrong samples that the record lists.
     pub wrong: &'a [WrongTexel],
-    /// Its counters.
+    /// The counters of the record.
     pub counters: &'a [CounterOutcome],
 }
 

@@ -1,4 +1,4 @@
-//! One line of a run: the result of a case on an adapter.
+//! A line of a run: the result of a case on an adapter.
 
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Expectation, Expectations};
@@ -92,15 +92,15 @@ pub struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossKind {
-    /// It exited or was ended by a signal.
+    /// The worker exited or was ended by a signal.
     Died,
-    /// It did not answer in time.
+    /// The worker did not answer in time.
     Timeout,
-    /// It exceeded its memory limit.
+    /// The worker exceeded its memory limit.
     Memory,
-    /// Its output was not a message of the protocol.
+    /// The worker's output was not a message of the protocol.
     Garbage,
-    /// It could not be started again.
+    /// The worker could not be started again.
     NotStarted,
 }
 
@@ -113,7 +113,7 @@ pub struct ProcessEnd {
     /// The signal that ended it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub signal: Option<i32>,
-    /// Its exit status.
+    /// The process's exit status.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exit: Option<i32>,
     /// The end of its standard error.

@@ -11,7 +11,7 @@ use etalon_scene::Draw;
 pub(crate) struct Biased<'a> {
     /// The depths of its vertices; for a cut polygon, all depths that it has.
     pub(crate) z: &'a [Interval],
-    /// Its snapped vertices; empty if it is cut.
+    /// The primitive's snapped vertices; empty if the primitive is cut.
     pub(crate) boxes: &'a [SnapBox],
     /// Returns its least and greatest slope per texel.
     pub(crate) slope: &'a dyn Fn() -> Interval,

@@ -5,7 +5,7 @@ use crate::world::{Increment, World};
 use etalon_frame::{CountRange, CounterKind, CounterSet};
 use etalon_scene::Scene;
 
-/// One counter over the texels walked so far, and over the samples of the current texel.
+/// The count of a counter over the texels walked so far, and over the samples of the current texel.
 #[derive(Clone, Debug)]
 struct Count {
     low: u64,

@@ -102,7 +102,7 @@ impl Depth {
         });
         depth.steepest = growth.0 + growth.1;
         depth.planes = extreme(&all, near(vertices, units));
-        // Positions may be interpolated before or after snapping: one step of the grid.
+        // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
         let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
         depth.error += depth.steepest * grid as f64 + own;
         depth

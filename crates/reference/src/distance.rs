@@ -14,7 +14,7 @@ use etalon_pipeline::{DepthPlane, Point};
 /// The number of grid steps that an edge made by clipping can be off by.
 const EDGE_STEPS: f64 = 2.0;
 
-/// One clip distance over a primitive.
+/// A clip distance over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) enum Distance {
     /// The least and the greatest value anywhere on the primitive.

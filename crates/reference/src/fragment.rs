@@ -1,4 +1,4 @@
-//! One fragment in one world: culling, shading, tests, blending, stores.
+//! A fragment in one world: culling, shading, tests, blending, stores.
 
 use crate::input_mask::InputBits;
 use crate::interval::Interval;
@@ -439,7 +439,7 @@ impl Walk<'_> {
         let of_lost = losses.map(|(kept, rule)| (!kept.must()).then(|| rule.value()));
         let allows = |updates: EarlyUpdates| of_lost.contains(&Some(updates));
         if allows(EarlyUpdates::Either) || allows(EarlyUpdates::Each) {
-            // As if the fragment had never been tested, except for what it counted.
+            // The state before the fragment was tested, except that its counts are kept.
             let mut untouched = before.clone();
             untouched.events.clone_from(&passed.events);
             if allows(EarlyUpdates::Each) {

@@ -879,7 +879,7 @@ impl Arithmetic for Judging<'_> {
             .zip(self.rounded_once(encoding, product), Interval::hull)
     }
 
-    /// Each way of computing decides separately.
+    /// Each permitted way of computing selects separately.
     fn blend_select(&mut self, a: Range, b: Range, at_most: Range, otherwise: Range) -> Range {
         let one = |[a, b, at_most, otherwise]: [Interval; 4]| {
             let unknown = a.may_be_nan() || b.may_be_nan();
@@ -897,7 +897,8 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// Exact for exact codes; the hull of all outcomes for a few codes; otherwise anything.
+    /// The result is exact for exact codes, the hull of all outcomes for a few codes, and otherwise
+    /// unbounded.
     fn logic(
         &mut self,
         encoding: ChannelEncoding,

@@ -10,8 +10,8 @@ use std::sync::Arc;
 pub struct KnownSets(Vec<(AskedValues, Arc<LegalSet>)>);
 
 impl KnownSets {
-    /// Returns the set of some rules: a cached one if the rules have the same values for all permissions it
-    /// asked for; otherwise the result of `compute`, which is then cached.
+    /// Returns the set of some rules: a cached one if the rules have the same values for all permissions that
+    /// computing the set asked for; otherwise the result of `compute`, which is then cached.
     pub fn get(
         &mut self,
         rules: &Rules,

@@ -85,7 +85,7 @@ pub(crate) struct SnappedPrimitive {
     /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
     /// depth, or if no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
-    /// Its index in the draw.
+    /// The primitive's index in the draw.
     pub(crate) index: u32,
 }
 
@@ -98,7 +98,7 @@ pub(crate) enum Side {
     Negative,
     /// Exactly on the edge, whatever the snapping.
     On,
-    /// It depends on the snapping.
+    /// The side depends on the snapping.
     Unknown,
 }
 

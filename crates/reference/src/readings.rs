@@ -1,4 +1,4 @@
-//! Clauses with two readings. A driver follows one of them: nothing between the results of both is legal.
+//! Clauses with two readings. A driver follows one reading throughout; a mix of both is not legal.
 
 use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
 use crate::world::{Contested, Decision, World, Worlds};

@@ -15,13 +15,13 @@ use etalon_scene as scene;
 /// The maximum number of outcomes, and of draws, that a ruling lists.
 const LISTED: usize = 3;
 
-/// One aspect of one attachment, as part of a legal set.
+/// An aspect of an attachment, as part of a legal set.
 struct View {
     attachment: usize,
     name: String,
     aspect: Aspect,
     encodings: Vec<ChannelEncoding>,
-    /// Its first channel in the set.
+    /// The index of the aspect's first channel in the set.
     first: usize,
 }
 

@@ -44,7 +44,7 @@ enum Texture {
     Value(usize),
 }
 
-/// One draw of a signature: the words from `start` on.
+/// A draw's part of a signature: the words from `start` on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Part {
     pub(crate) draw: u32,

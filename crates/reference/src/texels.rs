@@ -6,7 +6,7 @@ use etalon_scene::{Attachment, Scene};
 /// The texels that are judged. Nothing is computed or asserted for others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Texels {
-    /// All.
+    /// All texels.
     All,
     /// At most this many of each image, on a lattice that is the same for all images of one size. It reaches
     /// every row and column if the number allows it.

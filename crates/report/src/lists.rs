@@ -39,7 +39,7 @@ pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     });
 }
 
-/// Distinct values, by the place at which they first occurred.
+/// Distinct values in the order in which they first occurred.
 pub(crate) struct Interner<T> {
     places: HashMap<T, usize>,
     pub(crate) values: Vec<T>,
@@ -61,7 +61,7 @@ impl<T: Serialize> Serialize for Interner<T> {
 }
 
 impl<T: Hash + Eq + Clone> Interner<T> {
-    /// Returns true if the value has a place.
+    /// Returns true if the list contains the value.
     pub(crate) fn has(&self, value: &T) -> bool {
         self.places.contains_key(value)
     }

@@ -36,7 +36,7 @@ pub struct Since {
     pub run: Option<String>,
 }
 
-/// One record with a note.
+/// A record with a note.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NewsEntry {
     /// The case.

@@ -357,8 +357,8 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// Removes the pairs that need no further round: all pairs of an adapter whose time is spent, and pairs
-    /// whose intervals are narrow enough.
+    /// Removes the pairs that need no further round: all pairs of an adapter whose time has run out, and
+    /// pairs whose intervals are narrow enough.
     fn finish(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         let within = self.within.filter(|_| number as usize >= MIN_ROUNDS);
         let enough: Vec<Option<Enough>> = pairs

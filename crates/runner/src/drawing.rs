@@ -33,7 +33,7 @@ pub(crate) struct Due {
 }
 
 impl Due {
-    /// One frame of one scene.
+    /// A single frame of a single scene.
     pub(crate) const ONE: Self = Self {
         answers: 4,
         frames: 1,

@@ -21,7 +21,7 @@ pub struct Launch {
     pub adapter: String,
     /// The program.
     pub program: PathBuf,
-    /// Its arguments.
+    /// The program's arguments.
     pub arguments: Vec<String>,
     /// Environment variables that are added to the parent's; `None` removes one.
     pub environment: Vec<(String, Option<String>)>,

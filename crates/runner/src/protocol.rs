@@ -57,9 +57,9 @@ pub(crate) enum Payload {
 /// An adapter as its worker describes it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello {
-    /// Its names and versions.
+    /// The adapter's names and versions.
     pub info: AdapterInfo,
-    /// Its limits and features.
+    /// The adapter's limits and features.
     pub limits: Limits,
 }
 

@@ -83,7 +83,7 @@ pub enum Flakiness {
         /// The number of processes.
         processes: usize,
     },
-    /// It fails in two ways.
+    /// The case fails in two ways.
     #[error("it fails by {0} and by {1}")]
     TwoWays(Box<Symptom>, Box<Symptom>),
 }

@@ -103,7 +103,7 @@ state_enum! {
     AdvancedBlend {
         /// Source times destination.
         Multiply = "multiply",
-        /// Both inverted, multiplied and inverted again.
+        /// Inverts source and destination, multiplies them, and inverts the product.
         Screen = "screen",
         /// Multiply or screen with doubled strength; the destination decides which.
         Overlay = "overlay",

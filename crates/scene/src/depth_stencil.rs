@@ -67,7 +67,7 @@ state_enum! {
         Zero = "zero",
         /// Set to the reference.
         Replace = "replace",
-        /// All bits inverted.
+        /// Inverts all bits.
         Invert = "invert",
         /// Plus one, clamped to the largest value.
         IncrementClamp = "increment-clamp",

@@ -10,8 +10,8 @@ use etalon_frame::{Aspect, PathResolves, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One render pass. Attachments keep their contents from the previous pass, unless a load operation clears
-/// them or a store operation discarded them.
+/// A render pass. Attachments keep their contents from the previous pass, unless a load operation clears them
+/// or a store operation discarded them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// Indices of the colour attachments, in location order.
@@ -138,9 +138,9 @@ pub struct Clear {
 /// The aspects that a clear command writes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ClearTarget {
-    /// One colour attachment.
+    /// A colour attachment.
     Color {
-        /// Its location in the pass.
+        /// The attachment's location in the pass.
         location: usize,
         /// Red, green, blue, alpha.
         value: [f32; 4],

@@ -35,9 +35,9 @@ state_enum! {
 state_enum! {
     /// The part of a polygon that is drawn.
     PolygonMode {
-        /// Its inside.
+        /// Fills the polygon.
         Fill = "fill",
-        /// Its edges, one texel wide.
+        /// Draws the polygon's edges, one texel wide.
         Line = "line",
     }
 }
@@ -51,7 +51,7 @@ state_enum! {
         Front = "front",
         /// Back faces.
         Back = "back",
-        /// Both; points and lines remain.
+        /// Both faces are culled; points and lines remain.
         FrontAndBack = "front-and-back",
     }
 }

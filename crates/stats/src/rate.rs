@@ -24,7 +24,7 @@ pub struct Pair<'a> {
 pub struct Slope {
     /// The seconds for one unit in each round, in order. Noise can make them 0 or negative.
     pub rounds: Vec<f64>,
-    /// Their median.
+    /// The median of `rounds`.
     pub median: f64,
     /// The interval of the median over all possible rounds, with confidence [`RATE_CONFIDENCE`]; `None` with
     /// fewer than 6 rounds, whose whole range is not that certain.

@@ -82,11 +82,11 @@ impl Edge {
 /// How much of a rectangle a polygon covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overlap {
-    /// None of it, by more than rounding error.
+    /// The polygon misses the rectangle by more than rounding error.
     None,
-    /// Possibly a part of it.
+    /// The polygon may cover a part of the rectangle.
     Part,
-    /// All of it, by more than rounding error.
+    /// The polygon covers the whole rectangle, with more than rounding error to spare.
     Whole,
 }
 

@@ -100,7 +100,7 @@ impl ImageKey {
 }
 
 impl Place {
-    /// Returns the place as a range of barriers: all slices of its level and layer, or all layers.
+    /// Returns the range for barriers: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             aspect_mask: mask,
@@ -111,7 +111,7 @@ impl Place {
         }
     }
 
-    /// Returns the place as ranges of clears. Several layers are two ranges: the first layer, and the others.
+    /// Returns the ranges for clears. Several layers give two ranges: the first layer, and the others.
     pub(crate) fn cleared(self, mask: vk::ImageAspectFlags) -> Vec<vk::ImageSubresourceRange> {
         let range = self.range(mask);
         if self.layered {
@@ -126,7 +126,7 @@ impl Place {
         }
     }
 
-    /// Returns the places that receive texels: one for each layer that passes draw to.
+    /// Returns the destinations of uploaded texels: one for each layer that passes draw to.
     pub(crate) fn uploaded(self) -> Vec<Self> {
         if self.layered {
             DRAWN_LAYERS

@@ -229,7 +229,7 @@ pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
     };
     match path.area {
         PathArea::Part if width > 1 => {
-            // Not the middle, where tile boundaries often are.
+            // Avoids the middle, where tile boundaries often are.
             let left = (width * 2 / 5).max(1);
             vec![columns(0, left), columns(left, width - left)]
         }

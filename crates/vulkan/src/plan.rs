@@ -114,7 +114,7 @@ pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
     /// The pipeline that is bound for a moment between setting the state and drawing.
     pub(crate) other: Option<Rc<Pipeline>>,
-    /// The pipeline of a second draw, the same to the other of two layers.
+    /// The pipeline of a second draw, which repeats the draw to the other of two layers.
     pub(crate) again: Option<Rc<Pipeline>>,
     /// True if the state is first set to other values.
     pub(crate) overwritten: bool,

@@ -316,7 +316,7 @@ mod tests {
         assert_eq!(backend.messages(), Vec::<String>::new());
     }
 
-    /// As above, for OpenGL's debug output.
+    /// The same check for OpenGL's debug output.
     #[test]
     fn an_error_planted_below_wgpu_is_reported_by_opengl() {
         let backend = watched(Via::Gl);

@@ -40,9 +40,9 @@ pub(super) struct Started {
 
 /// The reason why an adapter did not start.
 pub(super) enum NoStart {
-    /// It cannot be used.
+    /// The adapter cannot be used.
     Absent(AbsentAdapter),
-    /// Its driver is installed, but crashes or hangs while it starts.
+    /// The adapter's driver is installed, but crashes or hangs while it starts.
     Failed(BackendName, AbsentAdapter),
     /// A built-in entry needs a variable that is not set.
     NotEnabled(AbsentAdapter),

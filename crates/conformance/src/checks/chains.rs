@@ -23,7 +23,7 @@ fn fetch(texels: [u32; 4], texture: &str) -> Value {
 }
 
 /// Alternately adds one of two attachments to the other. The first pass reads an upload and draws to a
-/// clear; all others read what was drawn.
+/// cleared attachment; later passes read what was drawn.
 pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
     let grid = [0, 1, 2, 3].map(|y| [0, 1, 2, 3, 4].map(|x| start(x, y)));

@@ -48,15 +48,15 @@ pub(crate) struct Rare {
 /// The kind of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// It has several depths.
+    /// A triangle whose depth varies.
     Sloped,
-    /// It has several depths, and is not larger than a tile.
+    /// A triangle whose depth varies, not larger than a tile.
     SlopedNear,
-    /// It has one depth.
+    /// A triangle of constant depth.
     Flat,
-    /// It has one depth, and is not larger than a tile.
+    /// A triangle of constant depth, not larger than a tile.
     FlatNear,
-    /// It has one depth, is inside one tile and few columns wide, and nothing cuts it.
+    /// A triangle of constant depth that is inside one tile, few columns wide, and not cut.
     Small,
 }
 

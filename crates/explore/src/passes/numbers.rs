@@ -101,7 +101,7 @@ fn simpler(number: f64) -> Vec<Value> {
     numbers.into_iter().map(value).collect()
 }
 
-/// Returns a place with a key.
+/// Returns a path extended by a key.
 #[cfg(test)]
 fn of(key: &str) -> Place {
     place!["scene", key]

@@ -52,7 +52,7 @@ pub(super) struct Piece {
     pub(super) within: [f64; 4],
     /// The lines that it is inside of.
     pub(super) lines: Vec<Line>,
-    /// Its colour.
+    /// The piece's colour.
     pub(super) color: [f64; 4],
 }
 

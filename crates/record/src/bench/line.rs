@@ -125,9 +125,9 @@ pub struct Ended {
 state_enum! {
     /// The reason why a case needs no more rounds.
     Enough {
-        /// Its interval is narrow enough.
+        /// The interval of the pair's value is narrow enough.
         Within = "within",
-        /// The adapter's time is spent.
+        /// The bench's time for the adapter has run out.
         Limit = "limit",
     }
 }

@@ -6,9 +6,9 @@ use super::time::Time;
 /// The picture and the rounds of one case on one adapter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchRecord {
-    /// Its picture with the verdict.
+    /// The case's picture on the adapter, with the verdict.
     pub picture: Picture,
-    /// Its rounds, by number; empty if the picture may not be timed.
+    /// The rounds, by number; empty if the picture may not be timed.
     pub rounds: Vec<Round>,
     /// Why it has fewer rounds than others, if an error ended them.
     pub ended: Option<Ended>,

@@ -126,7 +126,7 @@ proptest! {
                     "primitive {primitive} of draw {d} at {at:?} is not explained:\n{notes:#?}"
                 );
             }
-            // A draw whose fragments are all rejected does nothing: the same values are legal without it.
+            // A draw whose fragments are all rejected changes nothing: the same values are legal without it.
             if events().all(|e| matches!(e.effect, Effect::Rejects(_) | Effect::Keeps(_))) {
                 let mut without = scene.clone();
                 without.passes[0].draws.remove(d);

@@ -119,7 +119,7 @@ pub enum Snap {
 pub enum SharedEdge {
     /// Exactly one of two triangles whose edges have identical end points covers it.
     ExactlyOne,
-    /// Unspecified: each triangle decides separately.
+    /// Unspecified: either triangle, both or neither may cover the sample.
     Independent,
     /// The triangle for which the edge is a top or left edge covers it.
     TopLeft,
@@ -284,7 +284,8 @@ pub enum Resolve {
 /// The terms from which the viewport computes window depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthTerms {
-    /// Depth from 0 to 1 times the range, plus the near plane's depth: one term if that is 0.
+    /// Depth from 0 to 1 times the range, plus the near plane's depth. If the latter is 0, there is only one
+    /// term.
     NearPlane,
     /// Depth from -1 to 1 times half the range, plus the middle of the range.
     Middle,
@@ -293,7 +294,7 @@ pub enum DepthTerms {
 /// The effect of a shader's sample mask on a texel with one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskOfOne {
-    /// Its first bit decides.
+    /// The first bit of the mask decides.
     Acts,
     /// No effect.
     Ignored,
@@ -305,9 +306,9 @@ pub enum MaskOfOne {
 /// discarded by the shader or by alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EarlyUpdates {
-    /// They happen.
+    /// The updates happen.
     Happen,
-    /// They happen or not.
+    /// The updates may or may not happen.
     Either,
     /// Depth and stencil are each updated or not.
     Each,
@@ -327,7 +328,7 @@ pub enum SamplesCounted {
 pub enum SameDepth {
     /// Redraws whose shaders write the fragment's own depth.
     Written,
-    /// All redraws with the fragment's own depth, written or not.
+    /// All redraws that keep the fragment's own depth, whether their shaders write it or not.
     All,
 }
 
@@ -348,16 +349,16 @@ pub enum InputMask {
     /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
     /// can have the sample and any others.
     OfAnyRun,
-    /// As `OfAnyRun`; with sample shading, also the sample and any others.
+    /// Like `OfAnyRun`; with sample shading, also the sample together with any others.
     OfRunIfAsked,
-    /// All samples, or the sample alone.
+    /// All samples, or only the run's own sample.
     AllOrOwn,
 }
 
 /// Declares the permissions of [`Rules`], so that code that narrows or lists them covers all.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
-        /// One specification's permissions, or the yardstick.
+        /// The permissions of a specification, or of the yardstick.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
@@ -420,15 +421,15 @@ rules! {
     shader_error: f64,
     /// Relative error of reading a normalized code as a float; 0 and 1 are exact.
     decode_error: f64,
-    /// True if the restart index of a strip is detected before the base vertex is added; otherwise before or
-    /// after.
+    /// True if the restart index of a strip is detected before the base vertex is added; otherwise it may be
+    /// detected before or after.
     restarts_before_base_vertex: bool,
     /// Vertex snapping.
     snap: Snap,
     /// Coverage of samples on edges.
     shared_edge: SharedEdge,
-    /// True if coverage is tested at the sample positions that the adapter reports; otherwise anywhere in the
-    /// texel.
+    /// True if coverage is tested at the sample positions that the adapter reports; otherwise it may be
+    /// tested anywhere in the texel.
     covers_at_positions: bool,
     /// Rounding of stores and of clear values.
     store: Rounding,
@@ -459,7 +460,8 @@ rules! {
     /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger of
     /// the two.
     slope_root: bool,
-    /// True if biased depths are clamped at fragments; otherwise at fragments or at vertices.
+    /// True if biased depths are clamped at fragments; otherwise they may be clamped at fragments or at
+    /// vertices.
     bias_clamps_fragments: bool,
     /// The terms of window depth.
     depth_terms: DepthTerms,
@@ -506,10 +508,11 @@ rules! {
     goes_on_unshaded: bool,
     /// The sample mask that a shader reads.
     input_mask: InputMask,
-    /// True if that mask lacks the samples that the draw's sample mask and sample coverage remove; otherwise
-    /// it may have them.
+    /// True if the mask that a shader reads lacks the samples that the draw's sample mask and sample coverage
+    /// remove; otherwise it may have them.
     input_mask_lacks_masked: bool,
-    /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
+    /// True if the sample mask excludes samples before forced early tests; otherwise it may do so before or
+    /// after.
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.
     early_counts: EarlyUpdates,
@@ -524,8 +527,8 @@ rules! {
     filter_step: f64,
     /// True if each step of filtering a normalized format may be rounded to a neighbouring code.
     filters_to_codes: bool,
-    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
-    /// anything.
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise it may be
+    /// stored as anything.
     half_overflows: bool,
     /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats where [`Rules::small_floats`]
     /// leaves them open, may be stored as zero.
@@ -535,12 +538,13 @@ rules! {
     /// True if a shader that counts in storage runs for a fragment that never contributes to the attachments;
     /// otherwise it may not run.
     runs_for_discarded: bool,
-    /// True if it runs for a fragment that a later one overwrites; otherwise it may not run.
+    /// True if such a shader runs for a fragment that a later one overwrites; otherwise it may not run.
     runs_for_overwritten: bool,
-    /// True if it does not run for a fragment that forced early tests reject; otherwise it may run.
+    /// True if such a shader does not run for a fragment that forced early tests reject; otherwise it may
+    /// run.
     skips_rejected: bool,
-    /// True if it runs at most once per fragment, or per covered sample if there are several; otherwise any
-    /// number of times.
+    /// True if such a shader runs at most once per fragment, or per covered sample if there are several;
+    /// otherwise it may run any number of times.
     runs_once: bool,
     /// True if the sample shading fraction requires a minimum number of shader runs; otherwise one run may
     /// serve all samples.

@@ -96,8 +96,8 @@ pub(super) fn rules() -> Rules {
             BiasUnit {
                 unorm16: &[(0.999, 1.001)],
                 unorm: &[(0.999, 2.001)],
-                // As Vulkan, Direct3D and Metal define it, or by the letter: 2^(exponent - r) with r the
-                // least positive float, which is 2^exponent.
+                // Either as Vulkan, Direct3D and Metal define it, or as WebGPU literally says: 2^(exponent -
+                // r) with r the least positive float, which is 2^exponent.
                 float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
                 assumed: None,
             },

@@ -32,7 +32,7 @@ impl<'a> CaseFigures<'a> {
     }
 }
 
-/// One case on one adapter.
+/// A case on an adapter.
 pub(crate) struct Timed<'a> {
     pub(crate) record: &'a BenchRecord,
     /// The rank among adapters of its kind, from 1. Adapters without a proven difference share a rank.

@@ -12,7 +12,7 @@ pub(crate) struct Labels {
 }
 
 impl Labels {
-    /// Prepares labels for a chart with points at these places.
+    /// Prepares labels for a chart with points at these positions.
     pub(crate) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
         Self {
@@ -33,7 +33,7 @@ impl Labels {
         }
     }
 
-    /// Returns the place of a point's label: its left end and its baseline.
+    /// Returns the position of a point's label: its left end and its baseline.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let width: f64 = text.chars().map(advance).sum();
         let places = [

@@ -1,6 +1,6 @@
-//! Scales: from a value to its place on an axis, and the ticks of the axis.
+//! Scales: from a value to its position on an axis, and the ticks of the axis.
 
-/// A map from values to places between 0 and 1.
+/// A map from values to positions between 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     /// Between two values.

@@ -53,7 +53,7 @@ impl Text {
         self.line("");
     }
 
-    /// Adds a section with a line per item; nothing if there are no items.
+    /// Adds a section with a line per item, unless there are no items.
     fn list<T>(&mut self, title: &str, items: &[T], line: impl Fn(&T) -> String) {
         if !items.is_empty() {
             self.line(&format!("## {title}\n"));

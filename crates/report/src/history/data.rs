@@ -136,7 +136,7 @@ pub(super) struct CaseFiles {
 struct CaseFile {
     courses: Interner<String>,
     of: Vec<usize>,
-    /// Entries of cases with times or triage: the case's place within the file, the file of its times or -1,
+    /// Entries of cases with times or triage: the case's index within the file, the file of its times or -1,
     /// and the triage entries.
     more: Vec<Value>,
     bytes: usize,
@@ -319,8 +319,8 @@ fn number(value: f64) -> Value {
     }
 }
 
-/// Returns the events of each run, by the run's place: timeline, kind, and cases as places in the list of all
-/// cases.
+/// Returns the events of each run, by the run's index: timeline, kind, and cases as indices into the list of
+/// all cases.
 pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
     for (line, timeline) in model.timelines.iter().enumerate() {

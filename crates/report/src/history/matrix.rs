@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 /// The maximum number of columns of a table on the start page.
 const COLUMNS: usize = 8;
 
-/// Returns the runs that represent the versions: the last whole run of each version, or all whole runs if the
-/// driver never changed.
+/// Returns the runs that represent the versions: the last complete run of each version, or all complete runs
+/// if the driver never changed.
 fn columns(line: &Line<'_>) -> Vec<usize> {
     let whole: Vec<usize> = (0..line.runs.len())
         .filter(|run| line.runs[*run].whole)
@@ -125,8 +125,9 @@ fn shade(score: Score) -> Option<String> {
     Some(format!("--s:{good}%"))
 }
 
-/// Returns the scores of all whole runs for the script, newest first: the run's place in the timeline, then
-/// for each area the good cases and all cases of the common set, and the good cases and all cases of the run.
+/// Returns the scores of all complete runs for the script, newest first: the run's index in the timeline,
+/// then for each area the good cases and all cases of the common set, and the good cases and all cases of the
+/// run.
 pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
     let whole = (0..timeline.line.runs.len())
         .rev()

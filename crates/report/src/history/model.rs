@@ -26,7 +26,7 @@ pub(super) struct Timeline<'a> {
     pub(super) line: &'a Line<'a>,
     pub(super) courses: Courses,
     pub(super) scores: Scores,
-    /// The last run, as a place in the timeline.
+    /// The index of the timeline's last run.
     pub(super) last: usize,
 }
 

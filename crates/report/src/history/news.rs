@@ -1,4 +1,5 @@
-//! The changes since the last run: each adapter compared with its run before, worst first.
+//! The changes since the last run: each adapter is compared with its previous run; the worst changes come
+//! first.
 
 use super::model::Model;
 use super::times::{Series, Timed};

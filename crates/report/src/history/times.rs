@@ -28,7 +28,7 @@ pub(super) struct Series {
 /// One time of a series.
 pub(super) struct Timed {
     pub(super) time: Time,
-    /// The places of the runs.
+    /// The indices of the runs.
     pub(super) runs: Vec<usize>,
     pub(super) points: Vec<Point>,
     pub(super) changes: Changes,
@@ -88,10 +88,10 @@ struct Measured<'a> {
     /// The index of the series.
     series: usize,
     time: Time,
-    /// The places of the runs.
+    /// The indices of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    /// Triage of its steps, by the place of the run.
+    /// Triage of the series' steps, by the index of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
 

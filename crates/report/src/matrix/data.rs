@@ -39,11 +39,11 @@ pub(crate) struct Entry {
 
 /// The rate of a cell on an adapter, or the reason why it has none.
 pub(crate) enum CellOutcome {
-    /// It was measured.
+    /// The cell was measured.
     Rate(CellRate),
     /// The work takes less time than the scatter of single times.
     Below(CellRate),
-    /// One of its pictures must not be timed.
+    /// One of the cell's pictures must not be timed.
     Untimed(Verdict, String),
     /// No round timed both cases, or only one of the cases was drawn.
     Incomplete,

@@ -1,6 +1,6 @@
 //! `matrix.html`: heat maps of the performance matrix.
 //!
-//! Every adapter has tables of the same shape, so a script can compare two of them place by place. Without
+//! Every adapter has tables of the same shape, so a script can compare two of them cell by cell. Without
 //! scripts the page lacks only this comparison.
 
 use super::csv::state;

@@ -14,11 +14,11 @@ pub(super) enum Break {
     Never,
     /// Above it everywhere.
     Always,
-    /// It crosses the limit; the crossings are in order of the parameter.
+    /// The error crosses the limit; the crossings are in order of the parameter.
     Crossings(Vec<Crossing>),
 }
 
-/// A place where the error crosses [`LIMIT`].
+/// A point at which the error crosses [`LIMIT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
     /// The parameter's value, interpolated between the logarithms of the errors on both sides.

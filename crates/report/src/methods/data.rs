@@ -93,7 +93,7 @@ pub(crate) struct Point<'a> {
 /// equal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Setting<'a> {
-    /// As [`Series::variant`].
+    /// See [`Series::variant`].
     pub(crate) variant: String,
     /// The parameter and its value.
     pub(crate) parameter: Option<(&'a str, f64)>,

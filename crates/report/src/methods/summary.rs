@@ -16,7 +16,7 @@ const LONGEST: usize = 300;
 
 /// The best methods of a scene on adapters of a kind, all at one setting.
 struct Best<'a> {
-    /// The place of the scene in the page of methods.
+    /// The scene's index in the page of methods.
     anchor: String,
     scene: String,
     setting: Setting<'a>,

@@ -161,7 +161,7 @@ fn last<'h>(
     Ok(None)
 }
 
-/// The run before in words.
+/// Returns a text for the previous run.
 fn told(info: &RunInfo, part: &AdapterRun) -> String {
     let commit = info.commit.as_deref().map_or(String::new(), |commit| {
         format!(", suite {}", commit.chars().take(12).collect::<String>())

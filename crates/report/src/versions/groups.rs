@@ -13,7 +13,7 @@ pub(super) enum Course {
     Flaky,
     /// Never bad or flaky, and good in some release.
     Good,
-    /// Unknown in all releases: nothing was drawn or asserted.
+    /// The result is unknown in all releases: nothing was drawn or asserted.
     Unknown,
 }
 

@@ -1,4 +1,4 @@
-//! One round of frame times of one case on one worker.
+//! A round of frame times of a case on one worker.
 
 use crate::drawing::wrong_answer;
 use crate::loss::Failure;

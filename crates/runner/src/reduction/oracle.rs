@@ -21,10 +21,10 @@ pub enum Unconfirmed {
     /// No new process could be started.
     #[error("could not be drawn in a new process: {0}")]
     Start(#[from] StartError),
-    /// It fails by the second symptom instead of the first.
+    /// The case fails with the second symptom instead of the first.
     #[error("is unsteady: it failed by {0}, and drawn alone in a new process it fails by {1}")]
     Unsteady(Box<Symptom>, Box<Symptom>),
-    /// It does not fail when it is drawn alone.
+    /// The case does not fail when it is drawn alone.
     #[error("fails only after others in the same process: drawn alone it is {0}")]
     FailsAfterOthers(Verdict),
 }

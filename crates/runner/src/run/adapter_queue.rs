@@ -46,7 +46,7 @@ pub(super) struct AdapterQueue {
 /// The round trips that are drawn before all other cases.
 #[derive(Clone, Debug, Default)]
 pub(super) struct First {
-    /// Their indices, in drawing order.
+    /// The cases' indices, in drawing order.
     pub(super) numbers: Vec<usize>,
     /// The indices of round trips without a record of their own: not selected, or already recorded.
     pub(super) silent: BTreeSet<usize>,

@@ -72,7 +72,7 @@ pub enum Direction {
     Worse,
     /// Better.
     Better,
-    /// Neither.
+    /// Neither worse nor better.
     Other,
 }
 
@@ -123,11 +123,11 @@ impl Fact {
 pub struct Unpaired {
     /// The run that has it.
     pub side: Side,
-    /// Its name.
+    /// The adapter's name.
     pub adapter: String,
-    /// The number of its records.
+    /// The number of the adapter's records.
     pub records: u64,
-    /// True if it has records in the first run and vanished from the second.
+    /// True if the adapter has records in the first run and is missing from the second.
     pub worse: bool,
 }
 
@@ -231,7 +231,7 @@ pub struct Transition {
 pub struct Change {
     /// The case.
     pub case: String,
-    /// Its id without axis values.
+    /// The case's id without axis values.
     pub case_file: String,
     /// The adapters.
     pub adapter: [String; 2],
@@ -308,13 +308,13 @@ pub struct ImageChange {
 pub struct Only {
     /// The case.
     pub case: String,
-    /// Its id without axis values.
+    /// The case's id without axis values.
     pub case_file: String,
     /// The adapter that has the record.
     pub adapter: String,
     /// The run that has it.
     pub side: Side,
-    /// Its verdict.
+    /// The record's verdict.
     pub verdict: Verdict,
     /// True if the second run should have the record and lacks it.
     pub worse: bool,

@@ -58,7 +58,7 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
     checked
 }
 
-/// One claim on one family of cases and one adapter.
+/// A claim, checked on a family of cases and an adapter.
 struct On<'s, 'a> {
     claim: &'static Claim,
     scene: &'s SceneSeries<'a>,

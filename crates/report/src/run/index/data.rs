@@ -1,8 +1,8 @@
 //! The data of the page's script: one JSON block with every case on every adapter.
 //!
-//! A block in the page rather than a file beside it, since a browser lets no page that was opened from
-//! the file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so
-//! none of them can end the block.
+//! The data is in the page and not in a separate file, since a browser lets no page that was opened from the
+//! file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so none of
+//! them can end the block.
 
 use super::consensus::Consensus;
 use super::facts::{self, Label};
