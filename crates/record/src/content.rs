@@ -25,7 +25,7 @@ pub enum Content {
 }
 
 impl Content {
-    /// Inspects a path, at which no folder need exist.
+    /// Inspects a path. The folder does not have to exist.
     ///
     /// # Errors
     /// If it cannot be read.

@@ -125,7 +125,8 @@ impl Expectations {
                 part(DeadKind::Expired, format!("{last}: {}", known.reason));
             }
             if !self.applies(number) {
-                // The cases and adapters that it names can belong to another machine or run.
+                // An expectation for another machine or run can name cases and adapters that are missing
+                // here.
                 reaches.push(Reach::default());
                 continue;
             }

@@ -22,11 +22,11 @@ pub struct MutantInfo {
     pub name: String,
     /// The bug's effect, in one sentence.
     pub about: String,
-    /// The driver that once had it, or the kind of mistake.
+    /// The driver that once had the bug, or the kind of mistake.
     pub source: String,
     /// The area whose cases alone must catch it.
     pub area: String,
-    /// The reason why it is legal, with the clause; `None` if it must be caught.
+    /// The reason why the bug is legal, with the clause; `None` if the suite must catch it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub legal: Option<String>,
 }
@@ -72,7 +72,7 @@ pub struct Sighting {
     /// The first texel outside the legal set or the yardstick.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texel: Option<WrongTexel>,
-    /// The error if it could not be drawn; empty otherwise.
+    /// The error if the case could not be drawn; empty otherwise.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
 }

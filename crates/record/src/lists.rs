@@ -155,7 +155,7 @@ fn known_status(status: &str) -> Result<Option<Verdict>, String> {
         "Pass" | "Skip" | "Warn" | "Missing" | "UnexpectedPass" | "UnexpectedImprovement" => {
             return Ok(None);
         }
-        // Better than the list said, but perhaps still bad. The result is in parentheses.
+        // The result, in parentheses, is better than the list says, but can still be bad.
         other if other.starts_with("UnexpectedImprovement(") => {
             let result = other.trim_start_matches("UnexpectedImprovement(");
             return known_status(result.trim_end_matches(')'));

@@ -29,7 +29,7 @@ pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
     keys.values.into_iter().zip(groups).collect()
 }
 
-/// Moves one item of each kind before the second item of any kind, and otherwise keeps the order.
+/// Moves the first item of every kind before all second items, and otherwise keeps the order.
 pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     let mut seen: HashMap<K, usize> = HashMap::new();
     items.sort_by_cached_key(|item| {

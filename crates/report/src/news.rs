@@ -45,7 +45,7 @@ pub struct NewsEntry {
     pub adapter: String,
     /// The verdict of this run.
     pub verdict: Verdict,
-    /// The verdict before, or the reason for which it does not count.
+    /// The previous verdict, or the reason why the record does not count.
     pub note: String,
 }
 
@@ -55,7 +55,8 @@ impl News {
         (self.broken.len() + self.old.len()) as u64
     }
 
-    /// Returns the run as reports show it: records that triage settled are expected, for the entry's reason.
+    /// Returns the run as reports show it: records that triage settled count as expected, with the entry's
+    /// reason.
     pub fn settle<'r>(&self, run: &'r Run) -> Cow<'r, Run> {
         if self.triaged.is_empty() {
             return Cow::Borrowed(run);

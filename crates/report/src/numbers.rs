@@ -66,7 +66,7 @@ pub(crate) fn percent(share: f64, decimals: usize) -> String {
     }
 }
 
-/// Returns a part of a whole as [`percent`] does; 0 % if the whole is 0.
+/// Returns a part of a whole, like [`percent`]; 0 % if the whole is 0.
 pub(crate) fn percent_of(part: u64, whole: u64) -> String {
     percent(part as f64 / whole.max(1) as f64, 1)
 }

@@ -52,7 +52,7 @@ pub struct Launcher {
 pub struct Setup {
     /// The adapter that the worker opens.
     pub open: String,
-    /// The variables that it needs; `None` means that a variable must not be set.
+    /// The environment variables that the worker needs; `None` means that a variable must not be set.
     pub environment: Vec<(String, Option<String>)>,
 }
 

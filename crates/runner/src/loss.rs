@@ -27,7 +27,7 @@ pub(crate) enum Loss {
     Died,
     /// The worker could not be started; the message states the reason.
     NotStarted(String),
-    /// The run is being stopped, and the answer is no longer needed.
+    /// The run is being stopped, so the answer is no longer needed.
     Cancelled,
 }
 

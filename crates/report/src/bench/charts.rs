@@ -91,7 +91,7 @@ impl Times {
         Scale::log_between(self.low, self.high).at(time) * STRIP_WIDTH
     }
 
-    /// Returns both ends in words.
+    /// Returns a text for both ends of the range.
     pub(super) fn caption(self) -> String {
         format!(
             "{} to {}, logarithmic",

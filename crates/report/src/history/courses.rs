@@ -24,7 +24,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Returns the look in a run that has a record.
+    /// Returns the look in a run with a record of the case.
     pub(super) fn look(&self, run: u32) -> u32 {
         let next = self.spans.partition_point(|(from, _)| *from <= run);
         self.spans[next.saturating_sub(1)].1
@@ -117,7 +117,7 @@ impl Courses {
                 }
             }
         }
-        // For each list of gaps, whether a complete run is in it.
+        // For each list of gaps, whether the list contains a complete run.
         let mut holed: HashMap<u32, bool> = HashMap::new();
         let whole = |run: &u32| line.runs[*run as usize].whole;
         let runs = line.runs.len() as u32;

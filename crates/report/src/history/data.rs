@@ -48,7 +48,7 @@ impl Files {
     }
 }
 
-/// Returns all runs, timelines, drivers, machines and looks.
+/// Returns the runs, timelines, drivers, machines and looks as JSON.
 pub(super) fn runs(model: &Model<'_>) -> Value {
     let places = model.places;
     let (mut drivers, mut machines) = (Interner::default(), Interner::default());

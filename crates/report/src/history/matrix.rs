@@ -126,8 +126,7 @@ fn shade(score: Score) -> Option<String> {
 }
 
 /// Returns the scores of all complete runs for the script, newest first: the run's index in the timeline,
-/// then for each area the good cases and all cases of the common set, and the good cases and all cases of the
-/// run.
+/// then four numbers for each area: good cases and all cases, first of the common set and then of the run.
 pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
     let whole = (0..timeline.line.runs.len())
         .rev()

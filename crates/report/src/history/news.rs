@@ -22,11 +22,11 @@ pub(super) enum Kind {
     Set,
     Fixed,
     Times,
-    /// Triage says that it does not matter or is known.
+    /// Triage says that the change is known or does not matter.
     Known,
 }
 
-/// The kinds, each with the class that colours its lines, and the most lines it gets if other kinds need
+/// The kinds, each with the class that colours its lines and the maximum number of lines if other kinds need
 /// room.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Broken, "f", 10),

@@ -10,9 +10,9 @@ const AROUND: usize = 40;
 
 /// The runs of a history, and its timelines.
 pub(super) struct Places<'a> {
-    /// By time, without runs that were resumed later.
+    /// The runs by time, without runs that were resumed later.
     pub(super) runs: Vec<&'a RunInfo>,
-    /// By name.
+    /// The timelines by name.
     pub(super) timelines: Vec<Line<'a>>,
     of: HashMap<RunId, usize>,
 }
@@ -20,7 +20,7 @@ pub(super) struct Places<'a> {
 /// A timeline: an adapter over its runs.
 pub(super) struct Line<'a> {
     pub(super) name: Rc<str>,
-    /// Oldest first; at least one.
+    /// The runs, oldest first; at least one.
     pub(super) runs: Vec<LineRun<'a>>,
 }
 

@@ -10,7 +10,7 @@ use etalon_stats::{ChangePoint, Changes, Point, change_points};
 
 /// The times that are shown as series.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
-/// The number of last runs in which a change can count as found with the last run.
+/// A change in one of this number of last runs can count as found with the last run.
 const RECENT: usize = 40;
 
 /// The times of one case on one adapter, one machine and one ruler.
@@ -25,7 +25,7 @@ pub(super) struct Series {
     pub(super) times: Vec<Timed>,
 }
 
-/// One time of a series.
+/// One kind of time of a series.
 pub(super) struct Timed {
     pub(super) time: Time,
     /// The indices of the runs.
@@ -83,7 +83,7 @@ pub(super) fn read(
     Ok(all)
 }
 
-/// One time of a series.
+/// One kind of time of a series.
 struct Measured<'a> {
     /// The index of the series.
     series: usize,

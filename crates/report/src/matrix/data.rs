@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// The cells of a bench.
 pub(crate) struct Matrix<'a> {
     pub(crate) bench: &'a Bench,
-    /// In the order of the bench.
+    /// The cells in the order of the bench.
     pub(crate) cells: Vec<Cell>,
     /// The adapters that have a cell, in the order of the bench.
     pub(crate) adapters: Vec<&'a str>,
@@ -16,15 +16,15 @@ pub(crate) struct Matrix<'a> {
 
 /// A cell on all adapters.
 pub(crate) struct Cell {
-    /// The id of its cases without the number of layers.
+    /// The id of the cell's cases without the number of layers.
     pub(crate) name: String,
-    /// The name of its case file.
+    /// The name of the cell's case file.
     pub(crate) group: String,
     /// Axes and their values, except the size.
     pub(crate) axes: BTreeMap<String, String>,
-    /// The size of its attachments.
+    /// The size of the cell's attachments.
     pub(crate) size: String,
-    /// By adapter.
+    /// The entry of each adapter.
     pub(crate) results: BTreeMap<String, Entry>,
 }
 

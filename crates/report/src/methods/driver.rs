@@ -16,9 +16,10 @@ use std::collections::BTreeMap;
 struct Figures<'a> {
     /// The accuracy of legal frames.
     legal: Option<Accuracy>,
-    /// The case with the largest of these distances.
+    /// The case with the largest distance.
     farthest: &'a str,
-    /// The accuracy of wrong frames; kept apart, since their large distances would hide all others.
+    /// The accuracy of wrong frames. They are kept apart, because their large distances would hide all
+    /// others.
     wrong: Option<Accuracy>,
 }
 

@@ -59,8 +59,8 @@ impl Unconfirmed {
     }
 }
 
-/// An oracle that draws candidates on a driver: a candidate must fail like the case before it. If the case
-/// ends its worker, the candidate must end it in the same way.
+/// An oracle that draws candidates on a driver. A candidate must fail like the smallest case so far. If the
+/// case ends its worker, the candidate must end it in the same way.
 pub(super) struct DriverOracle<'a> {
     pub(super) trials: Trials,
     /// The symptom of the smallest case so far, and its record.
@@ -69,8 +69,9 @@ pub(super) struct DriverOracle<'a> {
     pub(super) error: Option<StartError>,
     /// True once the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// If set, each failing candidate is drawn again alone, in a process that this starts, and must fail
-    /// there too. Needed if a failure leaves the driver in a state that makes the next case fail.
+    /// If set, each failing candidate is drawn again alone, in a process that this command starts, and must
+    /// fail there too. This is needed if a failure leaves the driver in a state that makes the next case
+    /// fail.
     pub(super) alone: Option<Launch>,
 }
 

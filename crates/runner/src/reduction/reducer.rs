@@ -23,13 +23,13 @@ const DRAWS: usize = 400;
 
 /// A failing scene after its reduction.
 pub struct Looked {
-    /// The reduced scene; the whole one if it was not reduced.
+    /// The reduced scene, or the whole scene if it was not reduced.
     pub scene: Candidate,
     /// The record of that scene.
     pub record: Record,
-    /// How it fails.
+    /// How the reduced scene fails.
     pub symptom: Symptom,
-    /// The key of its group.
+    /// The key of the scene's group.
     pub key: Key,
 }
 
@@ -142,7 +142,7 @@ impl<'a> Driver for Reducer<'a> {
     }
 
     fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, ReductionError> {
-        // Reading fewer attachments can make a case invalid.
+        // A case can become invalid if fewer attachments are read.
         let Ok(case) = build("found/known", document) else {
             return Ok(None);
         };

@@ -21,11 +21,11 @@ pub struct RunDiff {
     pub unpaired: Vec<Unpaired>,
     /// The adapters that are compared.
     pub pairs: Vec<Pair>,
-    /// Cases that changed: worse, better, other; the most serious of each group first.
+    /// Cases that changed, in the order worse, better, other, and within each group the most serious first.
     pub changes: Vec<Change>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,
-    /// Seconds of drawing by adapter and area. They are an indication, not a measurement.
+    /// Seconds of drawing by adapter and area, as a rough indication only.
     pub times: Vec<AreaTime>,
     /// Frame times of methods that both runs have.
     pub methods: Vec<MethodTime>,
@@ -53,12 +53,12 @@ impl RunDiff {
         these.count() as u64
     }
 
-    /// Returns the number of cases that the second run should have drawn and has no record of.
+    /// Returns the number of cases that the second run should have drawn but that have no record there.
     pub fn lost(&self) -> u64 {
         self.only.iter().filter(|o| o.worse).count() as u64
     }
 
-    /// Returns the number of record pairs that were compared.
+    /// Returns the number of compared pairs of records.
     pub fn compared(&self) -> u64 {
         self.pairs.iter().map(|p| p.compared).sum()
     }
@@ -80,7 +80,7 @@ impl Direction {
     /// All directions, in the order of reports.
     pub const ALL: [Self; 3] = [Self::Worse, Self::Better, Self::Other];
 
-    /// Returns the word in reports.
+    /// Returns the direction's name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Worse => "worse",
@@ -112,7 +112,7 @@ pub struct Fact {
 }
 
 impl Fact {
-    /// Returns true if the runs differ in it.
+    /// Returns true if the runs differ in this fact.
     pub fn differs(&self) -> bool {
         self.before != self.after
     }
@@ -121,7 +121,7 @@ impl Fact {
 /// An adapter without a partner.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unpaired {
-    /// The run that has it.
+    /// The run that has the adapter.
     pub side: Side,
     /// The adapter's name.
     pub adapter: String,
@@ -148,7 +148,7 @@ pub struct Pair {
     pub better: u64,
     /// The number of records that differ and are neither worse nor better.
     pub other: u64,
-    /// For each adapter, the number of cases that only it has a record of.
+    /// For each of the two adapters, the number of cases with a record on this adapter only.
     pub only: [u64; 2],
     /// Changes of verdicts, the most frequent first.
     pub transitions: Vec<Transition>,
@@ -312,7 +312,7 @@ pub struct Only {
     pub case_file: String,
     /// The adapter that has the record.
     pub adapter: String,
-    /// The run that has it.
+    /// The run that has the record.
     pub side: Side,
     /// The record's verdict.
     pub verdict: Verdict,
