@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(distance(float, at(1.0), next(1.0)), 1.0);
         assert_eq!(distance(float, at(0.5), next(0.5)), 1.0);
         assert_eq!(distance(float, at(1000.0), next(1000.0)), 1.0);
-        // A value 2^-24 from zero is one step away, not a thousand million steps.
+        // A value 2^-24 from zero counts as one step away, not as a billion steps.
         assert_eq!(distance(float, at(0.0), order(2_f32.powi(-24))), 1.0);
         assert_eq!(
             distance(float, at(-0.25), order(0.25)),

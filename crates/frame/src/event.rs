@@ -184,9 +184,9 @@ pub enum Rejection {
     Coverage,
     /// The sides of the view volume clip the primitive.
     Viewport,
-    /// The near or the far plane clips it.
+    /// The near or the far plane clips the primitive.
     NearFar,
-    /// A clip distance clips it.
+    /// A clip distance clips the primitive.
     ClipDistance,
     /// All vertices of the primitive have a negative cull distance.
     CullDistance,
@@ -216,7 +216,7 @@ pub enum Rejection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Step {
-    /// A pass draws to attachments of another size or sample count than the sample's.
+    /// A pass draws to attachments whose size or sample count differs from the sample's.
     OtherAttachments {
         /// Width and height in texels.
         size: [u32; 2],
@@ -286,7 +286,7 @@ pub enum Step {
     SampleCoverage {
         /// The fraction of samples that are covered.
         share: f32,
-        /// True if the covered samples are excluded instead.
+        /// True if the coverage is inverted, so that the other samples are drawn.
         inverted: bool,
         /// The sample.
         sample: u32,
@@ -313,7 +313,7 @@ pub enum Step {
     Discard {
         /// The value that is compared.
         value: ValueRange,
-        /// The limit that it must reach.
+        /// The limit that the value must reach.
         limit: ValueRange,
         /// True if the value must exceed the limit.
         strict: bool,

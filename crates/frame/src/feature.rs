@@ -63,7 +63,7 @@ state_enum! {
         FragmentShaderAbsent = "fragment-shader-absent",
         /// Draws without a fragment shader that have colour attachments, with all channels masked.
         FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
-        /// Fragment shaders that write storage with atomics, for later passes to read.
+        /// Fragment shaders that write storage with atomics; later passes read it.
         FragmentStorage = "fragment-storage",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",

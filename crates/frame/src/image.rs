@@ -11,7 +11,7 @@ use thiserror::Error;
 pub enum ReadPath {
     /// The API copied the attachment's codes.
     Copy,
-    /// A shader read the attachment and stored what it saw. A normalized depth arrives as a 32-bit float,
+    /// A shader read the attachment and stored the values. A normalized depth arrives as a 32-bit float,
     /// whose rounding the legal set includes.
     Shader,
 }

@@ -244,7 +244,7 @@ path_values! {
     Resolves(PathResolves) = "resolves" {
         /// Resolves are part of the pass.
         Attached = "attached",
-        /// Commands after the pass each resolve a part and move it.
+        /// Commands after the pass resolve the attachment in parts, and move each part.
         Moved = "moved",
     }
     /// The format of the textures that color attachments are views of.

@@ -23,7 +23,7 @@ pub struct RunInfo {
     pub commit: Option<String>,
     /// The number of its machine.
     pub machine: MachineId,
-    /// When it began, in seconds since 1970.
+    /// When the run began, in seconds since 1970.
     pub started: i64,
     /// When the driver was released, in seconds since 1970, if the run is of one release.
     pub released: Option<i64>,

@@ -73,7 +73,7 @@ impl NotServed {
 /// A running server, which ends when this is dropped.
 pub struct Served {
     _kept: Kept,
-    /// The link that leads to it, until the driver is open.
+    /// The link to the server's socket, until the driver is open.
     link: Option<Link>,
 }
 

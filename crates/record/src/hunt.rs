@@ -67,7 +67,7 @@ pub struct AreaTally {
 pub struct Sighting {
     /// The case.
     pub case: String,
-    /// `Fail` or `Imprecise`; `InternalError` if it could not be drawn.
+    /// `Fail` or `Imprecise`; `InternalError` if the case could not be drawn.
     pub verdict: Verdict,
     /// The first texel outside the legal set or the yardstick.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,11 +1,11 @@
-//! Primitives that reach behind the eye, or farther than vertices are snapped: what is left of them after
+//! Primitives that reach behind the eye, or farther than vertices are snapped: their visible part after
 //! clipping.
 //!
-//! Any clipping is legal that is exact up to floating-point precision: by the view volume, by a larger one,
-//! or none at all, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which lets
-//! implementations cut primitives for reasons of their own). The remaining edges, depths and attributes are
-//! those of the whole primitive. A vertex that clipping makes can be off by its roundings and by a step of
-//! the grid.
+//! Every clipping that is exact up to floating-point precision is legal: by the view volume, by a larger one,
+//! or no clipping at all, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which
+//! lets implementations cut primitives for reasons of their own). The remaining edges, depths and attributes
+//! are those of the whole primitive. A vertex that clipping makes can be off by its roundings and by a step
+//! of the grid.
 
 use crate::bias::slope;
 use crate::context::PassContext;
@@ -22,7 +22,7 @@ use etalon_pipeline::{
 use etalon_scene::{Draw, Interpolation};
 
 /// The number of roundings in a clipped vertex's coordinates: two products and their sum, the quotient by w,
-/// and the viewport's product and sum; doubled, since two planes can cut an edge.
+/// and the viewport's product and sum; all doubled, since two planes can cut an edge.
 const ROUNDINGS: f64 = 8.0;
 
 /// How far beyond a viewport a primitive is tracked, in texels. Nothing farther out can reach into the
@@ -178,7 +178,7 @@ impl<'a> CutTriangle<'a> {
         Some(cut)
     }
 
-    /// Returns the position of a corner in the window.
+    /// Returns a corner's position in the window.
     fn place(&self, corner: [f64; 3]) -> [f64; 2] {
         let sum = |axis: usize| dot(corner, self.homogeneous.vertices.map(|v| v[axis]));
         [sum(0) / sum(2), sum(1) / sum(2)]
@@ -202,7 +202,7 @@ impl<'a> CutTriangle<'a> {
         }
     }
 
-    /// Returns the triangle's edges. Between two snapped vertices, which `boxes` has, an edge is the line
+    /// Returns the triangle's edges. An edge between two snapped vertices, given by `boxes`, is the line
     /// through both.
     pub(crate) fn triangle(&self, boxes: [Option<SnapBox>; 3], ids: [VertexId; 3]) -> Triangle {
         let edges = [0, 1, 2].map(|i| match (boxes[i], boxes[(i + 1) % 3]) {
@@ -238,7 +238,7 @@ impl<'a> CutTriangle<'a> {
                 high[axis] = high[axis].max(place[axis] + self.seen.off[axis]);
             }
         }
-        // `as` saturates, and NaN counts as everywhere.
+        // The cast saturates. NaN counts as reaching everywhere.
         let within = |v: f64, otherwise: f64| {
             let v = if v.is_nan() { otherwise } else { v };
             v.clamp(-FARTHEST, FARTHEST)
@@ -288,7 +288,7 @@ impl<'a> CutTriangle<'a> {
             depth.hull = depth.hull.widen(error);
         }
         if !self.seen.draw.depth_clamp {
-            // The rest is between the planes.
+            // The visible part is between the planes.
             depth.hull = depth
                 .hull
                 .clamp(near.min(far) - error, near.max(far) + error);
@@ -362,7 +362,7 @@ pub(crate) struct CutLine {
     pub(crate) ends: [SnapBox; 2],
     pub(crate) window_z: [Interval; 2],
     pub(crate) reciprocal_w: [Interval; 2],
-    /// True if rounding can clip all of it.
+    /// True if rounding can clip the whole line.
     pub(crate) may_be_clipped: bool,
 }
 

@@ -1,8 +1,8 @@
-//! Clip distances over a primitive, which is clipped where they are negative.
+//! Clip distances over a primitive, which is clipped wherever a distance is negative.
 //!
-//! Vertices made by clipping are computed and snapped like others. An edge made by clipping is therefore
+//! Vertices made by clipping are computed and snapped like all others. An edge made by clipping is therefore
 //! within some steps of the grid of the zero of the distance, and a sample nearer than that can be on either
-//! side. The ends of a line are open by two texels whatever ends it (Vulkan, Bresenham Line Segment
+//! side. Two texels at each end of a line are open, whatever ends it (Vulkan, Bresenham Line Segment
 //! Rasterization; OpenGL 4.6, 14.5.1).
 
 use crate::depth::Depth;
@@ -22,7 +22,7 @@ pub(crate) enum Distance {
     /// Linear over a triangle.
     Over {
         plane: Depth,
-        /// What the error in the edge's position can add or subtract.
+        /// The largest change of the distance through the error in the edge's position.
         error: f64,
     },
     /// Linear along a line.
@@ -59,7 +59,7 @@ impl Distance {
         [units, grid]: [i64; 2],
         float_error: f64,
     ) -> Self {
-        // If all have one sign, nothing is clipped, or everything.
+        // If all values have the same sign, nothing or everything is clipped.
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
             return Self::between(&values);
         }

@@ -21,7 +21,7 @@ impl KnownSets {
         if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
-        // A clone starts without recorded permissions, so it records those of this computation alone.
+        // A clone starts without recorded permissions, so it records only those of this computation.
         let rules = rules.clone();
         let set = Arc::new(compute(&rules));
         self.0.push((rules.asked(), Arc::clone(&set)));

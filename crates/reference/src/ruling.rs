@@ -304,7 +304,8 @@ impl Known<'_> {
         }
     }
 
-    /// Returns the rejections of all draws, or of those after `since`: the last operation that each reaches.
+    /// Returns the rejections of all draws, or of the draws after `since`. A rejection is the last operation
+    /// that a draw reaches.
     fn ends(&self, view: &View, since: Option<(usize, usize)>) -> Vec<Reason> {
         let mut draws: Vec<(usize, usize)> = Vec::new();
         let effective = self.events().filter(|e| !e.effect.is_none());

@@ -225,7 +225,7 @@ struct AreaRow<'a> {
     area: &'a str,
     /// The number of bugs that this area must catch alone.
     own: usize,
-    /// The number of these bugs that the area catches alone.
+    /// The number of these bugs for which the area's own cases suffice.
     own_reached: usize,
     /// The numbers of bugs, of any area, that this area caught, noticed without catching, and missed.
     counts: [usize; 3],

@@ -324,12 +324,12 @@ impl<'a> View<'a> {
             let (base, mark) = match self.image.wrong[sample] {
                 FrameImage::FINE => return FINE,
                 FrameImage::IMPRECISE => {
-                    // Draws a dot.
+                    // The mark is a dot.
                     let inside = |v: u32| v * 2 + 2 >= block && v * 2 <= block;
                     (IMPRECISE, inside(x) && inside(y))
                 }
                 _ => {
-                    // Draws a cross.
+                    // The mark is a cross.
                     let edge = x == 0 || y == 0 || x == block - 1 || y == block - 1;
                     (FAIL, !edge && (x == y || x + y == block - 1))
                 }

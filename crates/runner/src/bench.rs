@@ -189,7 +189,7 @@ impl Adapter {
     }
 }
 
-/// A case and an adapter, by index, that draws the case correctly; with the fingerprint of the picture.
+/// A case and an adapter that draws it correctly, both by index, with the fingerprint of the picture.
 struct Pair {
     case: usize,
     adapter: usize,

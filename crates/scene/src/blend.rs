@@ -105,7 +105,7 @@ state_enum! {
         Multiply = "multiply",
         /// Inverts source and destination, multiplies them, and inverts the product.
         Screen = "screen",
-        /// Multiply or screen with doubled strength; the destination decides which.
+        /// Multiply or screen at double strength, depending on the destination.
         Overlay = "overlay",
         /// The smaller of the two.
         Darken = "darken",
@@ -115,9 +115,9 @@ state_enum! {
         ColorDodge = "color-dodge",
         /// The inverted destination divided by the source, inverted.
         ColorBurn = "color-burn",
-        /// Multiply or screen with doubled strength; the source decides which.
+        /// Multiply or screen at double strength, depending on the source.
         HardLight = "hard-light",
-        /// The destination darkened or lightened; the source decides which.
+        /// The destination darkened or lightened, depending on the source.
         SoftLight = "soft-light",
         /// The distance between the two.
         Difference = "difference",

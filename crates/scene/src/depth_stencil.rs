@@ -83,9 +83,9 @@ state_enum! {
 /// The stencil test of a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct StencilState {
-    /// For front faces.
+    /// The test for front faces.
     pub front: StencilFace,
-    /// For back faces.
+    /// The test for back faces.
     pub back: StencilFace,
 }
 

@@ -1,8 +1,8 @@
 //! Passes: their attachments, and what happens to these before, between and after the draws.
 //!
 //! Load and store operations are separate from the lists of attachments, and clear commands are separate from
-//! the draws, each with the index of the draw that it precedes. A pass without any is the same as if they did
-//! not exist.
+//! the draws, each with the index of the draw that it precedes. A pass without them is described as if they
+//! did not exist.
 
 use crate::draw::Draw;
 use crate::path::Path;
@@ -39,7 +39,7 @@ pub struct Pass {
 /// A resolve of the samples of depth and stencil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DepthStencilResolve {
-    /// Index of the attachment that it writes: single-sample, of the same format and size.
+    /// Index of the attachment that the resolve writes: single-sample, of the same format and size.
     pub to: usize,
     /// The mode of depth; [`ResolveMode::None`] for formats without depth.
     pub depth: ResolveMode,
@@ -83,10 +83,10 @@ pub struct PassOperations {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Operations<V> {
-    /// At the start of the pass.
+    /// The operation at the start of the pass.
     #[serde(default)]
     pub load: LoadOperation<V>,
-    /// At the end of the pass, after resolves.
+    /// The operation at the end of the pass, after resolves.
     #[serde(default)]
     pub store: StoreOperation,
 }
@@ -98,7 +98,7 @@ pub enum LoadOperation<V> {
     /// The previous contents.
     #[default]
     Load,
-    /// This value, in all texels and samples.
+    /// This value in all texels and samples.
     Clear(V),
 }
 

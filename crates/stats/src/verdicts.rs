@@ -31,7 +31,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// Returns the words for reports, which precede the run.
+    /// Returns the phrase that reports put before the run, such as `broken at`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Broken => "broken at",

@@ -41,11 +41,11 @@ pub(crate) struct Plan {
 /// The initial contents of an attachment and its role in the passes.
 pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
-    /// The part of the image that is the attachment.
+    /// The part of the image that serves as the attachment.
     pub(crate) place: Place,
-    /// How it reaches the host.
+    /// How the attachment reaches the host.
     pub(crate) end: PathEnd,
-    /// The image that it is copied to before it is read.
+    /// The image to which the attachment is copied before it is read.
     pub(crate) copy: Option<vk::Image>,
     /// The intermediate image that blits write, from which it is copied.
     pub(crate) between: Option<vk::Image>,

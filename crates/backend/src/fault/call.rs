@@ -104,7 +104,7 @@ faults! {
     ResolveFirst = "resolve-first" in "sequence/resolve-several/*" of Vulkan OpenGl WebGpu;
     /// Every query of a submission has the result of the first.
     QueryFirst = "query-first" in "sequence/queries-*/*";
-    /// Queries after the first end before their draw.
+    /// All queries except the first end before their draw.
     QueryEarly = "query-early" in "sequence/queries-*/*";
     /// Queries end after their first draw, if they can end within a pass.
     QueryOneDraw = "query-one-draw" in "sequence/spans/*";

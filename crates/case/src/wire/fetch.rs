@@ -11,8 +11,8 @@ pub(crate) struct FetchWire {
     /// The size of an index.
     #[serde(default = "uint32")]
     pub(crate) index: IndexFormat,
-    /// The number added to every index. That many unused vertices come first, so that the mesh stays the same;
-    /// if the number is negative, the indices are greater instead.
+    /// The number added to every index. To keep the mesh the same, that many unused vertices come first or,
+    /// if the number is negative, all indices are increased.
     #[serde(default)]
     pub(crate) base_vertex: i32,
     /// The number of unused indices before the used ones.

@@ -32,7 +32,7 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists the adapters that can be used, and the others with reason and, where wanted, remedy.
+/// Lists the adapters that can be used, and the others with the reason and, if requested, a remedy.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),

@@ -7,8 +7,8 @@ use serde_json::Value;
 /// The keys that a case cannot lack, or that have their own pass.
 const KEPT: [&str; 4] = ["format", "kind", "size", "shader"];
 
-/// Removes the states of each draw: all, halves, and so on down to single ones; first the states of all
-/// draws together.
+/// Removes states: first from all draws together, then from each draw, in both cases all states, halves, and
+/// so on down to single states.
 pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let draws = draws_of(document);
     let states = |draw: &Place| -> Vec<Place> {

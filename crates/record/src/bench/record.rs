@@ -12,7 +12,7 @@ pub struct BenchRecord {
     pub rounds: Vec<Round>,
     /// Why the case has fewer rounds than others, if an error ended them.
     pub ended: Option<Ended>,
-    /// Why the case needs no more rounds, if it does not.
+    /// The reason why the case needs no more rounds, if there is one.
     pub enough: Option<Enough>,
 }
 

@@ -24,7 +24,7 @@ const MESHES: [&str; 10] = [
     r#""mesh":{"kind":"vertices","positions":[[0.1,0.1,0.2]]},"topology":"point-list","shader":"uniform_color""#,
     r#""mesh":{"kind":"full","z":0.5},"shader":"texel_discard","textures":["texture"]"#,
 ];
-/// States that reject fragments, or can.
+/// States that reject fragments, or can reject them.
 const STATES: [&str; 18] = [
     r#""scissor":[1,1,2,2]"#,
     r#""scissor":[0,0,0,0]"#,

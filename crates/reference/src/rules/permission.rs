@@ -3,9 +3,8 @@
 use etalon_frame::{ChannelEncoding, Grade};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for:
-/// results computed under some rules can then be reused under all rules that agree on the permissions asked
-/// for.
+/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for,
+/// so that results can be reused under all rules that agree on the permissions that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Permission<T> {
     pub(super) value: T,
@@ -78,7 +77,7 @@ impl PartialEq for Asked {
     }
 }
 
-/// Returns a permission that a must of the specification bounds.
+/// Returns a permission that is bounded by a "must" of the specification.
 pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permission<T> {
     Permission {
         value,
@@ -140,16 +139,16 @@ pub enum BlendPrecision {
     /// Every operand and result may be rounded to one of the destination's neighbouring codes, to a neighbouring
     /// float with as many significand bits, or to a neighbouring binary fraction with as many bits.
     DestinationCodes,
-    /// In 32-bit floating-point.
+    /// Blending is computed in 32-bit floating-point.
     Float32,
 }
 
 /// The values that a depth test compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthOrder {
-    /// The incoming value before or after its conversion to the attachment's encoding.
+    /// The incoming value is compared before or after its conversion to the attachment's encoding.
     Either,
-    /// Codes with codes.
+    /// The converted codes are compared.
     ConvertedFirst,
 }
 
@@ -164,7 +163,7 @@ pub struct BiasUnit {
     pub unorm: &'static [(f64, f64)],
     /// For float depth, by the exponent of the primitive's greatest depth.
     pub float: &'static [(f64, f64)],
-    /// The assumed part of the range; `None` for all of it.
+    /// The assumed part of the range; `None` for the whole range.
     pub assumed: Option<(f64, f64)>,
 }
 
@@ -189,9 +188,10 @@ impl BiasUnit {
 /// Conversion of a finite value to an unsigned float of 11 or 10 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmallFloats {
-    /// To either neighbour; past the largest value, to it or to infinity.
+    /// Rounds to either neighbour. Values above the largest become the largest value or infinity.
     EitherNeighbour,
-    /// To the nearest, or always towards zero; past the largest value, to it. Subnormal values are kept.
+    /// Rounds to nearest, or always towards zero. Values above the largest become the largest value.
+    /// Subnormal values are kept.
     NearestOrTowardsZero,
 }
 
@@ -242,14 +242,14 @@ pub enum SrgbLogic {
     PassesThrough,
     /// The operation works on the encoded codes.
     Applies,
-    /// Either.
+    /// Either behaviour.
     Either,
 }
 
 /// Alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaToCoverage {
-    /// Alpha 0 gives no sample, alpha 1 all samples, anything in between any samples.
+    /// Alpha 0 gives no samples, alpha 1 all samples, and any alpha in between any samples.
     Ends,
     /// Any alpha gives any samples.
     Any,
@@ -265,14 +265,14 @@ pub enum DepthRange {
     Unit,
     /// The depth clamped to the viewport's range or to 0 to 1.
     Either,
-    /// A shader's depth is clamped to the viewport's range; a biased one to that or to 0 to 1.
+    /// A shader's depth is clamped to the viewport's range, a biased depth to that range or to 0 to 1.
     ViewportIfWritten,
 }
 
 /// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
-    /// Anything between the least and the greatest sample; for integers, one of the samples.
+    /// Any value between the least and the greatest sample; for integers, one of the samples.
     Between,
     /// The average, computed in halvings that may each be rounded to a neighbouring code; for sRGB, of the
     /// codes or of the linear values; for integers, the first sample.
@@ -298,7 +298,7 @@ pub enum MaskOfOne {
     Acts,
     /// No effect.
     Ignored,
-    /// Either.
+    /// Either behaviour.
     Either,
 }
 
@@ -344,7 +344,7 @@ pub enum FragCoord {
 /// The sample mask that a shader reads, out of the samples that a primitive covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputMask {
-    /// With sample shading the samples of the run, otherwise all.
+    /// With sample shading, the samples of the run; otherwise all samples.
     OfRun,
     /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
     /// can have the sample and any others.
@@ -483,8 +483,8 @@ rules! {
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
-    /// The number of fragments that a line may have less than the diamond-exit rule gives it; `None` if no
-    /// specification counts them.
+    /// The number of fragments that a line may lack, compared with the diamond-exit rule; `None` if no
+    /// specification counts fragments.
     lines_lack: Option<usize>,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
@@ -503,8 +503,8 @@ rules! {
     early_ignores_written: bool,
     /// The effect of a shader's sample mask with a single sample per texel.
     mask_of_one: MaskOfOne,
-    /// True if fragments without a fragment shader go on as they were rasterized; otherwise they may be lost
-    /// or have any depth.
+    /// True if fragments without a fragment shader pass unchanged; otherwise they may be lost or have any
+    /// depth.
     goes_on_unshaded: bool,
     /// The sample mask that a shader reads.
     input_mask: InputMask,
@@ -530,7 +530,7 @@ rules! {
     /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise it may be
     /// stored as anything.
     half_overflows: bool,
-    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats where [`Rules::small_floats`]
+    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats if [`Rules::small_floats`]
     /// leaves them open, may be stored as zero.
     flushes_small_floats: bool,
     /// Conversion to floats of 11 and 10 bits.
@@ -552,7 +552,7 @@ rules! {
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
     /// Sample coverage, with the permissions of alpha to coverage. The same value always covers the same
-    /// samples, and its inverse the others.
+    /// samples, and the inverted value covers the others.
     sample_coverage: AlphaToCoverage,
     /// The fragment coordinates that a shader reads with several samples.
     frag_coord: FragCoord,

@@ -72,7 +72,7 @@ pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) 
     let mut data = data(grid, plan);
     data.scripts = scripts;
     let json = serde_json::to_string(&data);
-    // All data has a JSON form; the script reports an empty block.
+    // All data can be written as JSON, so this cannot fail. The script would report an empty block.
     let json = json.unwrap_or_else(|_| "null".to_owned());
     let json = json.replace('<', "\\u003c");
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }
