@@ -189,8 +189,8 @@ struct Maker {
     samples: u32,
     extra: Extra,
     palette: Palette,
-    /// True if alpha is 0 or 1. With two bits of alpha, values in between would be legal as different thirds,
-    /// and as a factor they would carry that into the colours.
+    /// True if alpha is 0 or 1. With two bits of alpha, values in between could legally round to different
+    /// thirds, and as factors these would affect the colours.
     whole_alpha: bool,
     /// The stencil reference that all draws share. If each draw had its own, comparisons with the stored value
     /// would almost never find both equal.
@@ -202,7 +202,7 @@ impl Maker {
     fn draw(&mut self, index: u32) -> Value {
         let (shader, textures) = match self.extra {
             Extra::DualSource => ("texel_dual_source", json!(["first", "second"])),
-            // The first draw always writes one.
+            // The first draw always writes a stencil reference.
             Extra::Exported if index == 0 || self.dice.range(0, 2) > 0 => {
                 let shaders = [
                     "exported_color",
@@ -350,7 +350,7 @@ impl Maker {
         }
     }
 
-    /// Returns a rectangle of at least 11 texels a side that is not the whole.
+    /// Returns a rectangle of at least 11 texels a side that is smaller than the attachment.
     fn rect(&mut self) -> [u32; 4] {
         let (x, y) = (self.dice.range(0, 4), self.dice.range(0, 4));
         let side = |dice: &mut Dice, start| dice.range(11, SIZE - start - u32::from(start == 0));

@@ -1,4 +1,4 @@
-//! Checks cases without drawing them: what they assert, how sharply, and where their inputs leave a driver a
+//! Checks cases without drawing them: what they assert, how sharply, and which inputs leave a driver a
 //! choice.
 //!
 //! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of

@@ -94,7 +94,7 @@ impl Traits {
         }
     }
 
-    /// Returns how similar this failure is to a known one; `None` if it lacks a part of it.
+    /// Returns how similar this failure is to a known one; `None` if it lacks a part of the known failure.
     pub fn likeness(&self, known: &Self) -> Option<Likeness> {
         // If this failure does not depend on its vertices, those of the known failure are ignored.
         let own_vertices = self.words != self.words.without_vertices();
@@ -139,7 +139,7 @@ impl Traits {
         }
     }
 
-    /// Returns true if reducing the larger failure could give one with these traits.
+    /// Returns true if reducing the larger failure could give a failure with these traits.
     pub fn may_be_left_of(&self, larger: &Self) -> bool {
         self.way.may_be_left_of(&larger.way)
     }

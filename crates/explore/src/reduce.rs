@@ -91,7 +91,8 @@ pub struct Reduction {
     pub finished: bool,
 }
 
-/// Reduces a case that fails by the oracle. Cases that cannot be drawn are not passed to the oracle.
+/// Reduces a case that fails according to the oracle. Cases that cannot be drawn are not passed to the
+/// oracle.
 pub fn reduce(
     failing: Candidate,
     budget: Budget<'_>,

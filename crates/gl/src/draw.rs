@@ -127,7 +127,7 @@ pub(crate) fn draw_all(
         }
     }
     let mut closed = false;
-    // The state that is set, if it is a draw's.
+    // The state that is currently set, if a draw set it.
     let mut set: Option<&DrawState> = None;
     for pass in passes {
         if std::mem::take(&mut closed) {

@@ -28,8 +28,8 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    /// Returns the version that distinguishes releases of the driver: the version within the line, or the
-    /// one that the driver reports.
+    /// Returns the version that distinguishes releases of the driver: the version within the line, or else
+    /// the version that the driver reports.
     pub fn shown_version(&self) -> &str {
         match self.version.as_str() {
             "" => &self.driver_version,

@@ -77,7 +77,7 @@ pub(super) struct Field {
     pub(super) area: &'static str,
     pub(super) name: &'static str,
     pub(super) take: Take,
-    /// Copies the field only if the draw has it off, that is, at its default.
+    /// Copies the field only if it is off in the draw, that is, at its default.
     pub(super) take_when_off: Option<Take>,
 }
 
@@ -111,8 +111,8 @@ fn take_default<T: Clone + Default + PartialEq>(to: &mut T, from: &T) {
     }
 }
 
-/// Writes a [`Take`] that copies a field of the draw (`.field`), whole places (`in PLACES`), a field of
-/// each place (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
+/// Writes a [`Take`] that copies a field of the draw (`.field`), whole [`Places`] (`in PLACES`), a field of
+/// each of them (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
 /// function`).
 macro_rules! take {
     (.$($field:tt)+) => { |before, draw| draw.$($field)+.clone_from(&before.$($field)+) };

@@ -164,7 +164,7 @@ impl Known {
     }
 
     /// Returns true if the expectation excuses a verdict. An entry excuses only its own verdict. A finding
-    /// also excuses violations on weaker evidence, because its bug can show as such a violation in some
+    /// also excuses violations on weaker evidence, because its bug can show as a weaker violation in some
     /// cases. `flaky` excuses every bad verdict.
     pub fn excuses(&self, verdict: Verdict) -> bool {
         let finding = matches!(self.source, Source::Finding(_));

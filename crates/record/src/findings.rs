@@ -161,7 +161,7 @@ pub(crate) const REMEDY: &str =
     "a finding needs title, adapters, driver, cases, grade, clause and evidence; see ci/README.md";
 
 impl Finding {
-    /// Returns the expected verdict: the one that the finding states, or else the verdict of its grade.
+    /// Returns the expected verdict: the finding's own, or else the verdict of its grade.
     pub fn expected(&self) -> Verdict {
         self.verdict.unwrap_or_else(|| self.grade.verdict())
     }

@@ -216,7 +216,7 @@ enum Edition {
 }
 
 impl Edition {
-    // The editions must be those that `Rules::of` chooses.
+    // These editions must match the choice of `Rules::of`.
     fn of_opengl(version: ApiVersion) -> (&'static str, Self) {
         match (version.major, version.minor) {
             (3, _) | (4, 0 | 1) => ("OpenGL 3.3", Self::Gl33),

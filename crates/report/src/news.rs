@@ -32,7 +32,7 @@ pub struct News {
 pub struct Since {
     /// The adapter's name.
     pub adapter: String,
-    /// The previous run, with its driver and commit; `None` if there is none to compare with.
+    /// The previous run, with its driver and commit; `None` if no earlier run can be compared.
     pub run: Option<String>,
 }
 

@@ -391,8 +391,8 @@ shaders! {
     ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
     /// Like `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
     ExportedFacing = "exported_facing" { params: true, textures: 1, reference: true, position_only: true },
-    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment plus the number of the
-    /// sample as stencil reference. Runs once per sample.
+    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment plus the number
+    /// of the sample as stencil reference. Runs once per sample.
     ExportedSample = "exported_sample" { textures: 1, reference: true, per_sample: true, position_only: true },
     /// The vertex colour, flat.
     FlatColor = "flat_color" {},
@@ -420,8 +420,8 @@ shaders! {
     /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
     /// between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, reads_w: true, depth: Depth::Computed },
-    /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and height
-    /// of the picture.
+    /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and
+    /// height of the picture.
     ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
     /// The list of the texel, composed nearest first, premultiplied, with the transmittance as alpha.
     /// `params.color`: width and height of the picture.
@@ -436,8 +436,8 @@ shaders! {
     MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed, position_only: true },
     /// Like `masked_color`, and discards if the texel's blue is below `params.color`'s.
     MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true, position_only: true },
-    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment as sample mask, with
-    /// all bits except the sample's own inverted. Runs once per sample.
+    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment as sample mask,
+    /// with all bits except the sample's own inverted. Runs once per sample.
     MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true, position_only: true },
     /// Moment-based transparency: absorbance to location 0, its moments along depth to location 1.
     MomentAbsorbance = "moment_absorbance" { outputs: 2, reads_depth: true },

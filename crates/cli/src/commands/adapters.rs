@@ -94,7 +94,7 @@ fn usable(adapters: &[&AdapterRecord]) -> String {
     groups.into_values().collect::<Vec<_>>().join("\n")
 }
 
-/// Adapters that cannot be used, with reasons; remedies only where they are wanted.
+/// Adapters that cannot be used, with reasons, and with remedies if requested.
 fn others(title: &str, adapters: &[AbsentAdapter], remedies: bool) -> String {
     let mut text = String::new();
     for adapter in adapters {

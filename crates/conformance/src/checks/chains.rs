@@ -90,7 +90,7 @@ pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Resolves and reads, then draws more and does both again.
+/// Resolves and reads an attachment, draws to it again, and resolves and reads it again.
 pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
     let many = |texels: [u32; 4], params: Value| {
         json!({ "color": ["many"], "resolve": ["one"], "draws": [

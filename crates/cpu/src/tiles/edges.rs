@@ -26,7 +26,7 @@ pub(crate) struct Edges {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Touch {
     None,
-    /// Some of them, or perhaps none.
+    /// The triangle covers some of the samples, or possibly none.
     Part,
     Whole,
 }

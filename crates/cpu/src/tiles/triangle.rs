@@ -16,21 +16,21 @@ pub(crate) struct Placed {
 pub(crate) struct Triangle {
     /// The vertices in the order of the primitive, on which the depth plane depends.
     pub(crate) corners: [Placed; 3],
-    /// The index of its rare properties in its part; `u32::MAX` if it has none.
+    /// The index of the triangle's rare properties in its part; `u32::MAX` if it has none.
     pub(crate) rare: u32,
     /// The depth code, if the triangle is flat.
     pub(crate) code: u32,
-    /// The index of its draw among the pass's kernels.
+    /// The index of the triangle's draw among the pass's kernels.
     pub(crate) draw: u32,
-    /// The index of its paint in its part.
+    /// The index of the triangle's paint in its part.
     pub(crate) paint: u32,
-    /// The first column, first row, last column and last row of the texels that it might cover.
+    /// The first column, first row, last column and last row of the texels that the triangle might cover.
     pub(crate) around: [i16; 4],
     pub(crate) front: bool,
     pub(crate) shape: Shape,
     /// True if the vertices are counter-clockwise on the screen.
     pub(crate) counter: bool,
-    /// True if scissor or viewport might cut it.
+    /// True if scissor or viewport might cut the triangle.
     pub(crate) cut: bool,
 }
 
@@ -41,7 +41,7 @@ const _: () = assert!(size_of::<Triangle>() == 64);
 pub(crate) struct Rare {
     /// The depth bias.
     pub(crate) bias: f64,
-    /// The vertices, if the colour is a texture's.
+    /// The vertices, if the colour comes from a texture.
     pub(crate) vertices: [u32; 3],
 }
 

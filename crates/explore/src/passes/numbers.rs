@@ -1,4 +1,4 @@
-//! Numbers: 0, 1, a half, or fewer digits.
+//! Simplifies numbers: to 0, 1, a half, or fewer digits.
 
 use super::words::walk;
 use crate::edit::{Edit, Place, Step, at, place};

@@ -174,7 +174,7 @@ fn told(info: &RunInfo, part: &AdapterRun) -> String {
     )
 }
 
-/// Returns the triage entry because of which a bad verdict does not count, if any.
+/// Returns the triage entry that keeps a bad verdict from counting, if any.
 ///
 /// An ignored case stays settled until triage changes it. A case that triage called real stays settled until
 /// a later run draws it right. If it breaks again after that, that is another change. Both settle wrong
