@@ -112,7 +112,7 @@ pub enum Argument {
     Bits(Vec<Constant>),
     /// An object of a kind, by the API's number, or 0. An earlier call created it.
     Object(String, u64),
-    /// The place where the call stores the numbers of new objects of a kind.
+    /// The memory in which the call stores the numbers of new objects of a kind.
     Created(String, Vec<u64>),
     /// The address of these bytes.
     Bytes(Vec<u8>),

@@ -15,7 +15,7 @@ use etalon_backend::{RecordedContext, Recording};
 pub struct Program {
     /// The program's language.
     pub language: Language,
-    /// The files that it is built from, and other files that show the same bug.
+    /// The files from which the program is built, and other files that show the same bug.
     pub files: Vec<File>,
 }
 

@@ -141,7 +141,7 @@ pub enum Moment {
     },
 }
 
-/// What a submission has stored so far: the attachments, and the counters with their kinds.
+/// The data that a submission has stored so far: the attachments, and the counters with their kinds.
 #[derive(Debug)]
 pub struct Stored<'a> {
     /// The attachments, in the scene's order.

@@ -297,9 +297,9 @@ pub enum Step {
         front: bool,
         /// The shader; `None` without a fragment shader.
         shader: Option<String>,
-        /// The colour that it returns.
+        /// The colour that the shader returns.
         color: [ValueRange; 4],
-        /// The attachments that it reads, and the texel of each.
+        /// The attachments that the shader reads, and the texel of each.
         texels: Vec<(String, [ValueRange; 4])>,
     },
     /// The sample mask that the shader reads.
@@ -320,7 +320,7 @@ pub enum Step {
     },
     /// The shader's own sample mask.
     ShaderMask {
-        /// The bits that it writes.
+        /// The bits that the shader writes.
         bits: ValueRange,
     },
     /// The sample mask of the draw.
@@ -422,7 +422,7 @@ pub enum Step {
     },
     /// The shader writes the stencil reference.
     StencilExport {
-        /// The number that it writes.
+        /// The number that the shader writes.
         written: i32,
         /// The reference: the lowest 8 bits of the value.
         reference: u8,

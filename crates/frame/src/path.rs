@@ -251,7 +251,7 @@ path_values! {
     Views(PathViews) = "views" {
         /// The attachment's format.
         Same = "same",
-        /// The format with sRGB conversion if the attachment lacks it, without if it has it.
+        /// The texture's format has sRGB conversion if the attachment's has not, and vice versa.
         Srgb = "srgb",
         /// Unsigned integers of the same number of bits.
         Uint = "uint",

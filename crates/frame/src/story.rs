@@ -148,7 +148,7 @@ pub enum Demand {
         texel: [u32; 2],
         /// The channels that differ. The first side's value is given as legal, the second side's as actual.
         channels: Vec<ChannelMismatch>,
-        /// The clause that demands it.
+        /// The clause that demands equality.
         citation: String,
     },
 }
@@ -225,9 +225,9 @@ pub enum Reason {
     Resolved(Event),
     /// A draw passes its tests and leaves the value unchanged.
     Kept(Event),
-    /// Draws end before the sample for the same reason.
+    /// Draws do not reach the sample, all for the same reason.
     Ended {
-        /// The event that ends the first of them.
+        /// The event that ends the first draw.
         by: Event,
         /// The number of draws.
         draws: usize,
@@ -255,7 +255,7 @@ pub enum Returned {
     Kept {
         /// The contents.
         contents: Contents,
-        /// The operation that stored them.
+        /// The operation that stored the earlier contents.
         from: Source,
     },
 }

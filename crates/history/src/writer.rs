@@ -32,7 +32,7 @@ pub struct Writer {
 pub enum Added {
     /// The run was added.
     New(RunId),
-    /// The history already had it, and is unchanged.
+    /// The history already had the run, and is unchanged.
     Already(RunId),
 }
 

@@ -27,7 +27,7 @@ pub enum ReductionError {
     Lost {
         /// The name of the adapter.
         adapter: String,
-        /// Why it did not start.
+        /// Why the worker did not start.
         error: StartError,
     },
     /// The adapter lacks what the case needs.

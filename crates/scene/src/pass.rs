@@ -113,7 +113,7 @@ impl<V: Copy> LoadOperation<V> {
 }
 
 state_enum! {
-    /// What happens to an aspect at the end of a pass.
+    /// The fate of an aspect's contents at the end of a pass.
     #[derive(Default)]
     StoreOperation {
         /// The aspect keeps its contents.

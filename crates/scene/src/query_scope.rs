@@ -1,4 +1,4 @@
-//! What one query encloses.
+//! The part of a scene that one query encloses.
 
 use etalon_frame::state_enum;
 use schemars::JsonSchema;

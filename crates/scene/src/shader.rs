@@ -18,11 +18,11 @@ struct Facts {
     wgsl: &'static str,
     /// False if there is only a vertex shader.
     fragment: bool,
-    /// True if it reads the parameter block.
+    /// True if the shader reads the parameter block.
     params: bool,
     /// True if the vertex shader outputs only a position.
     position_only: bool,
-    /// True if it reads interpolated texture coordinates as numbers.
+    /// True if the shader reads interpolated texture coordinates as numbers.
     uv: bool,
     /// How these are interpolated.
     interpolation: Interpolation,
@@ -32,41 +32,41 @@ struct Facts {
     either: bool,
     /// The number of textures that it reads.
     textures: usize,
-    /// True if it samples its texture instead of fetching single texels.
+    /// True if the shader samples its texture instead of fetching single texels.
     sampler: bool,
-    /// True if it also samples at coordinates that it computes.
+    /// True if the shader also samples at coordinates that it computes.
     taps: bool,
     /// The number of colour locations that it writes.
     outputs: usize,
-    /// True if it writes integers.
+    /// True if the shader writes integers.
     integers: bool,
-    /// True if it writes a second source for blending.
+    /// True if the shader writes a second source for blending.
     second_source: bool,
-    /// True if it writes a sample mask.
+    /// True if the shader writes a sample mask.
     mask: bool,
-    /// True if it reads a sample mask.
+    /// True if the shader reads a sample mask.
     reads_mask: bool,
-    /// True if it writes the stencil reference.
+    /// True if the shader writes the stencil reference.
     reference: bool,
-    /// The depth that it writes.
+    /// The depth that the shader writes.
     depth: Depth,
-    /// True if it can discard fragments.
+    /// True if the shader can discard fragments.
     discards: bool,
     /// The number of clip distances that its vertices output.
     clip_distances: u32,
     /// The number of cull distances that its vertices output.
     cull_distances: u32,
-    /// True if it counts its runs in a storage buffer.
+    /// True if the shader counts its runs in a storage buffer.
     counter: bool,
-    /// How it uses the scene's pool.
+    /// How the shader uses the scene's pool.
     pool: PoolUse,
-    /// True if it runs once per sample.
+    /// True if the shader runs once per sample.
     per_sample: bool,
-    /// True if it reads the fragment's coordinates in the picture.
+    /// True if the shader reads the fragment's coordinates in the picture.
     coordinates: bool,
-    /// True if it reads the fragment's depth.
+    /// True if the shader reads the fragment's depth.
     reads_depth: bool,
-    /// True if it reads 1 over the clip-space w.
+    /// True if the shader reads 1 over the clip-space w.
     reads_w: bool,
 }
 

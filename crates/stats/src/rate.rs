@@ -71,7 +71,7 @@ impl Slope {
         Some([1.0 / high, 1.0 / low])
     }
 
-    /// Returns true if the interval of the rate is within a share of it.
+    /// Returns true if the interval of the rate is within a given fraction of the rate.
     pub fn is_within(&self, share: f64) -> bool {
         match (self.rate(), self.rate_interval()) {
             (Some(rate), Some(interval)) => is_within(rate, interval, share),

@@ -99,7 +99,7 @@ pub(super) struct PreparedSurface<'a> {
     pub(super) uv: Option<[Linear; 2]>,
     /// The largest rounding error of a depth.
     pub(super) slack: f64,
-    /// True if it hides everything behind it.
+    /// True if the surface hides everything behind it.
     pub(super) opaque: bool,
     /// The least and the largest value of any channel of its colour.
     pub(super) tones: [(f64, f64); 3],

@@ -21,7 +21,7 @@ pub(crate) struct Gpu {
     pub(crate) pools: RefCell<Pools>,
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
-    /// Dropped last: everything else was created from it.
+    /// The device is dropped last, because everything else was created from it.
     pub(crate) device: Device,
 }
 

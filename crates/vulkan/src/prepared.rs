@@ -339,7 +339,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-/// What the draws of a pass share within one of its areas.
+/// Data that the draws of a pass share within one of its areas.
 struct Drawing<'a> {
     device: &'a Device,
     state: PathState,

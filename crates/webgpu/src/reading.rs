@@ -98,7 +98,7 @@ pub struct ImageReading {
     /// The read path that the image declares. Multisampling is supported only if a shader returns the codes
     /// of a copy, or a shader also reads single samples; stencil is exact on both paths.
     pub read: ReadPath,
-    /// How it reaches the buffer.
+    /// How the image reaches the buffer.
     pub method: ReadMethod,
     /// The first byte.
     pub offset: u64,

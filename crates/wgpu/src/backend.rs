@@ -16,7 +16,7 @@ use wgpu::{Backends, InstanceFlags};
 pub enum Via {
     /// Vulkan.
     Vulkan,
-    /// OpenGL, or else OpenGL ES, through EGL.
+    /// OpenGL through EGL, or OpenGL ES if OpenGL is not available.
     Gl,
 }
 

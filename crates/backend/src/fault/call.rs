@@ -214,7 +214,7 @@ faults! {
     ClearFirstRange = "clear-first-range" in "sequence/layers/*/layers=written/*" of Vulkan;
     /// Resolved parts keep their places.
     ResolvePlace = "resolve-place" in "sequence/resolves/*";
-    /// After a clear, the second scissor rectangle is the first.
+    /// After a clear, the second scissor rectangle equals the first.
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// All channels of colour are written.
     WriteMaskOpen = "write-mask-open" in "paths/write-masks/*/start=load-operation" of WebGpu;

@@ -61,13 +61,13 @@ pub(crate) enum Shape {
 }
 
 impl Triangle {
-    /// Returns true if all of it has one depth.
+    /// Returns true if the triangle has a constant depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Flat | Shape::FlatNear | Shape::Small)
     }
 
-    /// Returns true if it is not larger than a tile.
+    /// Returns true if the triangle is not larger than a tile.
     #[inline(always)]
     pub(crate) fn is_near(&self) -> bool {
         !matches!(self.shape, Shape::Flat | Shape::Sloped)

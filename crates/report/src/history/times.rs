@@ -10,7 +10,7 @@ use etalon_stats::{ChangePoint, Changes, Point, change_points};
 
 /// The times that are shown as series.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
-/// A change in one of this number of last runs can count as found with the last run.
+/// The number of most recent runs in which a change can count as newly found.
 const RECENT: usize = 40;
 
 /// The times of one case on one adapter, one machine and one ruler.
