@@ -38,8 +38,8 @@ impl Query {
         self.over_passes && self.last.0 == pass
     }
 
-    /// Returns true if the query encloses other operations than draws: a clear, the load or store operations of a
-    /// pass, or a resolve.
+    /// Returns true if the query encloses operations other than draws: a clear, the load or store operations
+    /// of a pass, or a resolve.
     pub fn encloses_operations(&self, scene: &Scene) -> bool {
         let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
         let between = |before: usize| self.first.1 < before && before <= self.last.1;
