@@ -1,4 +1,4 @@
-//! Blits that move the texels of an attachment, and the copies that bring them back to their places.
+//! Blits that move the texels of an attachment, and the copies that move them back to their positions.
 //!
 //! The copies move texels without scaling, so a blit that works differently leaves a different picture. Each
 //! aspect has copies of its own, so a blit of one aspect that also affects the other is noticed.
@@ -17,12 +17,12 @@ pub struct Blit {
     pub to: [[u32; 2]; 2],
 }
 
-/// A copy of texels to their places in the attachment.
+/// A copy of texels to their positions in the attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// The first texel after the blits.
     pub from: [u32; 2],
-    /// Its place in the attachment.
+    /// The position in the attachment, in texels.
     pub to: [u32; 2],
     /// The width and the height.
     pub size: [u32; 2],
@@ -103,11 +103,12 @@ impl Blits {
         blits
     }
 
-    /// Returns the copies that bring an aspect back.
+    /// Returns the copies that move an aspect's texels back to their positions.
     pub fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
         let [width, height] = self.size;
         if self.end == PathEnd::BlitPart {
-            // Parts are mirrored to their new places: columns always, rows unless the aspect is stencil.
+            // The blits mirrored the positions of the parts: always the columns, and the rows unless the
+            // aspect is stencil.
             let place = |side: u32, (start, length): (u32, u32)| side - start - length;
             let rows = aspect != Aspect::Stencil;
             let mut pieces = Vec::new();

@@ -77,7 +77,7 @@ fn short_float(float: u32, mantissa: u32) -> u32 {
         128 if fraction != 0 => infinity | (fraction >> shift).max(1),
         16.. => infinity,
         -14..=15 => ((exponent + 15) as u32) << mantissa | fraction >> shift,
-        // Denormal in the shorter format.
+        // The value is subnormal in the shorter format.
         _ => (0x80_0000 | fraction)
             .checked_shr(shift + (-14 - exponent) as u32)
             .unwrap_or(0),

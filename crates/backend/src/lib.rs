@@ -94,7 +94,8 @@ pub trait Prepared {
     /// If the driver fails.
     fn submit(&mut self) -> Result<FrameTime, BackendError>;
 
-    /// Reads back what the scene asks for. [`Prepared::submit`] must have succeeded at least once.
+    /// Reads back the attachments and counters that the scene requests. [`Prepared::submit`] must have
+    /// succeeded at least once.
     ///
     /// # Errors
     /// If the driver fails.

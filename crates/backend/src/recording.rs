@@ -78,14 +78,14 @@ pub enum Phase {
     Read,
 }
 
-/// One call.
+/// A recorded call.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Call {
     /// The part of the work that the call belongs to.
     pub phase: Phase,
     /// The function's name in the API.
     pub function: String,
-    /// Its arguments.
+    /// The call's arguments.
     pub arguments: Vec<Argument>,
     /// The new object or location that the call returns, if later calls can use it.
     pub result: Option<Argument>,
@@ -112,7 +112,7 @@ pub enum Argument {
     Bits(Vec<Constant>),
     /// An object of a kind, by the API's number, or 0. An earlier call created it.
     Object(String, u64),
-    /// The place where the call stores the numbers of new objects of a kind.
+    /// The memory in which the call stores the numbers of new objects of a kind.
     Created(String, Vec<u64>),
     /// The address of these bytes.
     Bytes(Vec<u8>),
@@ -132,7 +132,7 @@ pub enum Argument {
     Struct {
         /// The name of the structure's type.
         kind: String,
-        /// Its size in bytes.
+        /// The structure's size in bytes.
         size: u64,
         /// The members in order.
         members: Vec<Member>,

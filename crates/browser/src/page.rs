@@ -4,9 +4,9 @@
 pub(crate) struct File {
     /// The path after the token.
     pub(crate) path: &'static str,
-    /// Its media type.
+    /// The media type.
     pub(crate) media: &'static str,
-    /// Its text.
+    /// The file's text.
     pub(crate) text: &'static str,
 }
 

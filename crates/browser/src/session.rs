@@ -38,8 +38,8 @@ impl Session {
         }
     }
 
-    /// Waits for a page until `deadline`. Returns the description of its device, or the reason why there is
-    /// none.
+    /// Waits for a page until `deadline`. Returns the description of its device, or the reason why no page
+    /// came.
     pub(crate) fn greeting(&self, deadline: Instant) -> Result<Hello, String> {
         let lives = || {
             let mut kept = self.kept.borrow_mut();

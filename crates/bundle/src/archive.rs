@@ -10,11 +10,11 @@ use thiserror::Error;
 /// A file of a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// Its name.
+    /// The file's name.
     pub name: String,
     /// A description for the report.
     pub about: String,
-    /// Its content.
+    /// The file's content.
     pub content: Vec<u8>,
 }
 

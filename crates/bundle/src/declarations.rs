@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// The functions that make the recorded calls.
 pub(crate) struct Body {
-    /// Their definitions.
+    /// The definitions of these functions.
     pub(crate) definitions: String,
     /// The statements that call them in order.
     pub(crate) calls: String,
@@ -117,8 +117,8 @@ impl Declarations {
         name
     }
 
-    /// Declares a new array of `bytes` and returns its name. The array has zeros, values if `print` accepts
-    /// all words, words, or single bytes.
+    /// Declares a new array of `bytes` and returns its name. Writes zeros without an initializer, values of
+    /// `print`'s type if it accepts all words, and otherwise 32-bit words or bytes.
     pub(crate) fn bytes(&mut self, bytes: &[u8], print: Option<Words>) -> String {
         self.arrays += 1;
         let name = format!("data_{}", self.arrays);

@@ -13,9 +13,9 @@ use etalon_backend::{RecordedContext, Recording};
 /// The program of a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// Its language.
+    /// The program's language.
     pub language: Language,
-    /// The files that it is built from, and other files that show the same bug.
+    /// The files from which the program is built, and other files that show the same bug.
     pub files: Vec<File>,
 }
 

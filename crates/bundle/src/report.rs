@@ -44,9 +44,9 @@ pub struct Report {
 /// The result of an API's own checks: debug output, or a validation layer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Checks {
-    /// They report nothing.
+    /// The API's checks report nothing.
     Clean,
-    /// They were not available.
+    /// The API's checks were not available.
     Absent,
     /// The API accepts the calls, but the checks of the API below it report this about the calls of its
     /// implementation.

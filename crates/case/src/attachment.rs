@@ -182,7 +182,7 @@ fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
             let code = encoding.nearest_code(value);
             let found = encoding.value_of_order(encoding.order_of_code(code));
             let limit = encoding.value_of_order(encoding.max_order());
-            // A decimal number means the nearest 32-bit float; a shorter format must represent that float
+            // A decimal number stands for the nearest 32-bit float, which a shorter format must represent
             // exactly.
             let hit = encoding == ChannelEncoding::Float32 || found as f32 == value as f32;
             if value.abs() > limit || !hit {

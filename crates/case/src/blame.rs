@@ -1,7 +1,7 @@
-//! The place in a case file that an error of one case comes from.
+//! Finds the position in a case file that causes an error of one case.
 //!
 //! A scene is checked after all values have been substituted, so an error refers to a key of the scene. The
-//! axis value is at fault if `"$name"` is in that place, or if the same scene builds with every other value
+//! axis value is at fault if that key contains `"$name"`, or if the same scene builds with every other value
 //! that is tried.
 
 use crate::error::At;
@@ -91,7 +91,7 @@ impl CaseRef<'_> {
         path
     }
 
-    /// Returns the only axis whose other values all build; `None` if there is no such axis, or several.
+    /// Returns the only axis whose other values all build; `None` if there is not exactly one.
     fn by_other_values(&self) -> Option<String> {
         let lengths: Vec<(&String, usize)> = self
             .file
@@ -177,7 +177,7 @@ mod tests {
         );
         let error = first_error("rgba8unorm", "\"$rect\"", "\"less\"");
         assert_eq!((error.line, error.key.as_str()), (7, "axes.rect[1].value"));
-        // The pass refuses the attachment: the error is at the pass's key, the fault is the format's.
+        // The pass refuses the attachment. The error is at the pass's key, but its cause is the format.
         let error = first_error("$format", "null", "\"less\"");
         assert_eq!((error.line, error.key.as_str()), (5, "axes.format[1]"));
         assert!(

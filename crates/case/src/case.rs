@@ -8,7 +8,7 @@ use etalon_scene::Scene;
 use std::collections::BTreeSet;
 use std::num::NonZeroU32;
 
-/// One fully expanded unit of work.
+/// A fully expanded case.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The stable id.
@@ -25,7 +25,7 @@ pub struct Case {
     pub variants: Vec<Variant>,
     /// The relation between the frames of scene and variants.
     pub relation: Option<Relation>,
-    /// Literal values that must come back.
+    /// Values that texels of the frame must have.
     pub expect: Vec<Expect>,
     /// True if the case exists to be measured. Its picture can be large, so only a sample of its texels is
     /// judged.
@@ -34,7 +34,7 @@ pub struct Case {
     pub method: Option<Method>,
 }
 
-/// One literal colour that must come back.
+/// A colour that a texel of the frame must have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expect {
     /// Index into the scene's attachments.
@@ -66,7 +66,7 @@ impl Case {
         std::iter::once((&self.scene, own.collect())).chain(others.map(|v| (&v.scene, vec![1])))
     }
 
-    /// Returns the index of the scene that a frame is judged by: 0 for the case's own, including when it is
+    /// Returns the index of the scene by which a frame is judged: 0 for the case's own scene, even if it is
     /// read again, otherwise the variant's index plus 1.
     pub fn judged_index(&self, frame: usize) -> usize {
         let variant = frame.checked_sub(1).and_then(|v| self.variants.get(v));

@@ -1,6 +1,6 @@
 //! Texels that distinguish rows, columns, channels and bits, computed from the format.
 //!
-//! A table of them in a case file would be long, and a missing bit would go unnoticed.
+//! A table of these texels in a case file would be long, and a missing bit would be easy to overlook.
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
@@ -8,8 +8,8 @@ use etalon_frame::{ChannelEncoding, TextureFormat};
 const STEPS: [u32; 4] = [1, 3, 5, 7];
 
 /// Returns the codes of an attachment, texel by texel, row by row. Integer channels go through all their
-/// codes, each at its own pace and from another start in each round; float channels take normal numbers of
-/// every exponent, of both signs if they have a sign.
+/// codes, each at its own pace and from another start in each round. Float channels take normal numbers of
+/// every exponent, and of both signs if they have a sign.
 pub(crate) fn codes(format: TextureFormat, [width, height]: [u32; 2]) -> Vec<u32> {
     let channels = format.color_channels();
     let texels = 0..width.saturating_mul(height);
@@ -44,7 +44,7 @@ fn integer(bits: u8, channel: u32, texel: u32) -> u32 {
     (place * step + round * 11 + channel * 85) % codes
 }
 
-/// Returns a normal number: the conversion of others is partly open.
+/// Returns a normal number, since the conversion of other numbers is partly open.
 fn float(exponent_bits: u8, mantissa_bits: u8, signed: bool, channel: u32, texel: u32) -> u32 {
     let mixed = mixed(texel * STEPS.len() as u32 + channel);
     let mantissa = mixed & ((1 << mantissa_bits) - 1);
@@ -117,7 +117,7 @@ mod tests {
                     assert!(!same, "{format}: channels {a} and {b}");
                 }
             }
-            // A moved or turned block of two by two texels is noticed anywhere.
+            // A moved or turned block of two by two texels is noticed at any position.
             for y in 1..height {
                 for x in 1..width {
                     assert_ne!(texel(x, y), texel(x - 1, y), "{format} {x},{y}");

@@ -126,7 +126,7 @@ mod tests {
         let (mut scenes, mut left_out) = (0, 0);
         for reference in library.cases(Profile::Full) {
             let case = reference.build().expect("built-in cases build");
-            // Large scenes add nothing, and take long.
+            // Large scenes take long and would test nothing more.
             let draws = || case.scene.passes.iter().flat_map(|p| &p.draws);
             let vertices: usize = draws().map(|d| d.mesh.vertices.len()).sum();
             if case.scene.bytes() > 1 << 14 || vertices > 500 {

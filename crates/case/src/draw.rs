@@ -170,7 +170,7 @@ const FARTHEST_UV: f32 = 64.0;
 
 /// Checks the state that decides which samples are drawn.
 fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
-    // With one sample, these two change nothing in any API.
+    // With one sample, these two states change nothing in any API.
     let rest = Multisample {
         min_sample_shading: None,
         sample_coverage: None,
@@ -773,7 +773,7 @@ mod tests {
             assert!(multisample(&shading(1.0), samples).is_ok());
             assert!(multisample(&shading(1.5), samples).is_err());
             assert!(multisample(&shading(f32::NAN), samples).is_err());
-            // OpenGL clamps it.
+            // OpenGL clamps the value.
             assert!(multisample(&coverage(-1.0), samples).is_ok());
             assert!(multisample(&coverage(f32::INFINITY), samples).is_err());
         }

@@ -250,7 +250,7 @@ mod tests {
             &format!("{place}.depth.write"),
             "expected a boolean",
         );
-        // The item after one that unrolls to two.
+        // The item after an item that unrolls to two.
         let wrong = draws("\"$other\"", "true");
         refused(
             &wrong,

@@ -5,7 +5,7 @@ use etalon_frame::shortened;
 use std::fmt;
 use thiserror::Error;
 
-/// An error in a case file, with its place.
+/// An error in a case file, with its position.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct CaseError {
     /// The file.

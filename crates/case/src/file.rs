@@ -25,7 +25,7 @@ pub enum Profile {
     /// `quick`, everything. Files of methods keep all methods, at some values of the other axes.
     #[default]
     Quick,
-    /// Everything.
+    /// The whole product.
     Full,
 }
 
@@ -39,7 +39,7 @@ pub struct CaseFile {
     count: usize,
 }
 
-/// One case of a file, by its index in the product of the axes.
+/// A case of a file, by its index in the product of the axes.
 #[derive(Clone, Copy, Debug)]
 pub struct CaseRef<'a> {
     pub(crate) file: &'a CaseFile,
@@ -164,7 +164,7 @@ impl CaseFile {
     /// Returns the file as JSON with its lists unrolled.
     pub(crate) fn json(&self) -> Value {
         let mut file = serde_json::from_str(&self.text).unwrap_or_default();
-        // Parsing the file has shown that they can be unrolled.
+        // Parsing the file has already shown that the lists can be unrolled.
         let _unrolled = unroll(&mut file);
         file
     }

@@ -43,7 +43,7 @@ impl Library {
         Ok(Self { files })
     }
 
-    /// Returns all files ending in `.json` below a folder, each as a result of its own.
+    /// Returns all files ending in `.json` below a folder, each with its own result.
     pub fn read_each(folder: &Path) -> Vec<Result<CaseFile, CaseError>> {
         let mut names = Vec::new();
         if let Err(error) = collect(folder, "", &mut Vec::new(), &mut names) {

@@ -41,7 +41,7 @@ impl CaseFile {
         given.map_or("scene", |(key, _)| key)
     }
 
-    /// Returns a warning at a key of the file; a number is an index into a list.
+    /// Returns a warning at a key of the file; numbers are indices into lists.
     pub fn warning(&self, keys: &[&str], message: impl Into<String>) -> CaseError {
         let steps = keys.iter().rev();
         let at = steps.fold(At::new(message), |at, key| match key.parse() {

@@ -9,15 +9,15 @@ type Pair = (usize, usize, usize, usize);
 /// The coverage that the rows must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cover {
-    /// Each pair of values of any two axes, at least once.
+    /// Each pair of values of any two axes occurs at least once.
     Pairs,
-    /// Each value this many times, or as often as the product allows.
+    /// Each value occurs this many times, or as often as the product allows.
     Each(usize),
 }
 
 /// Returns distinct rows that cover `cover` over axes of these lengths, chosen greedily and
-/// deterministically. Values that no open pair determines are the least used ones, so that all occur about
-/// equally often and together with different others.
+/// deterministically. If no open pair determines a value, the least used value is taken, so that all values
+/// occur about equally often and in different combinations.
 pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
     let mut state = State::new(lengths);
     match cover {
@@ -96,8 +96,8 @@ impl<'a> State<'a> {
     }
 
     /// Returns a row with the fixed values. Axis by axis, it takes the value that covers most open pairs;
-    /// among equals, the least used one; among these, the first from a start that differs by axis, so that
-    /// two axes with the same values do not always show the same one.
+    /// among equals, the least used value; among these, the first value after a start that differs by axis,
+    /// so that two axes with the same values do not always show the same one.
     fn row(&self, fixed: &[(usize, usize)]) -> Vec<usize> {
         let mut row: Vec<Option<usize>> = vec![None; self.lengths.len()];
         for (axis, value) in fixed {
@@ -169,7 +169,7 @@ mod tests {
                 for (axis, length) in lengths.iter().enumerate() {
                     for value in 0..*length {
                         let found = rows.iter().filter(|r| r[axis] == value).count();
-                        // A value of one axis can occur only with each combination of the others.
+                        // The values of one axis can only occur as often as the others have combinations.
                         let expected = times.min(all / length).min(3);
                         assert!(
                             found >= expected,

@@ -1,7 +1,7 @@
-//! Paths that a scene cannot take.
+//! Refuses paths that a scene cannot take.
 //!
-//! A value applies only to attachments and draws to which it can apply. A scene with none is refused, since
-//! its case would claim to test something that no driver executes.
+//! Not every value of a path applies to every attachment and draw. A scene to which a value does not apply at
+//! all is refused, since its case would claim to test something that no driver executes.
 
 use crate::error::At;
 use etalon_frame::{
@@ -56,7 +56,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     .any(|p| p.moved_resolves(&scene.path).next().is_some()),
             "no color is resolved, passes have layers, or a color is not 0 or 1 over whole texels",
         ),
-        // Only the last stage before rasterization chooses a viewport, and patches cannot be restarted.
+        // Only the last stage before rasterization can select a viewport, and patches cannot be restarted.
         PathValue::Viewport(PathViewport::Array) | PathValue::Draws(PathDraws::Restart)
             if tessellated =>
         {
@@ -305,7 +305,7 @@ mod tests {
             if value.to_string() == "views=srgb" {
                 scene["attachments"]["color"]["format"] = json!("rgba8unorm");
             }
-            // The shader's values are its parameters, which one of the paths requires.
+            // The shader reads its values from parameters, as one of the paths requires.
             scene["passes"][0]["draws"][0]["shader"] = json!("uniform_color");
             scene["passes"][0]["clears"] =
                 json!([{ "before": 0, "color": 0, "value": [0, 0, 0, 0] }]);

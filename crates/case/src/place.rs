@@ -1,4 +1,4 @@
-//! The place in a file's text that a path leads to.
+//! Finds the position in a file's text to which a path leads.
 //!
 //! A path counts unrolled list items ([`crate::each`]). It leads to the item that unrolls to them, or to the
 //! wrong value in its `each`.
@@ -7,7 +7,7 @@ use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
-/// The key of the values that an item unrolls with.
+/// The key of the values with which an item unrolls.
 pub(crate) const EACH: &str = "each";
 
 /// A step of a path into a JSON document.
@@ -17,7 +17,7 @@ pub(crate) enum Step {
     Index(usize),
 }
 
-/// A place in a file.
+/// A position in a file.
 pub(crate) struct Place {
     /// The line, from 1; 0 if the text is not JSON.
     pub(crate) line: usize,
@@ -28,7 +28,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Returns the place of the value at a path, or of its nearest existing ancestor.
+    /// Returns the position of the value at a path, or of its nearest existing ancestor.
     pub(crate) fn new(text: &str, path: &[Step]) -> Self {
         let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
         let parsed = parsed.ok().and_then(|parsed| parsed.value);
@@ -110,13 +110,13 @@ fn each<'a>(item: &'a Value<'a>) -> Option<&'a Object<'a>> {
     value.as_object()
 }
 
-/// Returns the index, in the list as written, of an unrolled item, and its number among the items that this
-/// one unrolls to.
+/// Returns the index, in the list as written, of the item that unrolls to a given item, and the number of the
+/// given item among those it unrolls to.
 fn item(list: &Array, mut index: usize, bound: &[Bound]) -> Option<(usize, usize)> {
     for (place, item) in list.elements.iter().enumerate() {
         let first = each(item).and_then(|each| each.properties.first());
         let values = first.and_then(|first| values(&first.value, bound));
-        // An item with a wrong `each` counts as one.
+        // An item with an invalid `each` counts as one item.
         let count = values.map_or(1, |(list, _)| list.elements.len().max(1));
         if index < count {
             return Some((place, index));

@@ -1,4 +1,4 @@
-//! Query scopes that a scene cannot have.
+//! Refuses query scopes that a scene cannot have.
 
 use crate::error::At;
 use etalon_frame::PathCommands;

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 pub(crate) enum Flavor {
     /// Depth, stencil, blending, culling, masks, scissor and viewport, in the form that every API has.
     Common,
-    /// The same with four samples, sample masks and alpha to coverage.
+    /// [`Flavor::Common`] with four samples, sample masks and alpha to coverage.
     Multisample,
     /// [`Flavor::Common`] plus one state per scene that only some APIs have: separate stencil masks, two
     /// sources, logic operations, depth bounds, depth clamp or reversed depth.
@@ -116,7 +116,7 @@ const BEHIND: [[[f64; 3]; 3]; 6] = [
 
 /// Returns the scene of a seed. A seed must always give the same scene, because ids contain it.
 pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
-    // Flavours with the same seed share nothing.
+    // Flavours with the same seed make unrelated scenes.
     let mut dice = Dice(SplitMix64(seed ^ (0x9e37_79b9 * (flavor as u64 + 1))));
     let samples = if flavor == Flavor::Multisample { 4 } else { 1 };
     let extra = match flavor {
@@ -189,8 +189,8 @@ struct Maker {
     samples: u32,
     extra: Extra,
     palette: Palette,
-    /// True if alpha is 0 or 1. With two bits of alpha, values in between would be legal as different thirds,
-    /// and as a factor they would carry that into the colours.
+    /// True if alpha is 0 or 1. With two bits of alpha, values in between could legally round to different
+    /// thirds, and as factors these would affect the colours.
     whole_alpha: bool,
     /// The stencil reference that all draws share. If each draw had its own, comparisons with the stored value
     /// would almost never find both equal.
@@ -202,7 +202,7 @@ impl Maker {
     fn draw(&mut self, index: u32) -> Value {
         let (shader, textures) = match self.extra {
             Extra::DualSource => ("texel_dual_source", json!(["first", "second"])),
-            // The first draw always writes one.
+            // The first draw always writes a stencil reference.
             Extra::Exported if index == 0 || self.dice.range(0, 2) > 0 => {
                 let shaders = [
                     "exported_color",
@@ -341,7 +341,8 @@ impl Maker {
         }
     }
 
-    /// Returns a scissor rectangle; none with several samples, where a driver's bug would hide all others.
+    /// Returns a scissor rectangle. Multisampled scenes get none, because a known driver bug would hide all
+    /// others.
     fn scissor(&mut self) -> Value {
         match self.samples {
             1 => json!(self.rect()),
@@ -349,7 +350,7 @@ impl Maker {
         }
     }
 
-    /// Returns a rectangle of at least 11 texels a side that is not the whole.
+    /// Returns a rectangle of at least 11 texels a side that is smaller than the attachment.
     fn rect(&mut self) -> [u32; 4] {
         let (x, y) = (self.dice.range(0, 4), self.dice.range(0, 4));
         let side = |dice: &mut Dice, start| dice.range(11, SIZE - start - u32::from(start == 0));
@@ -474,7 +475,7 @@ impl Maker {
             ])
         };
         let second = self.extra == Extra::DualSource;
-        // Not every API has constant alpha as a factor for colours.
+        // Some APIs lack constant alpha as a factor for colours.
         let usable = |factor: &BlendFactor, is_color: bool| {
             (second || !factor.is_second_source())
                 && !(is_color

@@ -45,8 +45,8 @@ const DEPTH: [Option<(CompareFunction, bool)>; 5] = [
 /// The maximum number of draws, which is the number of states.
 const MOST: u32 = 500;
 
-/// A number coprime to [`MOST`]: stepping by it reaches every state once, and each step changes several
-/// things.
+/// A number coprime to [`MOST`]. Steps of this size reach every state once, and each step changes several
+/// parts of the state.
 const STRIDE: u32 = 137;
 
 /// Returns the scene with this many draws.

@@ -1,7 +1,7 @@
 //! One draw for each tile of the attachments: thousands of draws in a line of a case file.
 //!
-//! Every draw has a tile to itself, so that a draw that is lost, or left over from an earlier batch, shows
-//! there and nowhere else.
+//! Every draw has a tile to itself, so that a draw that is lost, or left over from an earlier batch, is
+//! visible there and nowhere else.
 
 use crate::error::At;
 use crate::wire::{DrawWire, TileBy, TilesWire};

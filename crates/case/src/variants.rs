@@ -12,7 +12,7 @@ use std::num::NonZeroU32;
 /// A changed scene, or the case's own scene read again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// Its name in records.
+    /// The variant's name in records.
     pub name: String,
     /// The scene that adapters draw.
     pub scene: Scene,

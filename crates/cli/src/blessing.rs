@@ -94,7 +94,7 @@ fn write_findings(folder: &Path, blessing: &Blessing) -> Result<(), Failure> {
             .by_ref()
             .map(|name| folder.join(format!("{name}.json")))
             .find(|path| !path.exists());
-        // The names never run out, so a free path always exists.
+        // There is no end of names, so a free path always exists.
         let Some(path) = free else { continue };
         replace(&path, &finding.to_text().map_err(Failure::usage)?)?;
     }

@@ -1,4 +1,4 @@
-//! Builds and runs the program of a bundle, as its reader will.
+//! Builds and runs the program of a bundle, as the recipient of the bundle will.
 
 use crate::failure::Failure;
 use crate::output::say;
@@ -21,9 +21,9 @@ const LOCK: &str = include_str!("../../../Cargo.lock");
 pub(crate) struct ProgramRun {
     /// The exit status; `None` if a signal or the timeout ended it.
     pub(crate) status: Option<i32>,
-    /// The exit status or the timeout, in words.
+    /// A text for the exit status or the timeout.
     pub(crate) ending: String,
-    /// The last line of its output.
+    /// The last line of the program's output.
     pub(crate) line: String,
     /// Files that the build made and that belong to the program.
     pub(crate) made: Vec<File>,
@@ -70,7 +70,7 @@ pub(crate) fn built_and_run(
 enum Unbuilt {
     /// This machine lacks something.
     Here(String),
-    /// The compiler refuses it.
+    /// The compiler refuses the program.
     Wrong {
         /// The first line that names an error.
         line: String,
@@ -95,8 +95,8 @@ fn built_c(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
     Ok(Vec::new())
 }
 
-/// Builds a Rust package, and copies its program to `repro` in a folder. All programs are built in one place,
-/// one after another, so that their dependencies are compiled once. Returns the lock file.
+/// Builds a Rust package, and copies its program to `repro` in a folder. All programs are built in the same
+/// folder, one after another, so that their dependencies are compiled once. Returns the lock file.
 fn built_rust(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
     let place = place().unwrap_or_else(|| folder.to_owned());
     let package = place.join("package");

@@ -1,4 +1,4 @@
-//! The catalogue of a run's cases, for its page: each scene in words, with the rasterizer's picture.
+//! The catalogue of a run's cases, for its page: a description of each scene, with the rasterizer's picture.
 
 use crate::processors::processors;
 use crate::scene_text;

@@ -1,4 +1,4 @@
-//! Checks cases without drawing them: what they assert, how sharply, and where their inputs leave a driver a
+//! Checks cases without drawing them: what they assert, how sharply, and which inputs leave a driver a
 //! choice.
 //!
 //! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of
@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 /// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
 const SUB_PIXEL_BITS: u8 = 4;
 
-/// One case, checked.
+/// A case and what checking it found.
 pub(crate) struct CheckedCase {
     pub(crate) id: String,
     /// The assertions of the legal set and of the yardstick, per aspect; empty if the case is measured rather
@@ -45,7 +45,7 @@ pub(crate) struct AttachmentChannel {
     pub(crate) channel: usize,
 }
 
-/// One file, checked.
+/// A case file and what checking it found.
 pub(crate) struct CheckedFile {
     pub(crate) name: String,
     pub(crate) errors: Vec<CaseError>,

@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let input = BufReader::new(io::stdin());
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
-    // It ends with this process.
+    // The server ends with this process.
     let mut server = None;
     let open = || {
         server = started_server(&what)?;

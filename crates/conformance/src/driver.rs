@@ -36,9 +36,9 @@ pub const GALLIUM_INSTALL: &str =
 
 /// How tests open a driver, and what they know about it.
 pub struct Driver<'a> {
-    /// Its missing features and known faults.
+    /// The driver's missing features and known faults.
     pub known: Known,
-    /// Environment variables of the process that opens it; if empty, it is opened in this process.
+    /// Environment variables of the process that opens the driver. If empty, this process opens it.
     pub environment: Vec<(&'a str, String)>,
     /// Opens it, with validation if requested. Panics on failure, since nothing would be tested.
     pub open: fn(bool) -> Box<dyn Backend>,

@@ -25,11 +25,11 @@ pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASK
 pub struct Known {
     /// The adapter's name.
     pub name: &'static str,
-    /// The API whose rules apply to it.
+    /// The API whose rules apply to the adapter.
     pub api: Api,
-    /// Its missing features; if nothing is known, it may lack any.
+    /// The features that the driver lacks; `None` if unknown, which excuses any missing feature.
     pub lacks: Option<Lacks>,
-    /// Checks that it fails, which are not run.
+    /// Checks that the driver fails. They are not run.
     pub defects: &'static [&'static [Defect]],
 }
 
@@ -326,8 +326,8 @@ const WGPU_GL_WRONG: &[Defect] = &[
     ("raster::strips_begin_again", "strips that are joined"),
     ("fetch::short_strips_begin_again", "strips that are joined"),
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
-    // It offers four samples even if the driver supports only one, and creates no texture from which a
-    // shader could read them.
+    // wgpu's OpenGL offers four samples even if the driver supports only one, and creates no texture from
+    // which a shader could read them.
     (FOUR_SAMPLES, "textures of four samples that stay empty"),
     (SAMPLE_MASKS, "gl_SampleMask and gl_SampleMaskIn as one integer, which does not compile"),
 ];

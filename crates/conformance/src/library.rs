@@ -31,7 +31,7 @@ impl Share {
 /// several targets.
 const TWO_SOURCES: Requirement = Requirement::Feature(Feature::DualSourceBlending);
 
-/// Draws a share of the built-in cases, and prints its size. Only cases that the limits deny may fail, and
+/// Draws a subset of the built-in cases, and prints its size. Only cases that the limits deny may fail, and
 /// validation must report nothing.
 ///
 /// # Panics
@@ -40,7 +40,7 @@ pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
     draw_area(subject, "", profile, share);
 }
 
-/// Draws a share of the built-in cases whose files' names begin with `area`, as [`draw_library`] does.
+/// Draws a subset of the built-in cases whose files' names begin with `area`, as [`draw_library`] does.
 ///
 /// # Panics
 /// If anything fails, or if nothing was drawn.

@@ -15,11 +15,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 /// The predicted result of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Prediction {
-    /// It draws a scene.
+    /// The check draws a scene.
     Draws,
-    /// It draws nothing on any driver.
+    /// The check draws nothing on any driver.
     OnlyLooks,
-    /// It is skipped.
+    /// The check is skipped.
     Skips,
 }
 

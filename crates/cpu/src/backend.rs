@@ -21,7 +21,7 @@ use etalon_frame::{
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
 
-/// The number of texels of the largest attachment from which on a scene is drawn in tiles.
+/// The least number of texels of a scene's largest attachment for the scene to be drawn in tiles.
 const LEAST_TEXELS: usize = 64 * 64;
 
 /// The rasterizer.
@@ -90,8 +90,8 @@ impl CpuBackend {
     }
 }
 
-/// Returns how a scene is drawn, in words: a line with the kernels of each draw, or the reason why the span
-/// code draws the scene.
+/// Returns a description of how a scene is drawn: a line with the kernels of each draw, or the reason why the
+/// span code draws the scene.
 pub fn kernels(scene: &Scene) -> Vec<String> {
     lines(scene, LEAST_TEXELS)
 }

@@ -1,7 +1,7 @@
 //! Primitives that reach behind the eye, or beyond the positions to which vertices can be snapped.
 //!
 //! Triangles are not clipped: their edges are lines in homogeneous coordinates, and depths and attributes are
-//! the whole triangle's. Lines get new ends.
+//! those of the whole triangle. Lines get new ends.
 
 use crate::linear::{UNITS, Varying};
 use crate::planes::{Planes, Vertex, plane_bias, viewport};
@@ -180,7 +180,7 @@ impl CutTriangle {
 }
 
 /// Returns the line with new ends if it reaches behind the eye, crosses the near or far plane, or reaches far
-/// out. `None` if nothing of it is left.
+/// out. Returns `None` if the whole line is clipped.
 pub(crate) fn line(draw: &Draw, ends: [Vertex; 2]) -> Option<[Vertex; 2]> {
     let outside = |v: &Vertex| !draw.depth_clamp && !(0.0..=1.0).contains(&v.clip_z);
     if !ends.iter().any(|v| is_cut(draw, v) || outside(v)) {

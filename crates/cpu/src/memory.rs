@@ -1,4 +1,4 @@
-//! What a submission has stored so far.
+//! The data that a submission has stored so far.
 
 use crate::lists::Lists;
 use crate::steps::Stored;

@@ -92,7 +92,7 @@ fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> Vertex {
     }
 }
 
-/// What the primitives of a draw share.
+/// Data that the primitives of a draw share.
 struct Raster<'a, S> {
     draw: &'a Draw,
     steps: &'a S,
@@ -227,7 +227,7 @@ fn fill<S: Steps>(
             let mut any = false;
             for (mask, sample) in masks.iter_mut().zip(samples) {
                 let edges = triangle.edges_at(position(x, y, *sample));
-                // An edge function is linear, so if both ends have the same sign, the whole span has it.
+                // An edge function is linear, so if both ends have the same sign, the whole span does.
                 let last = |(value, dx): &(i64, i64)| value + dx * (LANES as i64 - 1) * UNITS;
                 if edges.iter().any(|edge| edge.0 < 0 && last(edge) < 0) {
                     *mask = [false; LANES];

@@ -58,7 +58,7 @@ struct Face {
     written: Option<WrittenReferences>,
 }
 
-/// The references that a shader wrote, and the part of them that it added for the sample.
+/// The references that a shader wrote, and the amount that it added to them for the sample.
 type WrittenReferences = ([i32; LANES], i32);
 
 impl Face {

@@ -53,7 +53,7 @@ pub struct Exported {
     pub path: Option<Path>,
     /// The references that the shader wrote, one per texel.
     pub written: [i32; LANES],
-    /// The part of the references that the shader added for the sample.
+    /// The amount that the shader added to the references for the sample.
     pub plus: i32,
     /// The index of the texel.
     pub lane: usize,
@@ -72,7 +72,7 @@ pub struct InputBit {
     pub samples: usize,
     /// True if the primitive covers the bit's sample.
     pub covered: bool,
-    /// True if the sample mask and sample coverage include it.
+    /// True if the sample mask and sample coverage include the bit's sample.
     pub drawn: bool,
     /// True if the run shades the bit's sample.
     pub shaded: bool,
@@ -141,7 +141,7 @@ pub enum Moment {
     },
 }
 
-/// What a submission has stored so far: the attachments, and the counters with their kinds.
+/// The data that a submission has stored so far: the attachments, and the counters with their kinds.
 #[derive(Debug)]
 pub struct Stored<'a> {
     /// The attachments, in the scene's order.

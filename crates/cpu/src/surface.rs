@@ -111,7 +111,7 @@ impl Surface {
         }
     }
 
-    /// Returns the rows and columns of a rectangle; without one, all of them.
+    /// Returns the rows and columns of a rectangle; without a rectangle, all rows and columns.
     fn area(&self, rect: Option<[u32; 4]>) -> (Range<usize>, Range<usize>) {
         match rect.map(|r| r.map(|v| v as usize)) {
             Some([x, y, w, h]) => (y..y + h, x..x + w),

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Blessing {
     /// All entries of a list, with the new ones at the end.
     pub entries: Vec<Entry>,
-    /// The new entries as findings, each with a name for its file: driver, case file and verdict.
+    /// The new entries as findings, each with a file name made from driver, case file and verdict.
     pub findings: Vec<(String, Finding)>,
     /// The number of new entries.
     pub added: usize,

@@ -106,8 +106,8 @@ impl Condition {
         format!("{which} of {axes}: {failing} of {matching}, none else")
     }
 
-    /// Returns globs that name the failing cases of a file and no other drawn case, each at least one;
-    /// `None` if too many would be needed.
+    /// Returns globs that name the failing cases of a file and no other drawn case. Each glob names at least
+    /// one case; `None` if too many would be needed.
     pub fn globs(&self, file: &str, failing: &[&str]) -> Option<Vec<String>> {
         if !self.is_exact() {
             return None;

@@ -53,13 +53,13 @@ impl Key {
     }
 }
 
-/// One way to fail, with the reduced form of its first scene.
+/// A way to fail, with the reduced form of its first scene.
 pub struct Group<S> {
-    /// Its first scene, reduced.
+    /// The group's first scene, reduced.
     pub scene: S,
     /// The number of scenes.
     pub count: u64,
-    /// The number of scenes that were reduced to it.
+    /// The number of scenes that were reduced to the group's key.
     pub reduced: u64,
     /// The verdict.
     pub verdict: Verdict,
@@ -104,13 +104,13 @@ impl<S> Group<S> {
         }
     }
 
-    /// Returns true if all states of its first scene belong to the failure. A scene that was not reduced
-    /// still has nearly all its states.
+    /// Returns true if all states of the group's first scene belong to the failure. A scene that was not
+    /// reduced still has nearly all its states.
     pub fn can_be_compared(&self) -> bool {
         self.key.states.is_some() || !self.verdict.is_violation()
     }
 
-    /// Returns true if a finding explains it.
+    /// Returns true if a finding explains the group.
     pub fn is_explained(&self) -> bool {
         self.known.as_ref().is_some_and(Match::is_exact)
     }

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The number of cases that are tried for one failure, and how many of each finding.
+/// The number of cases that are tried for one failure, in total and per finding.
 const TRIED: usize = 12;
 const TRIED_OF_EACH: usize = 3;
 /// The number of cases that represent each finding, for failures that have more states than a single case.
@@ -34,7 +34,7 @@ pub trait Driver {
     /// Returns true if the search must stop.
     fn is_stopped(&self) -> bool;
 
-    /// Returns the document of a case; `None` if it cannot be written as one.
+    /// Returns the document of a case; `None` if the case cannot be written as a document.
     fn document(&self, named: &Self::Named) -> Option<Value>;
 
     /// Draws a document. Returns `None` if the driver cannot draw it, or if it is too large to be reduced.
@@ -128,7 +128,7 @@ struct Reduced<C> {
     case: C,
     symptom: Symptom,
     traits: Traits,
-    /// Whether it fails in a new process; `None` until that was tried.
+    /// Whether the case fails in a new process; `None` until that was tried.
     steady: Option<bool>,
 }
 

@@ -30,7 +30,7 @@ const VALUES: [&str; 5] = ["blend_constant", "clear", "clears", "operations", "p
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Signature(BTreeSet<String>);
 
-/// How much of a scene becomes the signature.
+/// The parts of a scene that become its signature.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Detail {
     /// Keys, and the words of some keys.
@@ -115,12 +115,13 @@ impl Signature {
     }
 
     /// Returns true if another signature has all keys of this one, so that its scene can show the same
-    /// failure. A signature without keys is within none, because otherwise it would be within all.
+    /// failure. The result is false for a signature without keys, because every signature has all of its
+    /// keys.
     pub fn is_within(&self, other: &Self) -> bool {
         !self.0.is_empty() && self.0.is_subset(&other.0)
     }
 
-    /// Returns the signature with groups of keys in place of keys: `stencil` for all of its keys. Words are
+    /// Returns the signature with groups of keys instead of keys: `stencil` for all of its keys. Words are
     /// kept, except depth and stencil formats, since most bugs do not depend on a particular one.
     #[must_use]
     pub fn coarse(&self) -> Self {
@@ -155,12 +156,12 @@ impl Signature {
         Self(self.0.iter().filter(kept).cloned().collect())
     }
 
-    /// Returns the number of its keys and words.
+    /// Returns the number of keys and words.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Returns true if it has no keys.
+    /// Returns true if the signature has no keys.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -170,7 +171,7 @@ impl Signature {
         self.0.intersection(&other.0).count()
     }
 
-    /// Returns what this signature has and another one lacks.
+    /// Returns the keys and words of this signature that another signature lacks.
     #[must_use]
     pub fn without(&self, other: &Self) -> Self {
         Self(self.0.difference(&other.0).cloned().collect())

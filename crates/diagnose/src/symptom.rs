@@ -64,11 +64,11 @@ pub enum Subject {
     Relation(String),
     /// The process that drew the case was lost.
     Process {
-        /// How it was lost.
+        /// How the process was lost.
         kind: LossKind,
-        /// The signal that ended it.
+        /// The signal that ended the process.
         signal: Option<i32>,
-        /// Its exit status.
+        /// The process's exit status.
         exit: Option<i32>,
     },
     /// The backend failed.
@@ -82,9 +82,9 @@ pub enum Subject {
 pub enum Direction {
     /// All wrong values are too high.
     High,
-    /// All are too low.
+    /// All wrong values are too low.
     Low,
-    /// Some are too high, and some too low.
+    /// Some wrong values are too high, and some too low.
     Both,
 }
 
@@ -244,7 +244,7 @@ impl fmt::Display for Subject {
 }
 
 impl Direction {
-    /// Returns the word for how much too many a counter counts.
+    /// Returns `little` or `much`, for a counter that counts too little or too much.
     pub(crate) fn amount(self) -> &'static str {
         match self {
             Self::Low => "little",
@@ -267,9 +267,9 @@ pub(crate) fn names(operations: &[Operation]) -> String {
     names.join(", ")
 }
 
-/// Returns the clause that the driver violates: that of the last operation that cites one. Coverage cites
-/// one for primitives elsewhere too, so it is used only if no other operation cites one. `None` if pictures
-/// must be equal, because no single operation decides that.
+/// Returns the clause that the driver violates: the clause of the last operation that cites one. Coverage
+/// cites a clause even for primitives elsewhere, so its clause is used only if no other operation cites any.
+/// `None` if pictures must be equal, because no single operation decides that.
 pub fn violated_clause(story: &Story) -> Option<&str> {
     if invariance(&story.events).is_some() {
         return None;

@@ -16,9 +16,9 @@ use std::fmt;
 pub struct Traits {
     /// The violation.
     pub way: Violation,
-    /// Its states.
+    /// The states of the failing scene.
     pub states: Signature,
-    /// Its states with their words.
+    /// The states of the failing scene, with their values.
     pub words: Signature,
 }
 
@@ -78,9 +78,9 @@ impl fmt::Display for Violation {
 pub enum Likeness {
     /// The same violation, states and words.
     Same,
-    /// All groups of states of the known failure, and its violation, possibly with more states.
+    /// The known failure's violation and all its groups of states, possibly with further states.
     Alike,
-    /// The same with another violation; the failures share several groups of states.
+    /// Several of the known failure's groups of states, but another violation.
     Elsewhere,
 }
 
@@ -94,7 +94,7 @@ impl Traits {
         }
     }
 
-    /// Returns how similar this failure is to a known one; `None` if it lacks a part of it.
+    /// Returns how similar this failure is to a known one; `None` if it lacks a part of the known failure.
     pub fn likeness(&self, known: &Self) -> Option<Likeness> {
         // If this failure does not depend on its vertices, those of the known failure are ignored.
         let own_vertices = self.words != self.words.without_vertices();
@@ -139,7 +139,7 @@ impl Traits {
         }
     }
 
-    /// Returns true if reducing the larger failure could give one with these traits.
+    /// Returns true if reducing the larger failure could give a failure with these traits.
     pub fn may_be_left_of(&self, larger: &Self) -> bool {
         self.way.may_be_left_of(&larger.way)
     }

@@ -76,7 +76,7 @@ pub(crate) fn passes_of(document: &Value) -> usize {
     list(&document["scene"], "passes").len()
 }
 
-/// Returns the places of all draws.
+/// Returns the paths of all draws.
 pub(crate) fn draws_of(document: &Value) -> Vec<Place> {
     let passes = list(&document["scene"], "passes").iter();
     let each = passes.enumerate().flat_map(|(p, pass)| {

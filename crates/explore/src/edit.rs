@@ -11,20 +11,19 @@ pub(crate) enum Step {
     Item(usize),
 }
 
-/// A place in a document.
+/// The path of a value in a document.
 pub(crate) type Place = Vec<Step>;
 
 /// Several changes that are made together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Edit {
-    /// New values, by place. The last step may be a new key.
+    /// New values, by path. The last step can be a new key.
     pub(crate) replace: Vec<(Place, Value)>,
-    /// Keys and items that are removed, after all replacements. Places refer to the document before the
-    /// edit.
+    /// Keys and items that are removed, after all replacements. Paths refer to the document before the edit.
     pub(crate) remove: Vec<Place>,
 }
 
-/// Returns a place from keys and numbers: `place!["passes", 0, "draws"]`.
+/// Makes a path of keys and numbers: `place!["passes", 0, "draws"]`.
 macro_rules! place {
     ($($step:expr),* $(,)?) => {
         vec![$($crate::edit::Step::from($step)),*]
@@ -44,14 +43,14 @@ impl From<usize> for Step {
     }
 }
 
-/// Returns a place extended by a step.
+/// Returns a path extended by a step.
 pub(crate) fn below(place: &[Step], step: impl Into<Step>) -> Place {
     let mut below = place.to_vec();
     below.push(step.into());
     below
 }
 
-/// Returns the value at a place.
+/// Returns the value at a path.
 pub(crate) fn at<'v>(value: &'v Value, place: &[Step]) -> Option<&'v Value> {
     place.iter().try_fold(value, |value, step| match step {
         Step::Key(key) => value.get(key),
@@ -67,7 +66,7 @@ fn at_mut<'v>(value: &'v mut Value, place: &[Step]) -> Option<&'v mut Value> {
 }
 
 impl Edit {
-    /// Returns an edit that removes one place.
+    /// Returns an edit that removes the value at a path.
     pub(crate) fn removal(place: Place) -> Self {
         Self {
             replace: Vec::new(),
@@ -83,7 +82,7 @@ impl Edit {
         }
     }
 
-    /// Returns the edited document; `None` if a place does not exist or nothing changes.
+    /// Returns the edited document; `None` if a path does not exist or nothing changes.
     pub(crate) fn apply(&self, document: &Value) -> Option<Value> {
         let mut edited = document.clone();
         for (place, value) in &self.replace {
@@ -99,7 +98,7 @@ impl Edit {
                 _ => return None,
             }
         }
-        // Later items of a list are removed first, so that the places of the others stay valid.
+        // Later items of a list are removed first, so that the paths of the others stay valid.
         let mut remove = self.remove.clone();
         remove.sort_unstable();
         remove.dedup();

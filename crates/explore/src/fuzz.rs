@@ -19,10 +19,10 @@ const MADE: usize = 3;
 /// The maximum number of scenes that are made before giving up.
 const MOST_MADE: u64 = 24;
 
-/// One random scene.
+/// A random scene.
 #[derive(Clone, Debug)]
 pub struct RandomScene {
-    /// Its index, from 0.
+    /// The scene's index, from 0.
     pub index: u64,
     /// The case and its document.
     pub candidate: Candidate,

@@ -31,7 +31,7 @@ pub struct Budget<'a> {
 }
 
 impl<'a> Budget<'a> {
-    /// Limits the number of drawings, but not the time.
+    /// Limits how often scenes are drawn, but not the time.
     pub fn draws(draws: usize) -> Self {
         Self {
             draws,
@@ -91,7 +91,8 @@ pub struct Reduction {
     pub finished: bool,
 }
 
-/// Reduces a case that fails by the oracle. Cases that cannot be drawn are not passed to the oracle.
+/// Reduces a case that fails according to the oracle. Cases that cannot be drawn are not passed to the
+/// oracle.
 pub fn reduce(
     failing: Candidate,
     budget: Budget<'_>,

@@ -1,7 +1,7 @@
 //! The space of scenes: the features of the adapters that will draw them.
 //!
-//! Scenes that no adapter draws find nothing, so what all adapters lack is never chosen. What an adapter
-//! lacks only in combination, such as a format with samples, is left to the check of each scene.
+//! Scenes that no adapter draws find nothing, so features that all adapters lack are never chosen. Missing
+//! combinations, such as a format with several samples, are left to the check of each scene.
 
 use etalon_frame::{Feature, Limits, PathValue, TextureFormat};
 use std::collections::{BTreeMap, BTreeSet};

@@ -23,7 +23,7 @@ pub struct Accuracy {
     pub encoding: Option<ChannelEncoding>,
     /// The number of channel values about which the yardstick asserts something.
     pub channels: u64,
-    /// Their mean distance.
+    /// The mean distance of the channels.
     pub mean: f64,
     /// The largest distance; a code that stands for no finite value counts as 2^32 away.
     pub max: f64,
@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(distance(float, at(1.0), next(1.0)), 1.0);
         assert_eq!(distance(float, at(0.5), next(0.5)), 1.0);
         assert_eq!(distance(float, at(1000.0), next(1000.0)), 1.0);
-        // A value 2^-24 from zero is one step away, not a thousand million steps.
+        // A value 2^-24 from zero counts as one step away, not as a billion steps.
         assert_eq!(distance(float, at(0.0), order(2_f32.powi(-24))), 1.0);
         assert_eq!(
             distance(float, at(-0.25), order(0.25)),
@@ -299,7 +299,7 @@ mod tests {
             ]
         );
         assert!(!result[0].is_alike(&result[1]));
-        // As shares of the encodings' ranges, the distances are comparable.
+        // Relative to the encodings' ranges, the distances are comparable.
         assert_eq!(
             result[0].max / ChannelEncoding::Unorm(8).range(),
             2.0 / 255.0

@@ -49,7 +49,7 @@ pub struct WrongTexel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TexelCounts {
-    /// All samples judged.
+    /// The number of judged samples.
     pub total: u64,
     /// Samples outside the legal set.
     pub wrong: u64,

@@ -75,8 +75,8 @@ impl Codes {
 
 /// A closed range of values; an end can be infinite or NaN.
 ///
-/// Written as text, `0.5` or `0.5..0.75`, and read back bit for bit: JSON has no infinities, and JSON readers
-/// can be off by a unit in the last place.
+/// It is written as text, `0.5` or `0.5..0.75`, and read back bit for bit, because JSON has no infinities,
+/// and JSON readers can be off by a unit in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// The lowest value.

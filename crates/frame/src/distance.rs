@@ -14,7 +14,7 @@ pub struct Distance {
     /// 8-bit sRGB: values are clamped to 0 to 1 and rounded to codes without the sRGB curve, as if a display
     /// showed them that way.
     pub flip: f64,
-    /// Share of texels that differ by more than 2 of 255 in some channel, 0 to 1.
+    /// Fraction of texels that differ by more than 2 of 255 in some channel, 0 to 1.
     pub wrong: f64,
     /// The largest error of the truth itself in any channel of any texel: 0 if it is in closed form.
     pub truth_error: f64,

@@ -46,8 +46,8 @@ impl ChannelEncoding {
         u32::MAX >> (32 - self.bits().clamp(1, 32))
     }
 
-    /// Returns the distance of the whole range in codes: for a normalized or integer encoding from one end to
-    /// the other, for a float from a power of two to the next one.
+    /// Returns the size of the range in codes: for a normalized or integer encoding, the whole range; for a
+    /// float, from one power of two to the next.
     pub fn range(self) -> f64 {
         match self {
             Self::Unorm(bits) | Self::Uint(bits) => f64::from(bits).exp2() - 1.0,
@@ -197,7 +197,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// Returns the smallest order that a number is converted to: of the two codes of -1, the upper one.
+    /// Returns the smallest order to which a number is converted: for -1, which has two codes, the upper one.
     fn least_converted(self) -> i64 {
         match self {
             Self::Snorm(_) => -self.max_order(),
@@ -208,7 +208,7 @@ impl ChannelEncoding {
     /// Returns an order near that of a number, if there is a cheap way to find one.
     fn guess(self, value: f64) -> Option<i64> {
         match self {
-            // `as` saturates.
+            // The cast saturates.
             Self::Unorm(_) | Self::Snorm(_) => Some((value * self.max_order() as f64) as i64),
             Self::Uint(_) => Some(value as i64),
             Self::Float16 => Some(self.order_of_code(f16::from_f64(value).to_bits().into())),

@@ -7,7 +7,7 @@ use crate::contents::{Codes, Contents, ValueRange};
 use crate::format::Aspect;
 use serde::{Deserialize, Serialize};
 
-/// One operation on one sample.
+/// An operation on a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Event {
@@ -99,8 +99,8 @@ pub enum Origin {
 }
 
 impl Event {
-    /// Returns true if both events have the same place in the same scene; all primitives of a draw count as
-    /// one place.
+    /// Returns true if both events have the same position in the same scene. All primitives of a draw count
+    /// as one position.
     pub fn is_beside(&self, other: &Self) -> bool {
         let place = match (&self.origin, &other.origin) {
             (Origin::Draw { .. }, Origin::Draw { .. }) => self.origin.draw() == other.origin.draw(),
@@ -135,7 +135,7 @@ impl Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Effect {
-    /// It decides nothing about the sample.
+    /// The operation decides nothing about the sample.
     #[default]
     None,
     /// The draw, the primitives or the fragment end here.
@@ -184,13 +184,13 @@ pub enum Rejection {
     Coverage,
     /// The sides of the view volume clip the primitive.
     Viewport,
-    /// The near or the far plane clips it.
+    /// The near or the far plane clips the primitive.
     NearFar,
-    /// A clip distance clips it.
+    /// A clip distance clips the primitive.
     ClipDistance,
-    /// All of its vertices have a negative cull distance.
+    /// All vertices of the primitive have a negative cull distance.
     CullDistance,
-    /// Its face is culled.
+    /// The primitive's face is culled.
     Culling,
     /// The scissor rectangle excludes the texel.
     Scissor,
@@ -216,7 +216,7 @@ pub enum Rejection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Step {
-    /// A pass draws to attachments of another size or sample count than the sample's.
+    /// A pass draws to attachments whose size or sample count differs from the sample's.
     OtherAttachments {
         /// Width and height in texels.
         size: [u32; 2],
@@ -282,11 +282,11 @@ pub enum Step {
         /// The cull mode.
         mode: String,
     },
-    /// Sample coverage by a share.
+    /// Sample coverage (a fraction of the samples).
     SampleCoverage {
-        /// The share of samples that are covered.
+        /// The fraction of samples that are covered.
         share: f32,
-        /// True if the covered samples are excluded instead.
+        /// True if the coverage is inverted, so that the other samples are drawn.
         inverted: bool,
         /// The sample.
         sample: u32,
@@ -297,9 +297,9 @@ pub enum Step {
         front: bool,
         /// The shader; `None` without a fragment shader.
         shader: Option<String>,
-        /// The colour that it returns.
+        /// The colour that the shader returns.
         color: [ValueRange; 4],
-        /// The attachments that it reads, and the texel of each.
+        /// The attachments that the shader reads, and the texel of each.
         texels: Vec<(String, [ValueRange; 4])>,
     },
     /// The sample mask that the shader reads.
@@ -313,14 +313,14 @@ pub enum Step {
     Discard {
         /// The value that is compared.
         value: ValueRange,
-        /// The limit that it must reach.
+        /// The limit that the value must reach.
         limit: ValueRange,
         /// True if the value must exceed the limit.
         strict: bool,
     },
     /// The shader's own sample mask.
     ShaderMask {
-        /// The bits that it writes.
+        /// The bits that the shader writes.
         bits: ValueRange,
     },
     /// The sample mask of the draw.
@@ -377,7 +377,7 @@ pub enum Step {
     StoreDepth {
         /// The depth.
         depth: ValueRange,
-        /// Its codes in the attachment.
+        /// The stored codes of the depth.
         codes: Codes,
     },
     /// Depth is not stored.
@@ -422,9 +422,9 @@ pub enum Step {
     },
     /// The shader writes the stencil reference.
     StencilExport {
-        /// The number that it writes.
+        /// The number that the shader writes.
         written: i32,
-        /// Its lowest 8 bits.
+        /// The reference: the lowest 8 bits of the value.
         reference: u8,
         /// The reference of the draw.
         draw: u8,
@@ -460,7 +460,7 @@ pub enum ResolveChoice {
     Average,
     /// The first sample.
     First,
-    /// One of the samples.
+    /// The value of any one sample.
     Any,
 }
 

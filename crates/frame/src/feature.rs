@@ -63,7 +63,7 @@ state_enum! {
         FragmentShaderAbsent = "fragment-shader-absent",
         /// Draws without a fragment shader that have colour attachments, with all channels masked.
         FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
-        /// Fragment shaders that write storage with atomics, for later passes to read.
+        /// Fragment shaders that write storage with atomics; later passes read it.
         FragmentStorage = "fragment-storage",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
@@ -85,7 +85,7 @@ state_enum! {
         MaskedClears = "masked-clears",
         /// The operations `min` and `max` with factors other than `one` (which they ignore).
         MinMaxBlendFactors = "min-max-blend-factors",
-        /// A minimum share of a texel's samples with shader runs of their own.
+        /// Sample shading: the shader runs for at least a given fraction of each texel's samples.
         MinSampleShading = "min-sample-shading",
         /// A viewport of negative height, which flips the picture.
         MirroredViewport = "mirrored-viewport",
@@ -102,7 +102,7 @@ state_enum! {
         RasterizerDiscard = "rasterizer-discard",
         /// A viewport whose near depth is above its far depth.
         ReversedDepthRange = "reversed-depth-range",
-        /// Drawing only a share of a texel's samples, or only the others, whatever the fragment covers.
+        /// Sample coverage: drawing only a given fraction of each texel's samples, or only the rest.
         SampleCoverage = "sample-coverage",
         /// Sample masks that fragment shaders read.
         SampleMaskInput = "sample-mask-input",

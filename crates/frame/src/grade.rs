@@ -10,9 +10,9 @@ state_enum! {
     Grade: array {
         /// A contested reading: the specification contradicts itself, or its versions contradict each other.
         Disputed = "disputed",
-        /// The specification leaves it open, but a case of the Khronos CTS's mustpass lists does not.
+        /// The specification leaves the value open, but a case on the Khronos CTS's mustpass lists does not.
         RequiredByCts = "required-by-cts",
-        /// A must of the specification.
+        /// A "must" in the specification.
         Proven = "proven",
     }
 }

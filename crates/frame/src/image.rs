@@ -11,7 +11,7 @@ use thiserror::Error;
 pub enum ReadPath {
     /// The API copied the attachment's codes.
     Copy,
-    /// A shader read the attachment and stored what it saw. A normalized depth arrives as a 32-bit float,
+    /// A shader read the attachment and stored the values. A normalized depth arrives as a 32-bit float,
     /// whose rounding the legal set includes.
     Shader,
 }
@@ -72,7 +72,7 @@ pub enum FrameError {
         /// The number of requested images.
         expected: usize,
     },
-    /// The frame has another number of counts than the legal set has counters.
+    /// The number of the frame's counts differs from the number of the legal set's counters.
     #[error("the frame has {actual} counts, {expected} were requested")]
     CounterCount {
         /// The number of counts that came back.
@@ -80,7 +80,7 @@ pub enum FrameError {
         /// The number of requested counts.
         expected: usize,
     },
-    /// An image differs from the one requested in its place.
+    /// An image of the frame is not the requested one.
     #[error("image {index} of the frame is {actual}, {expected} was requested")]
     Image {
         /// Position in the frame.

@@ -84,7 +84,7 @@ path_values! {
         Static = "static",
         /// Between the draws, with extended dynamic state 3 in addition.
         ExtendedDynamic3 = "extended-dynamic-3",
-        /// As with extended dynamic state 3, but while another pipeline is bound, before the draw's own.
+        /// Like extended dynamic state 3, but set before the draw's own pipeline is bound.
         BeforePipeline = "before-pipeline",
         /// Between the draws, including the logic operation.
         DynamicLogic = "dynamic-logic",
@@ -122,7 +122,7 @@ path_values! {
     }
     /// The command buffers of a submission.
     Commands(PathCommands) = "commands" {
-        /// One command buffer.
+        /// A single command buffer.
         One = "one",
         /// A primary command buffer for each pass.
         Several = "several",
@@ -143,8 +143,8 @@ path_values! {
         Instanced = "instanced",
         /// With arguments from a buffer.
         Indirect = "indirect",
-        /// With arguments from a buffer, and the number of draws from another place; it is less than the
-        /// stated maximum.
+        /// Arguments come from a buffer, and so does the number of draws, which is less than the stated
+        /// maximum.
         IndirectCount = "indirect-count",
         /// With arguments from a buffer, while a buffer for draw counts is bound that no call reads.
         IndirectBeside = "indirect-beside",
@@ -163,7 +163,7 @@ path_values! {
         Blit = "blit",
         /// A blit that mirrors in both directions; its texels are read in reverse order.
         BlitMirrored = "blit-mirrored",
-        /// A blit that makes six texels from one; one of the six is read.
+        /// A blit that scales one texel to six. One of the six is read.
         BlitScaled = "blit-scaled",
         /// Blits of parts that change places, one aspect at a time.
         BlitPart = "blit-part",
@@ -178,14 +178,14 @@ path_values! {
     }
     /// The render area.
     Area(PathArea) = "area" {
-        /// All of the attachments.
+        /// The whole attachments.
         Full = "full",
-        /// A half: every pass is recorded once for each half of its attachments.
+        /// Half the attachments: every pass is recorded once for each half.
         Part = "part",
     }
     /// The calls that clear within passes.
     Clears(PathClears) = "clears" {
-        /// One for each clear.
+        /// One call for each clear.
         Each = "each",
         /// One call for consecutive clears: of several attachments, aspects or rectangles.
         Together = "together",
@@ -196,28 +196,28 @@ path_values! {
     Results(PathResults) = "results" {
         /// Once.
         Once = "once",
-        /// Twice; the second result counts.
+        /// Queries are read twice; the second result counts.
         Twice = "twice",
     }
     /// The convention of the clip volume.
     Clip(PathClip) = "clip" {
-        /// The same for all draws.
+        /// Clipping is the same for all draws.
         Constant = "constant",
-        /// Toggled between the draws.
+        /// The convention is toggled between the draws.
         Toggled = "toggled",
     }
     /// Viewports and scissor rectangles.
     Viewport(PathViewport) = "viewport" {
-        /// One; the pipeline states the number.
+        /// One viewport; the pipeline states the number.
         One = "one",
-        /// One; the number is set together with it.
+        /// One viewport; its command also sets the number.
         WithCount = "with-count",
-        /// An array; a shader selects its second element.
+        /// An array of viewports; a shader selects the second.
         Array = "array",
     }
     /// The layers of a pass.
     Layers(PathLayers) = "layers" {
-        /// One.
+        /// A single layer.
         One = "one",
         /// Three layers: a shader selects the second once and the third once. Attachments alternate between the
         /// two when they are read.
@@ -228,30 +228,30 @@ path_values! {
     }
     /// The tests of aspects that a pass does not have.
     Tests(PathTests) = "tests" {
-        /// Off.
+        /// The tests are off.
         Off = "off",
-        /// On, with functions that never pass: without an attachment this must have no effect.
+        /// The tests are on, with functions that never pass. Without an attachment they must have no effect.
         Unattached = "unattached",
     }
     /// The colour attachments of passes.
     Colors(PathColors) = "colors" {
-        /// All attached.
+        /// All attachments of the pass.
         Attached = "attached",
         /// Only attachments that something reads; the locations of the others are empty.
         Gaps = "gaps",
     }
     /// How colors are resolved.
     Resolves(PathResolves) = "resolves" {
-        /// As part of the pass.
+        /// Resolves are part of the pass.
         Attached = "attached",
-        /// By commands after the pass, each for a part that it moves.
+        /// Commands after the pass resolve the attachment in parts, and move each part.
         Moved = "moved",
     }
     /// The format of the textures that color attachments are views of.
     Views(PathViews) = "views" {
         /// The attachment's format.
         Same = "same",
-        /// The format with sRGB conversion if the attachment lacks it, without if it has it.
+        /// The texture's format has sRGB conversion if the attachment's has not, and vice versa.
         Srgb = "srgb",
         /// Unsigned integers of the same number of bits.
         Uint = "uint",

@@ -31,11 +31,11 @@ pub struct Story {
     pub told: Vec<ToldLine>,
 }
 
-/// One line of a story from a run folder before format 4.
+/// A line of a story in a run folder older than format 4.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToldLine {
-    /// The place in the scene; for a verdict, its subject.
+    /// The position in the scene; for a verdict, its subject.
     pub at: String,
     /// The operation; `verdict` for the first line of most stories.
     pub operation: String,
@@ -146,9 +146,9 @@ pub enum Demand {
         sides: [Side; 2],
         /// The texel of the second picture.
         texel: [u32; 2],
-        /// The channels that differ: the first side's value as the legal one, the second side's as the actual one.
+        /// The channels that differ. The first side's value is given as legal, the second side's as actual.
         channels: Vec<ChannelMismatch>,
-        /// The clause that demands it.
+        /// The clause that demands equality.
         citation: String,
     },
 }
@@ -167,7 +167,7 @@ pub struct Values {
     pub more_outcomes: usize,
     /// The operations that decide, in order.
     pub reasons: Vec<Reason>,
-    /// The number of further draws that end before the sample.
+    /// The number of further draws that do not reach the sample.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub more_draws: usize,
     /// The values that came back, if there is a frame.
@@ -198,7 +198,7 @@ pub struct Allowed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initial {
-    /// It was cleared.
+    /// The attachment was cleared.
     Clear,
     /// Texels were uploaded.
     Upload,
@@ -225,9 +225,9 @@ pub enum Reason {
     Resolved(Event),
     /// A draw passes its tests and leaves the value unchanged.
     Kept(Event),
-    /// Draws end before the sample for the same reason.
+    /// Draws do not reach the sample, all for the same reason.
     Ended {
-        /// The event that ends the first of them.
+        /// The event that ends the first draw.
         by: Event,
         /// The number of draws.
         draws: usize,
@@ -255,7 +255,7 @@ pub enum Returned {
     Kept {
         /// The contents.
         contents: Contents,
-        /// The operation that stored them.
+        /// The operation that stored the earlier contents.
         from: Source,
     },
 }

@@ -74,7 +74,8 @@ pub(crate) fn open_with(
         .map_err(unusable)?;
     // Drops the messages that the probes caused.
     backend.context.messages();
-    // Arms the fault after the probes, which would otherwise deny what the scenes must find broken.
+    // Arms the fault after the probes. Otherwise the probes would deny the features that scenes must find
+    // broken.
     planted::arm(options.fault);
     Ok(backend)
 }

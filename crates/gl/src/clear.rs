@@ -62,8 +62,8 @@ impl ClearCall {
         calls.into_iter().map(|(_, call)| call).collect()
     }
 
-    /// Returns true if one call can replace both: they clear the same texels of different attachments, and
-    /// colours to one value under one mask.
+    /// Returns true if one call can replace both clears: they clear the same texels of different attachments,
+    /// with the same value and mask for colours.
     fn takes(&self, other: &Self) -> bool {
         let color = |target: &ClearTarget| match *target {
             ClearTarget::Color {

@@ -132,8 +132,8 @@ impl Context {
         }
     }
 
-    /// Returns the result of a finished `GL_TIME_ELAPSED` query in nanoseconds, unless the timer
-    /// was disjoint.
+    /// Returns the result of a finished `GL_TIME_ELAPSED` query in nanoseconds, or `None` if the timer was
+    /// disjoint.
     pub(crate) fn elapsed(&self, query: glow::Query) -> Option<u64> {
         let get = self.entry_points.get_query_result?;
         let mut nanoseconds = 0;

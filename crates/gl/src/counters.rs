@@ -33,7 +33,7 @@ impl Counters {
         }
     }
 
-    /// Returns the size of the storage buffer in bytes. If shaders count, every counter has a place in it.
+    /// Returns the size of the storage buffer in bytes. If shaders count, it contains every counter.
     pub(crate) fn storage_size(&self) -> usize {
         if self.kinds.contains(&CounterKind::ShaderRuns) {
             self.stride * self.kinds.len()

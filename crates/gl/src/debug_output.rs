@@ -1,4 +1,4 @@
-//! Debug output (KHR_debug): the messages that a correct program never causes.
+//! Debug output (KHR_debug): collects the messages that a correct program never causes.
 
 use std::ffi::{c_char, c_void};
 use std::sync::{Mutex, PoisonError};

@@ -70,14 +70,14 @@ pub(crate) struct Pass {
 pub(crate) struct Resolve {
     pub(crate) from: usize,
     pub(crate) to: usize,
-    /// The intermediate surface: parts are resolved to other places of it, and moved from there. `None` if
+    /// The intermediate surface: parts are resolved to other positions in it, and moved from there. `None` if
     /// the attachment is resolved in one step.
     pub(crate) between: Option<Surface>,
 }
 
 pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
-    /// The program of a second draw, the same to the other of two layers.
+    /// The program of a second draw, which repeats the draw to the other of two layers.
     pub(crate) again: Option<glow::Program>,
     pub(crate) state: DrawState,
     /// State that is set before the draw's own.
@@ -127,7 +127,7 @@ pub(crate) fn draw_all(
         }
     }
     let mut closed = false;
-    // The state that is set, if it is a draw's.
+    // The state that is currently set, if a draw set it.
     let mut set: Option<&DrawState> = None;
     for pass in passes {
         if std::mem::take(&mut closed) {
@@ -270,8 +270,8 @@ fn resolve(context: &Context, from: &Surface, to: &Surface) {
     }
 }
 
-/// Resolves the parts of a colour attachment to other places of an intermediate surface, and copies each part
-/// to its place in the target attachment.
+/// Resolves the parts of a colour attachment to other positions in an intermediate surface, and copies each
+/// part to its position in the target attachment.
 fn move_resolved(context: &Context, from: &Attachment, between: &Surface, to: &Attachment) {
     let pieces = Blits::new(PathEnd::BlitPart, to.surface.size());
     let pieces = pieces.map(|blits| blits.pieces(Aspect::Color));
@@ -298,7 +298,7 @@ fn move_resolved(context: &Context, from: &Attachment, between: &Surface, to: &A
     }
 }
 
-/// Copies the colours of a part of a surface to a place in another.
+/// Copies the colours of a part of a surface to a position in another.
 fn copy_part(
     context: &Context,
     (from, start): (&Surface, [u32; 2]),

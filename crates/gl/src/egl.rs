@@ -58,7 +58,7 @@ pub struct EglDevice {
     /// The renderer's name (`EGL_EXT_device_query_name`).
     pub renderer: Option<String>,
     /// The driver's short name in lower case: `radeonsi`, `nvidia`. `None` if EGL has no name, and for
-    /// software devices, which are not opened for it.
+    /// software devices, which are not opened to find out.
     pub driver: Option<String>,
 }
 

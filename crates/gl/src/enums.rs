@@ -109,7 +109,7 @@ pub(crate) fn advanced_equation(mode: AdvancedBlend) -> u32 {
     }
 }
 
-/// Returns the word of a mode in the layout qualifier that allows it (GLSL ES 3.20, 4.4.2.2).
+/// Returns the name of a mode in the layout qualifier that allows the mode (GLSL ES 3.20, 4.4.2.2).
 pub(crate) fn blend_support(mode: AdvancedBlend) -> &'static str {
     match mode {
         AdvancedBlend::Multiply => "multiply",

@@ -12,7 +12,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::CullDistances => caps.cull_distances,
         // OpenGL has no command buffers.
         Feature::InheritedQueries => false,
-        // Part of version 3.
+        // These are part of version 3.
         Feature::CentroidInterpolation
         | Feature::ClearCommands
         | Feature::ConstantAlphaBlendFactor

@@ -1,5 +1,5 @@
-//! The objects of a context that outlive a scene. They are apart from the backend because a prepared scene
-//! needs only these.
+//! The objects of a context that outlive a scene. They are separate from the backend because a prepared scene
+//! needs only them.
 
 use crate::context::Context;
 use crate::pool::Pool;
@@ -32,8 +32,8 @@ impl Objects {
         let gl = &context.gl;
         let refused = |message: String| Unavailable::new(message, "use another driver");
         let probed = probe::probe(context);
-        // The objects of scenes are created after the probes, so that a recording has these objects and
-        // nothing else.
+        // The objects of scenes are created after the probes, so that a recording contains only these
+        // objects.
         recording::begin(Phase::Prepare);
         // SAFETY: the context is current, and has had the limit since version 3.
         let (alignment, vertex_array, no_vertices, timer) = unsafe {

@@ -1,5 +1,5 @@
-//! How OpenGL draws on a path: the values that a context has, and what each means for an attachment, a draw
-//! or a read.
+//! How OpenGL draws on a path: the values that a context supports, and their meaning for an attachment, a
+//! draw or a read.
 //!
 //! Other modules call the functions here and do not read the path, so a new value changes only these
 //! functions.
@@ -18,7 +18,7 @@ use etalon_scene::{
 };
 use std::collections::BTreeSet;
 
-/// Returns the path values that a context with these features has. A format can lack some of them, as
+/// Returns the path values that a context with these features supports. A format can lack some of them, as
 /// [`target`] and [`end`] decide.
 pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
     let caps = &context.caps;
@@ -79,9 +79,9 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
     PathValue::all().into_iter().filter(has).collect()
 }
 
-/// Returns the part of a texture that the attachment is. An attachment that cannot be the part of the path is
-/// plain: multisampled attachments, since only textures with one layer guarantee sample positions; depth in a
-/// 3D texture; and renderbuffers whose texels are uploaded or read by a shader.
+/// Returns the part of a texture that serves as the attachment. If the attachment cannot be the part that the
+/// path names, it is a plain texture: multisampled attachments, since only textures with one layer guarantee
+/// sample positions; depth in a 3D texture; and renderbuffers whose texels are uploaded or read by a shader.
 pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> PathTarget {
     let attachment = &scene.attachments[index];
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
@@ -183,7 +183,7 @@ pub(crate) struct Variant {
 }
 
 /// Returns the variant of a pass's draw with this index. If the path toggles the origin, every second draw
-/// has the other one.
+/// has the other origin.
 pub(crate) fn variant(path: &Path, number: usize) -> Variant {
     Variant {
         mirrored: path.clip == PathClip::Toggled && number % 2 == 1,

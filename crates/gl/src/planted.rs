@@ -16,7 +16,7 @@ thread_local! {
 
 type Pointer = *const c_void;
 
-/// The driver's functions, and what was observed of the calls.
+/// The driver's functions, and the observed state of the calls.
 #[derive(Default)]
 struct Planted {
     driver: Driver,
@@ -79,8 +79,8 @@ macro_rules! driver {
     };
 }
 
-/// Declares the functions that replace the driver's. Each does something `before` it calls the driver's
-/// function with the arguments that result, or something `instead`.
+/// Declares the functions that replace the driver's. Each runs code `before` it calls the driver's function
+/// with the resulting arguments, or runs code `instead`.
 macro_rules! functions {
     ($($how:ident $name:ident $(| $alias:ident)* ($($arg:ident: $kind:ty),*) |$planted:ident| { $($body:tt)* })+) => {
         /// The driver's functions.
@@ -478,7 +478,7 @@ fn arrays(mode: u32, count: i32) -> DrawNumbers {
     }
 }
 
-/// Returns the numbers of a draw with indices of this type, which begin at this place.
+/// Returns the numbers of a draw with indices of this type, which begin at this offset.
 fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
     DrawNumbers {
         indexed: true,
@@ -562,7 +562,7 @@ impl Planted {
         if color.is_some_and(|color| self.calls.skips_equal_clear(image, color)) {
             return;
         }
-        // The layer that is read is not the first, or it is cleared there too.
+        // The fault clears only the first layer, which is never read, so the whole clear is skipped.
         if self.calls.has(CallFault::ClearFirstLayer) && self.layered.contains(&self.framebuffer) {
             return;
         }

@@ -136,7 +136,7 @@ impl<'a> PreparedScene<'a> {
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
         let initial = match &attachment.contents {
-            // Only `rgba32float` is supported without being drawable.
+            // `rgba32float` is the only supported format that might not be drawable.
             Contents::Color(color) if !complete => InitialContents::Upload(codes::pack(
                 format,
                 &color.map(f32::to_bits).repeat(texels),
@@ -199,7 +199,7 @@ impl<'a> PreparedScene<'a> {
     }
 
     /// Fills one buffer with all vertices, one with all indices, and one with all parameter blocks. Returns
-    /// the place of each draw's geometry, and of its arguments if it is indirect.
+    /// the location of each draw's geometry, and of its arguments if it is indirect.
     fn buffers(
         &mut self,
         pool: &mut Pool,
@@ -306,7 +306,7 @@ impl<'a> PreparedScene<'a> {
                 ..self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?
             });
         }
-        // Reading a framebuffer with layers would read the first.
+        // Reading a framebuffer with layers would read the first layer.
         if !layered {
             for (index, point) in pass.color.iter().zip(glow::COLOR_ATTACHMENT0..) {
                 self.attachments[*index].drawn = (target.framebuffer, point);

@@ -132,11 +132,11 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         })
     };
     if format == TextureFormat::Rgba32Float && !surface.is_complete() {
-        // Every version has it as a texture, and thus as an exact source of values, even if it is not
-        // drawable.
+        // Every version has this format as a texture, and thus as an exact source of values, even if it is
+        // not drawable.
         return done(&[], false, &[], ReadPlan::Fetched);
     }
-    // Without the extension, ES has no rules for drawing to it.
+    // Without the extension, ES has no rules for drawing to this format.
     if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
         return None;
     }
@@ -226,7 +226,7 @@ fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
 /// Returns true if a complete surface has the channels that its format promises.
 fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     if format.has_depth() {
-        // A driver can store more bits than requested; the format is then not what its name promises.
+        // A driver can store more bits than requested; the format then differs from its name.
         return depth_encoding(context, surface)
             .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
     }
@@ -344,7 +344,7 @@ fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<
         let stored = gl.get_tex_level_parameter_i32(target, 0, glow::TEXTURE_SAMPLES);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         let drawn = gl.get_parameter_i32(glow::SAMPLES);
-        // A driver can give 4 samples for 2 requested ones.
+        // A driver can give 4 samples if 2 are requested.
         if [stored, drawn].map(u32::try_from) != [Ok(count); 2] {
             return None;
         }

@@ -60,7 +60,7 @@ pub(crate) enum Reader {
 /// The kind of texture that a read-back program fetches from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum View {
-    /// One image.
+    /// A view of a single image.
     Plain,
     /// A multisampled image.
     Samples,
@@ -101,7 +101,7 @@ impl Programs {
         unsafe {
             gl.use_program(Some(program));
             for block in &translated.blocks {
-                // A block that the compiler removed has no index.
+                // If the compiler removed the block, it has no index.
                 if let Some(index) = gl.get_uniform_block_index(program, block) {
                     gl.uniform_block_binding(program, index, PARAMS_BINDING);
                 }

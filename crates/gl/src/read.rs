@@ -55,7 +55,7 @@ impl Source<'_> {
         self.size[0] as usize * self.size[1] as usize
     }
 
-    /// Returns the parts in which an aspect is read, each with its place in the result.
+    /// Returns the parts in which an aspect is read, each with its position in the result.
     fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
         match self.blits {
             Some(blits) => blits.pieces(aspect),
@@ -74,7 +74,7 @@ impl Source<'_> {
     }
 }
 
-/// Returns a part that keeps its place.
+/// Returns a part that is not moved.
 fn piece(place: [u32; 2], size: [u32; 2]) -> Piece {
     Piece {
         from: place,
@@ -459,7 +459,7 @@ fn note_planes(plan: ReadPlan, format: TextureFormat) {
     }
 }
 
-/// Records where the depths are that were just copied with stencil.
+/// Records the position of depth within the depth-stencil texels that were just copied.
 fn note_depth(plan: ReadPlan) {
     let (texel, place) = match plan {
         ReadPlan::DepthFloatStencil8 => (8, [0, 32]),
@@ -468,7 +468,7 @@ fn note_depth(plan: ReadPlan) {
     recording::plane(Aspect::Depth, texel, vec![place], Form::Code);
 }
 
-/// Returns the places of `channels` consecutive channels of `bits` bits each.
+/// Returns the offsets and sizes of `channels` consecutive channels of `bits` bits each.
 fn each(channels: u32, bits: u32) -> Vec<[u32; 2]> {
     (0..channels).map(|c| [c * bits, bits]).collect()
 }

@@ -578,7 +578,7 @@ pub(crate) fn reset(context: &Context) {
                 gl.disable(capability);
             }
             gl.enable(glow::MULTISAMPLE);
-            // As in ES, the attachments' formats alone then decide.
+            // After this, only the attachments' formats decide, as in ES.
             gl.enable(glow::FRAMEBUFFER_SRGB);
             gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL);
         }

@@ -12,8 +12,8 @@ use std::cell::Cell;
 /// The use of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// An attachment of a scene: its format, its number of samples per texel, the part of a texture that it
-    /// is, and how the texture's format is chosen.
+    /// An attachment of a scene: its format, its number of samples per texel, the part of a texture that
+    /// serves as the attachment, and how the texture's format is chosen.
     Attachment(TextureFormat, u32, PathTarget, PathViews),
     /// An attachment with three layers: its format, the layer that is read, and how the texture's format is
     /// chosen.

@@ -19,7 +19,7 @@ pub struct Adapter {
     pub driver_id: String,
     /// The API's version; empty if unknown.
     pub api_version: String,
-    /// True if the device is known to be the processor.
+    /// True if the device is known to be a software renderer.
     pub software: bool,
     /// The line of the driver, or empty.
     pub line: String,
@@ -28,8 +28,8 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    /// Returns the version that distinguishes releases of the driver: the version within the line, or the
-    /// one that the driver reports.
+    /// Returns the version that distinguishes releases of the driver: the version within the line, or else
+    /// the version that the driver reports.
     pub fn shown_version(&self) -> &str {
         match self.version.as_str() {
             "" => &self.driver_version,

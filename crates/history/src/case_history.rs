@@ -12,7 +12,7 @@ use std::rc::Rc;
 pub struct CaseHistory {
     /// The timeline of the adapter.
     pub timeline: Rc<str>,
-    /// Its points by the times of their runs; at least one. Runs without a record of the case have no
+    /// The case's points by the times of their runs; at least one. Runs without a record of the case have no
     /// point.
     pub points: Vec<Point>,
 }

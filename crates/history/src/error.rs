@@ -31,7 +31,7 @@ pub enum HistoryError {
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its schema.
+        /// The file's schema.
         found: u32,
         /// The newest schema that this version reads.
         known: u32,

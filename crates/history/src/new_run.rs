@@ -16,7 +16,7 @@ pub struct NewRun {
     /// A digest of its header. Runs with the same header are one run that was resumed, and the last one
     /// added counts.
     pub header: [u8; 32],
-    /// Its kind.
+    /// The run's kind.
     pub kind: Kind,
     /// The suite's version.
     pub etalon: String,
@@ -34,9 +34,9 @@ pub struct NewRun {
     pub ruler: Option<String>,
     /// Records or rounds that it lacks.
     pub missing: u64,
-    /// Its labels.
+    /// The run's labels.
     pub labels: Labels,
-    /// Its adapters.
+    /// The run's adapters.
     pub adapters: Vec<NewAdapter>,
 }
 

@@ -11,11 +11,11 @@ use std::rc::Rc;
 /// A run of a history.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunInfo {
-    /// Its number in this file.
+    /// The run's number in this file.
     pub id: RunId,
     /// The digest of its content, which identifies the run in every file.
     pub digest: [u8; 32],
-    /// Its kind.
+    /// The run's kind.
     pub kind: Kind,
     /// The suite's version.
     pub etalon: String,
@@ -23,7 +23,7 @@ pub struct RunInfo {
     pub commit: Option<String>,
     /// The number of its machine.
     pub machine: MachineId,
-    /// When it began, in seconds since 1970.
+    /// When the run began, in seconds since 1970.
     pub started: i64,
     /// When the driver was released, in seconds since 1970, if the run is of one release.
     pub released: Option<i64>,
@@ -34,7 +34,7 @@ pub struct RunInfo {
     pub ruler: Option<String>,
     /// Records or rounds that it lacks.
     pub missing: u64,
-    /// Its labels.
+    /// The run's labels.
     pub labels: Labels,
     /// The later run with the same header that replaces this one, because it resumed it.
     pub resumed: Option<RunId>,

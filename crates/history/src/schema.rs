@@ -19,9 +19,9 @@ pub const SCHEMA: u32 = MIGRATIONS.len() as u32;
 /// The state of a file that was opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Found {
-    /// It has no table.
+    /// The file has no table.
     Empty,
-    /// It is a history of this schema.
+    /// The file is a history with this schema.
     Schema(u32),
 }
 

@@ -15,7 +15,7 @@ pub struct Tally {
     pub verdict: Verdict,
     /// True if they count against the run.
     pub unexpected: bool,
-    /// Their number, above zero.
+    /// The number of records, above zero.
     pub records: u32,
 }
 

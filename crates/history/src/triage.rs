@@ -76,7 +76,7 @@ pub struct TriageEntry {
     pub at: i64,
     /// The name of its author, or empty.
     pub author: String,
-    /// Its subject.
+    /// The entry's subject.
     pub subject: Subject,
     /// The state.
     pub state: TriageState,

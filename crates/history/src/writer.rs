@@ -30,9 +30,9 @@ pub struct Writer {
 /// The number of a run, and whether it was added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Added {
-    /// It was added.
+    /// The run was added.
     New(RunId),
-    /// The history already had it, and is unchanged.
+    /// The history already had the run, and is unchanged.
     Already(RunId),
 }
 

@@ -25,14 +25,14 @@ impl Forbidden {
 
 /// A frame's violations, by the evidence that forbids them.
 pub(crate) struct Grades {
-    /// Forbidden by musts of the specification.
+    /// Forbidden by the "must" clauses of the specification.
     proven: Forbidden,
-    /// Forbidden by musts or by the CTS.
+    /// Forbidden by "must" clauses or by the CTS.
     required: Forbidden,
 }
 
 impl Grades {
-    /// Grades a frame that all evidence together forbids; `None` if everything in it is proven.
+    /// Grades a frame that is illegal by all evidence; `None` if every violation in it is proven.
     pub(crate) fn of(
         scene: &Scene,
         limits: &Limits,
@@ -55,12 +55,12 @@ impl Grades {
         self.band(Forbidden::any)
     }
 
-    /// Returns the band of a sample that all evidence together forbids.
+    /// Returns the band of a sample that is outside the set by all evidence.
     pub(crate) fn sample(&self, at: (u32, u32, u32)) -> Band {
         self.band(|forbidden| forbidden.samples.contains(&at))
     }
 
-    /// Returns the band of a counter that all evidence together forbids, by its position.
+    /// Returns the band of a counter, by its index, that is outside the range by all evidence.
     pub(crate) fn counter(&self, index: usize) -> Band {
         self.band(|forbidden| forbidden.counters.get(index) == Some(&true))
     }
@@ -88,13 +88,13 @@ fn forbidden(
     let all = limits.alternatives(&scene.formats());
     let each = all.iter().filter_map(|limits| {
         let open = set_by(scene, limits, rules, sets);
-        // One step of depth bias for the whole frame, as in the set by all evidence.
+        // The whole frame has one step of depth bias, as in the set by all evidence.
         let set = match fit(scene, limits, rules, &open, frame, sets) {
             Ok(Some(fitted)) => fitted.legal,
             _ => open,
         };
-        // The first wrong samples come in the same order under any rules, and wider rules leave fewer of
-        // them, so the kept ones suffice for a record.
+        // The first wrong samples have the same order under any rules, and wider rules leave fewer of them,
+        // so the kept samples suffice for a record.
         let found = compare(frame, &set, &set, MAX_WRONG_TEXELS).ok()?;
         let illegal = |counter: &CounterOutcome| counter.band == Some(Band::Fail);
         Some(Forbidden {

@@ -352,7 +352,7 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
     (!wrong.is_empty()).then(|| wrong.join("; "))
 }
 
-/// Adds the differences that a relation forbids to a record.
+/// Adds to a record the differences that a relation forbids.
 fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
     let permission = Rules::invariance(limits, relation.invariance);
     let Some(band) = permission.value() else {
@@ -390,7 +390,7 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
 }
 
 /// Returns the judgement under which the fewest samples are wrong. An API can hide which of several encodings
-/// a format has, but the whole frame has the same one; the same holds for the step of a depth bias.
+/// a format has, but it is the same for the whole frame. The step of a depth bias is handled in the same way.
 pub(crate) fn best<'a>(
     scene: &Scene,
     judgements: &'a [Judgement],

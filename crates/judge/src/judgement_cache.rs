@@ -22,7 +22,7 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
     }
 }
 
-/// A case, one of its scenes, and the limits that its sets depend on.
+/// A case, one of its scenes, and the limits on which its legal sets depend.
 type Key = (usize, usize, Limits);
 type Entry = Arc<Mutex<KnownSets>>;
 
@@ -77,7 +77,7 @@ impl JudgementCache {
         compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
-        // A second caller waits: most sets serve both.
+        // A second caller waits for the first, because most sets serve both.
         let mut weight = None;
         let set = lock(&entry).get(rules, |rules| {
             let set = compute(rules);
@@ -94,7 +94,7 @@ impl JudgementCache {
             let Some((oldest, weight)) = cache.order.pop_front() else {
                 break;
             };
-            // Removes the entry with all its sets, even if only the first is this old.
+            // Removes the entry with all its sets, although only its first set is this old.
             cache.entries.remove(&oldest);
             cache.bytes = cache.bytes.saturating_sub(weight);
         }

@@ -5,8 +5,8 @@ use etalon_record::MAX_WRONG_TEXELS;
 use etalon_reference::{LineGap, Rules, line_gap};
 use etalon_scene::Scene;
 
-/// Returns a line with fewer fragments than musts of the specification allow, whatever the depth encodings
-/// are; `None` if every line has enough, or if the frame fails anyway.
+/// Returns a line with fewer fragments than the "must" clauses of the specification allow, under every depth
+/// encoding; `None` if every line has enough, or if the frame fails anyway.
 pub(crate) fn proven_line_gap(
     scene: &Scene,
     limits: &Limits,
@@ -25,7 +25,7 @@ pub(crate) fn proven_line_gap(
 }
 
 /// Adds the texels of a line's gap to a comparison, as proven violations ahead of all others. Returns true if
-/// the first one is also outside its own legal set, so that its story explains the failure.
+/// the first texel is also outside its own legal set, so that its story explains the failure.
 pub(crate) fn note_gap(comparison: &mut Comparison, gap: &LineGap) -> bool {
     let all_known = comparison.wrong.len() < MAX_WRONG_TEXELS;
     let place = |w: &WrongTexel| (w.x, w.y, w.sample);

@@ -18,11 +18,11 @@ pub(crate) struct Differences {
     /// The first differing samples, with one side as the legal value and the other as the actual one. Their
     /// band is Fail; the caller replaces it by the permission's.
     pub(crate) wrong: Vec<WrongTexel>,
-    /// Both sides of the first difference.
+    /// The two texels of the first difference.
     pub(crate) sides: Option<[Compared; 2]>,
 }
 
-/// One side of a comparison of two texels that must be equal.
+/// One of two compared texels that must be equal.
 #[derive(Clone, Debug)]
 pub(crate) struct Compared {
     /// 0 for the case's own scene, otherwise the variant's index plus 1.

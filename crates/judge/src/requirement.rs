@@ -1,11 +1,11 @@
-//! What an API's version requires of every implementation, compared with what an adapter denies.
+//! Compares the requirements of an API's version with the capabilities that an adapter denies.
 
 use etalon_case::Case;
 use etalon_frame::{ApiVersion, Limits};
 use etalon_record::{Record, Verdict};
 use etalon_reference::rules::required::denied;
 
-/// Fails an adapter that denies what its API's version requires of every implementation.
+/// Fails an adapter that denies a requirement of its API's version.
 pub fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
     let version = match limits.version {
         ApiVersion::UNKNOWN => limits.api.to_string(),

@@ -52,8 +52,8 @@ pub fn story_of_relation(
     ))
 }
 
-/// Gives a record the story of what a relation forbids, unless a sample of one frame is at least as wrong by
-/// itself.
+/// Gives a record the story of the difference that a relation forbids, unless a sample of one frame is at
+/// least as wrong on its own.
 pub(crate) fn add_relation(
     record: &mut Record,
     case: &Case,

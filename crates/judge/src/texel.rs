@@ -1,5 +1,5 @@
-//! The judgement of one texel, for `etalon explain`. Other texels are judged only if the scene makes this one
-//! depend on them.
+//! The judgement of one texel, for `etalon explain`. Other texels are judged only if this texel depends on
+//! them.
 
 use crate::grade::Grades;
 use crate::judge::{best, regrade};
@@ -45,8 +45,8 @@ pub fn judge_texel(
     Ok((judgement, Some(comparison)))
 }
 
-/// Returns true if the legal values of one texel depend on others: through counters, the step of a depth
-/// bias, or samplers that read what was drawn.
+/// Returns true if the legal values of one texel depend on other texels: through counters, the step of a
+/// depth bias, or samplers that read what was drawn.
 fn is_tied(scene: &Scene) -> bool {
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
     let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);

@@ -161,7 +161,7 @@ fn end(child: &mut Child) {
         thread::sleep(PAUSE);
     }
     signal(child, true);
-    // It has ended, or nothing ends it.
+    // Killing fails only if the process has ended or cannot be ended.
     let _ = child.kill();
     let _ = child.wait();
 }
@@ -176,7 +176,7 @@ fn signal(child: &Child, at_once: bool) {
     use rustix::process::{Pid, Signal, kill_process_group};
     let signal = if at_once { Signal::KILL } else { Signal::TERM };
     if let Some(group) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
-        // They might have ended already.
+        // The processes might have ended already.
         let _ = kill_process_group(group, signal);
     }
 }

@@ -73,7 +73,7 @@ impl NotServed {
 /// A running server, which ends when this is dropped.
 pub struct Served {
     _kept: Kept,
-    /// The link that leads to it, until the driver is open.
+    /// The link to the server's socket, until the driver is open.
     link: Option<Link>,
 }
 
@@ -85,7 +85,7 @@ struct Link {
 
 impl Drop for Link {
     fn drop(&mut self) {
-        // It might be removed already.
+        // The file might be removed already.
         let _ = fs::remove_file(&self.path);
     }
 }

@@ -37,7 +37,7 @@ pub struct Wire {
     method: MethodName,
     /// The number of layers, 1 to 1024.
     layers: u32,
-    /// Their alpha, above 0 and up to 1.
+    /// The alpha of the layers, above 0 and up to 1.
     alpha: f64,
 }
 

@@ -21,9 +21,9 @@ pub struct Claim {
     pub values: Values,
     /// The quantities that are compared.
     pub test: Test,
-    /// Two methods; the claim is decided only on adapters on which the first runs fewer fragment shaders
-    /// than the second. Other adapters count fragments before the depth test, so their counts say nothing
-    /// about the claim.
+    /// Two methods; the claim is decided only on adapters on which the first method runs fewer fragment
+    /// shaders than the second. Other adapters count fragments before the depth test, so their counts say
+    /// nothing about the claim.
     pub fewer: Option<[&'static str; 2]>,
     /// A sentence about what else the measured quantities include; empty if there is nothing to add.
     pub note: &'static str,
@@ -32,7 +32,7 @@ pub struct Claim {
 /// The values of a scene's parameter that count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
-    /// All of them.
+    /// All values.
     All,
     /// Values between two bounds, inclusive.
     Between(f64, f64),
@@ -78,9 +78,9 @@ pub enum Test {
     },
     /// A method that is within 1 % RMSE at every value, compared with one that exceeds it at some value.
     Unlike {
-        /// The method that is right.
+        /// The method that stays within 1 %.
         right: &'static str,
-        /// The method that is wrong somewhere.
+        /// The method that exceeds 1 % at some value.
         wrong: &'static str,
     },
     /// A method at half the value of the parameter compared with another at the full value: at most one and

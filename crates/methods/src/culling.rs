@@ -58,7 +58,7 @@ pub enum Wire {
     ClosedMesh {
         /// The culling.
         method: MethodName,
-        /// The number of segments around its hole, 4 to 64; its tube has half as many.
+        /// The number of segments around the torus's hole, 4 to 64; its tube has half as many.
         segments: u32,
     },
     /// A grid of boxes, one draw per box; the picture shows a ninth of the grid.
@@ -74,17 +74,17 @@ pub enum Wire {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MethodName {
-    /// Nothing.
+    /// Culls nothing.
     None,
-    /// Back faces.
+    /// Culls back faces.
     Back,
-    /// Back faces, with the front face's winding reversed for mirrored objects.
+    /// Culls back faces, with the front face's winding reversed for mirrored objects.
     BackFlipped,
-    /// Front faces.
+    /// Culls front faces.
     Front,
-    /// Front faces in a first pass over the object, back faces in a second.
+    /// Culls front faces in a first pass over the object, and back faces in a second.
     FrontThenBack,
-    /// Objects whose bounding sphere is outside the picture.
+    /// Culls objects whose bounding sphere is outside the picture.
     Frustum,
 }
 

@@ -54,7 +54,7 @@ pub(crate) enum MethodName {
     Discard,
     /// Blended card by card, farthest first, by the mean depth of the corners.
     BlendSorted,
-    /// Opaque on a share of four samples that follows alpha.
+    /// Opaque in some of four samples; their number follows alpha.
     AlphaToCoverage,
 }
 

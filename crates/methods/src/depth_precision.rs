@@ -53,7 +53,7 @@ enum SceneName {
     Planes,
     /// Two planes that lead away from the viewer, from 10 to 500.
     Slanted,
-    /// Such a plane with a decal on it, without a gap, and a lid above both.
+    /// A plane that leads away, with a decal on it without a gap, and a lid above both.
     Decal,
 }
 
@@ -89,7 +89,7 @@ enum MethodName {
 struct Quad {
     corners: [[f64; 3]; 4],
     color: [f64; 4],
-    /// True if it is a decal on another surface.
+    /// True if the surface is a decal on another surface.
     is_decal: bool,
 }
 

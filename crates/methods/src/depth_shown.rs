@@ -33,15 +33,15 @@ pub enum Wire {
     Slanted {
         /// Depth shown as a colour.
         method: DepthMethod,
-        /// The distance of the near plane, 0.0001 to 10; the far plane is at 1000. The nearer it is, the
-        /// closer all depths are to 1, and the less they tell about the distance.
+        /// The distance of the near plane, 0.0001 to 10; the far plane is at 1000. A nearer plane moves all
+        /// depths closer to 1, so that they say less about the distance.
         near: f64,
     },
     /// Two pictures; the second is blended over the first.
     Pictures {
         /// The method.
         method: DissolveMethod,
-        /// The share of the second picture, 0 to 1.
+        /// The weight of the second picture, 0 to 1.
         t: f64,
     },
 }

@@ -14,9 +14,9 @@ use std::collections::HashMap;
 /// OpenGL require 4 sub-pixel bits.
 const GRID: f64 = 16.0;
 
-/// Splits the polygons into triangles whose vertices are on a grid that every driver represents exactly,
-/// and whose edges pass through no texel's centre, so that the texels they cover are certain. Vertices at
-/// the same place stay together, depths stay with their vertices, and triangles without area are left out.
+/// Splits the polygons into triangles whose vertices are on a grid that every driver represents exactly, and
+/// whose edges pass through no texel's centre, so that the texels they cover are certain. Vertices at the
+/// same position stay together, vertices keep their depths, and triangles without area are left out.
 ///
 /// A polygon with more than three corners becomes a fan around its middle.
 pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
@@ -103,7 +103,7 @@ fn touches_centre(size: [u32; 2], a: [i64; 2], b: [i64; 2]) -> bool {
     let half = step / 2;
     let is_centre = |x: i64| x.rem_euclid(step) == half;
     let within = |c: i64, axis: usize| (0..i64::from(size[axis]) * step).contains(&c);
-    // Steps along the axis on which the edge is longer, so that the divisor is never 0.
+    // Moves along the axis on which the edge is longer, so that the divisor is never 0.
     let long = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
     let short = 1 - long;
     let (from, to) = if a[long] <= b[long] { (a, b) } else { (b, a) };

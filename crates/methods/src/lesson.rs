@@ -5,9 +5,9 @@
 pub struct Lesson {
     /// The method, as ids name it.
     pub method: &'static str,
-    /// How it works, in a sentence.
+    /// How the method works, in a sentence.
     pub works: &'static str,
-    /// Where and why it fails, in a sentence.
+    /// Where and why the method fails, in a sentence.
     pub fails: &'static str,
     /// The publication or specification.
     pub source: &'static str,

@@ -22,6 +22,6 @@ pub struct Method {
 pub struct Parameter {
     /// The axis.
     pub name: String,
-    /// Its value in this case.
+    /// The parameter's value in this case.
     pub value: f64,
 }

@@ -7,6 +7,6 @@ use etalon_scene::Scene;
 pub struct MethodScene {
     /// The scene; the first attachment that is read back is the picture.
     pub scene: Scene,
-    /// What should be seen.
+    /// The picture that should be seen.
     pub truth: Truth,
 }

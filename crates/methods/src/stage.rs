@@ -134,8 +134,9 @@ impl Stage {
         self.resolving_pass(color, vec![None; color.len()], depth_stencil, draws);
     }
 
-    /// Adds passes that draw to an attachment with the picture's sides doubled `doublings` times, and halve
-    /// it again. Meshes do not depend on texels, so the same mesh fills an attachment of any size.
+    /// Adds passes that draw to an attachment whose sides are the picture's, doubled `doublings` times, and
+    /// then halve it repeatedly. Meshes do not depend on texels, so the same mesh fills an attachment of any
+    /// size.
     pub(crate) fn supersampled(
         &mut self,
         picture: usize,

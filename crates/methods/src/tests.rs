@@ -225,7 +225,7 @@ fn methods_that_do_not_know_a_scene_are_refused() {
     }
 }
 
-/// Returns the depth of a triangle at a place that it covers.
+/// Returns the depth of a triangle at a position that it covers.
 fn depth_at(corners: &[[f64; 3]], [x, y]: [f64; 2]) -> Option<f64> {
     let [a, b, c] = [corners[0], corners[1], corners[2]];
     let side = |p: [f64; 3], q: [f64; 3]| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);

@@ -18,20 +18,20 @@ pub struct Truth {
 /// The part of a texel that its colour represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Its centre: for questions in which edges do not matter, or whose methods take one sample.
+    /// The texel's centre: for questions in which edges do not matter, or whose methods take one sample.
     Center,
-    /// The mean over its area.
+    /// The mean over the texel's area.
     Area,
 }
 
-/// One flat convex polygon.
+/// A flat convex polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// At least three corners in order around it, in either direction: x and y in texels from the top left
     /// corner, and a depth that grows away from the eye and is linear in x and y (a window depth, or
     /// minus 1 over the distance).
     pub corners: Vec<[f64; 3]>,
-    /// Its colour.
+    /// The surface's colour.
     pub paint: Paint,
 }
 
@@ -63,7 +63,7 @@ pub enum Paint {
     },
     /// A texture, filtered linearly.
     Texture {
-        /// Its texels.
+        /// The texture's texels.
         texture: Texture,
         /// Texture coordinates of each corner, linear in x and y.
         uv: Vec<[f64; 2]>,

@@ -13,7 +13,7 @@ use glam::{DMat4, DVec3};
 pub(crate) struct Face {
     /// At least three corners.
     pub(crate) corners: Vec<DVec3>,
-    /// Its straight colour.
+    /// The face's straight (not premultiplied) colour.
     pub(crate) color: [f64; 4],
 }
 

@@ -56,13 +56,14 @@ enum MethodName {
     Unsorted,
     /// A depth test, near triangles first.
     FrontToBack,
-    /// All depths first, without colour; then the fragments of equal depth, in no particular order.
+    /// A first pass without colour writes all depths; a second pass draws the fragments of equal depth, in no
+    /// particular order.
     DepthPrepass,
-    /// As `discard`, with tests that are forced to run before the shader.
+    /// Like `discard`, with tests that are forced to run before the shader.
     ForcedEarlyTest,
-    /// As `front-to-back`, with a shader that could discard.
+    /// Like `front-to-back`, with a shader that could discard.
     Discard,
-    /// As `front-to-back`, with a shader that writes the depth that the fragment has anyway.
+    /// Like `front-to-back`, with a shader that writes the depth that the fragment has anyway.
     WrittenDepth,
 }
 

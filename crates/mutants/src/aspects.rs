@@ -5,8 +5,7 @@ use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, Pass, StoreOpe
 
 pub(super) const ASPECTS: [Aspect; 3] = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
 
-/// Depth with stencil and stencil with depth, and the value to which a mistake clears the second of the
-/// pair.
+/// The two pairs of aspects, and the value to which a mistake clears the second aspect of the pair.
 pub(super) const BOTH: [(Aspect, Aspect, u32); 2] = [
     (Aspect::Depth, Aspect::Stencil, 0),
     (Aspect::Stencil, Aspect::Depth, 1),

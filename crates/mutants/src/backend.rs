@@ -15,7 +15,7 @@ use std::cell::RefCell;
 pub struct MutantBackend {
     inner: CpuBackend,
     mutant: &'static Mutant,
-    /// The previous scene, for state that persists.
+    /// The previous scene, for bugs in which its state persists.
     before: RefCell<Option<Scene>>,
 }
 
@@ -97,7 +97,7 @@ impl Backend for MutantBackend {
     }
 }
 
-/// A scene that another one replaces, from the submission numbered `from` on.
+/// A scene that another scene replaces, starting at submission `from`.
 struct PreparedAgain<P> {
     right: P,
     wrong: P,

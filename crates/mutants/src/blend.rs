@@ -200,7 +200,7 @@ bugs! {
         unsaturated(BlendFactor::SrcAlpha);
     "saturate-not-one-for-alpha: For alpha, saturate is computed as for colour." =>
         after(|state, encodings, input, result| {
-            // The alpha equation with alpha's operands, computed as if they were red.
+            // The alpha equation with alpha's operands, computed as if for red.
             let mut as_red = *input;
             (as_red.src[0], as_red.dst[0]) = (input.src[3], input.dst[3]);
             let both = BlendState { color: state.alpha, ..*state };

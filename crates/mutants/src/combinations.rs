@@ -98,7 +98,7 @@ bugs! {
             }
         }), area "scissor", source "guard bands around the middle of the viewport";
 
-    // State that a draw that is discarded entirely leaves to the next draw.
+    // State that an entirely discarded draw leaves to the next draw.
     source "Adreno: state of a draw with rasterizer discard";
     let changed = ["viewport-rect", "viewport-depth", "scissor", "blend", "write-mask", "stencil-test"];
     let struck = FIELDS.iter().filter(|field| field.in_sequences() && changed.contains(&field.name));

@@ -1,4 +1,4 @@
-//! The fields of a draw: their places, and which of them can be stale.
+//! The fields of a draw: where they are, and which of them can be stale.
 
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendState, ColorTarget, CompareFunction, CullMode, DepthBias,
@@ -6,7 +6,8 @@ use etalon_scene::{
     Sampler, StencilFace, StencilOperation, StencilState, Vertex,
 };
 
-/// Returns the places of a field in a draw: none if it is off, several if each face or target has its own.
+/// Returns references to a field of a draw: none if the field is off, several if each face or target has its
+/// own.
 pub(super) type Places<T> = for<'a> fn(&'a mut Draw) -> Vec<&'a mut T>;
 
 /// Declares [`Places`] from expressions that can be iterated.
@@ -76,7 +77,7 @@ pub(super) struct Field {
     pub(super) area: &'static str,
     pub(super) name: &'static str,
     pub(super) take: Take,
-    /// Copies the field only if the draw has it off, that is, at its default.
+    /// Copies the field only if it is off in the draw, that is, at its default.
     pub(super) take_when_off: Option<Take>,
 }
 
@@ -97,7 +98,7 @@ impl Field {
     }
 }
 
-/// Copies a part of each of a field's places from another draw.
+/// Copies a part of a field from another draw, for each face or target.
 fn part<T>(places: Places<T>, before: &Draw, draw: &mut Draw, part: fn(&mut T, &T)) {
     let mut before = before.clone();
     let places = places(draw).into_iter().zip(places(&mut before));
@@ -110,8 +111,8 @@ fn take_default<T: Clone + Default + PartialEq>(to: &mut T, from: &T) {
     }
 }
 
-/// Writes a [`Take`] that copies a field of the draw (`.field`), whole places (`in PLACES`), a field of
-/// each place (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
+/// Writes a [`Take`] that copies a field of the draw (`.field`), whole [`Places`] (`in PLACES`), a field of
+/// each of them (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
 /// function`).
 macro_rules! take {
     (.$($field:tt)+) => { |before, draw| draw.$($field)+.clone_from(&before.$($field)+) };

@@ -25,7 +25,7 @@ type Range = [u32; 2];
 /// Returns true for the draws that a bug affects, given the pass index.
 type Strikes = fn(usize, &Draw) -> bool;
 
-/// A coarse depth buffer. Each of its parts can be wrong.
+/// The rules of a coarse depth buffer. Any of them can be wrong.
 #[derive(Clone, Copy)]
 struct Unit {
     /// The side of a tile, in texels.

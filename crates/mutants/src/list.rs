@@ -83,7 +83,7 @@ impl List {
 pub(super) struct Facts {
     pub(super) source: Option<&'static str>,
     pub(super) area: Option<&'static str>,
-    /// The clause that allows it.
+    /// The clause that allows the bug.
     pub(super) legal: Option<&'static str>,
     /// Returns true for the draws that it affects.
     pub(super) when: Option<fn(&Draw) -> bool>,

@@ -1,7 +1,7 @@
 //! Bugs of stored data: attachments and counters that change between draws.
 //!
-//! A driver stores more for an attachment than its texels: caches, cleared tiles, coarse depths. A bug
-//! there shows only after something else was done, so such a bug remembers what it has seen.
+//! A driver stores more for an attachment than its texels: caches, cleared tiles, coarse depths. A bug there
+//! shows only after other operations, so such a bug has state.
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Steps, Stored};
@@ -9,7 +9,7 @@ use etalon_scene::Scene;
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// A bug of what one prepared scene stores.
+/// A bug in the data that one prepared scene stores.
 pub(super) struct Memory(RefCell<Box<Bug>>);
 
 type Bug = dyn FnMut(Moment, &Scene, Stored<'_>);

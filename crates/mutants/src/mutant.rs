@@ -1,4 +1,4 @@
-//! One planted bug.
+//! A planted bug.
 
 use crate::plant::Plant;
 
@@ -9,11 +9,11 @@ pub struct Mutant {
     pub name: String,
     /// The effect, in one sentence.
     pub about: String,
-    /// The driver that had it, or the kind of mistake.
+    /// The driver that had the bug, or the kind of mistake.
     pub source: &'static str,
-    /// The area whose cases must be enough to catch it.
+    /// The area whose cases alone must catch the bug.
     pub area: &'static str,
-    /// The clause that allows it; `None` if it must be caught.
+    /// The clause that allows the bug; `None` if the suite must catch it.
     pub legal: Option<&'static str>,
     pub(super) plant: Plant,
 }

@@ -15,7 +15,7 @@ type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
-    /// The driver draws another scene, given the previously drawn one.
+    /// The driver draws another scene, which can depend on the previous scene.
     Scene(Box<SceneBug>),
     /// Every draw is changed.
     Draws(Box<DrawBug>),

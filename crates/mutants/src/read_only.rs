@@ -5,7 +5,7 @@ use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, all_draws, passes, put, scene};
 use etalon_scene::{Draw, StencilOperation};
 
-/// Changes the draws of passes that come `behind` passes after a read-only one.
+/// Changes the draws of passes that come `behind` passes after a read-only pass.
 pub(super) fn read_only(behind: usize, bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
     passes(move |scene, number, pass| {
         let before = number.checked_sub(behind).map(|n| &scene.passes[n]);

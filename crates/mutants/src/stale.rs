@@ -56,8 +56,8 @@ pub(super) fn reset(list: &mut List) {
     }
 }
 
-/// Adds the fields that one draw leaves to the next, one by one: a driver that tracks changes misses one of
-/// them.
+/// Adds bugs that each keep one field of the draw before, as a driver does whose state tracking misses a
+/// change.
 pub(super) fn stays(list: &mut List) {
     for field in FIELDS.iter().filter(|field| field.in_sequences()) {
         let (name, words, take) = (field.name, field.words(), field.take);

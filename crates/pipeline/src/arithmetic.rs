@@ -64,10 +64,10 @@ pub trait Arithmetic {
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// Returns a blend factor of the form `1 - value`.
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// Returns a factor as it is multiplied: clamped to the encoding's range.
+    /// Returns a factor clamped to the encoding's range, ready to multiply by.
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// Returns one side of a blend equation whose factor is zero: zero, or what zero times an infinity or NaN
-    /// gives.
+    /// Returns one side of a blend equation whose factor is zero: zero, unless the operand is an infinity or
+    /// NaN.
     #[inline(always)]
     fn blend_zero(&mut self, _operand: Self::Real) -> Self::Real {
         self.constant(0.0)

@@ -27,11 +27,11 @@ pub struct AdapterRecord {
     /// The release of the driver, if the adapter's description states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
-    /// Its limits and features.
+    /// The adapter's limits and features.
     pub limits: Limits,
 }
 
-/// One release of a driver.
+/// A release of a driver.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Release {

@@ -25,7 +25,7 @@ pub enum Content {
 }
 
 impl Content {
-    /// Inspects a path, at which no folder need exist.
+    /// Inspects a path. The folder does not have to exist.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -102,7 +102,7 @@ fn has_key(line: &[u8]) -> bool {
     object.is_ok_and(|object| object.contains_key("etalon"))
 }
 
-/// Returns true if one path is inside the other, or both name one place. Neither need exist.
+/// Returns true if one path is inside the other, or both name the same location. Neither path has to exist.
 pub fn overlap(path: &Path, other: &Path) -> bool {
     let (path, other) = (resolved(path), resolved(other));
     path.starts_with(&other) || other.starts_with(&path)

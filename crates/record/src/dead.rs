@@ -26,9 +26,9 @@ state_enum! {
         NoAdapter = "no-adapter",
         /// Another expectation excuses everything that it excuses.
         Covered = "covered",
-        /// All its cases were drawn on all its adapters, and none had its verdict.
+        /// All cases of the expectation were drawn on all of its adapters, and none had the expected verdict.
         NeverMatched = "never-matched",
-        /// Its expiry date has passed.
+        /// The expectation's expiry date has passed.
         Expired = "expired",
     }
 }
@@ -41,7 +41,7 @@ pub struct Dead {
     pub kind: DeadKind,
     /// The file, and the entry's number if the file is a list.
     pub place: String,
-    /// The dead glob, the place of the expectation that covers it, or its own reason.
+    /// The dead glob, the position of the expectation that covers this one, or this one's reason.
     pub about: String,
 }
 
@@ -125,7 +125,8 @@ impl Expectations {
                 part(DeadKind::Expired, format!("{last}: {}", known.reason));
             }
             if !self.applies(number) {
-                // The cases and adapters that it names can belong to another machine or run.
+                // An expectation for another machine or run can name cases and adapters that are missing
+                // here.
                 reaches.push(Reach::default());
                 continue;
             }

@@ -44,7 +44,7 @@ pub enum RecordError {
     Holds {
         /// The folder.
         path: PathBuf,
-        /// Its content.
+        /// The kind of the folder's content.
         kind: FolderKind,
     },
     /// The folder holds files that no command recorded.
@@ -64,7 +64,7 @@ pub enum RecordError {
     OccupiedByBench {
         /// The folder.
         path: PathBuf,
-        /// The number of rounds that it lacks.
+        /// The number of rounds that the bench lacks.
         missing: u64,
     },
     /// Another process is writing to the folder.
@@ -85,7 +85,7 @@ pub enum RecordError {
     Occupied {
         /// The folder.
         path: PathBuf,
-        /// The number of records that it holds.
+        /// The number of records that the folder holds.
         records: u64,
         /// The number of records of the complete run.
         expected: u64,
@@ -108,7 +108,7 @@ pub enum RecordError {
     Apart {
         /// A folder.
         one: PathBuf,
-        /// The other.
+        /// The other folder.
         other: PathBuf,
         /// The difference.
         reason: String,

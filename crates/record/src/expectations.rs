@@ -29,13 +29,13 @@ pub struct Entry {
     pub adapter: String,
     /// A glob over [`AdapterRecord::driver_text`], driver and version; `*` for any.
     pub driver: String,
-    /// The driver versions that it applies to, as comparisons that must all be true: `>=22.3, <25.1`; every
-    /// version if absent. A driver that reports no version with a dot is in no range.
+    /// The driver versions to which the entry applies, as comparisons that must all be true: `>=22.3, <25.1`;
+    /// every version if absent. A driver that reports no version with a dot is in no range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// A glob over case ids; `*` also matches `/`.
     pub case: String,
-    /// The expected verdict; no other verdict is excused. `flaky` excuses every bad verdict, and `skipped`
+    /// The expected verdict, which alone is excused. `flaky` excuses every bad verdict, and `skipped`
     /// prevents the case from being drawn.
     pub verdict: Verdict,
     /// The symptom of the failure; other wrong values of the same case are not excused.
@@ -93,7 +93,7 @@ pub struct Known {
     pub verdict: Verdict,
     /// The reason why the verdict is accepted; for a finding, its title.
     pub reason: String,
-    /// The last day on which it applies.
+    /// The last day on which the expectation applies.
     pub expires: Option<String>,
     /// The symptom of the failure.
     pub symptom: Option<ExpectedSymptom>,
@@ -163,9 +163,9 @@ impl Known {
         }
     }
 
-    /// Returns true if it excuses a verdict. An entry excuses only its own verdict. A finding also excuses
-    /// violations on weaker evidence, since its bug can show as these in some cases. `flaky` excuses every
-    /// bad verdict.
+    /// Returns true if the expectation excuses a verdict. An entry excuses only its own verdict. A finding
+    /// also excuses violations on weaker evidence, because its bug can show as a weaker violation in some
+    /// cases. `flaky` excuses every bad verdict.
     pub fn excuses(&self, verdict: Verdict) -> bool {
         let finding = matches!(self.source, Source::Finding(_));
         self.verdict == verdict
@@ -176,7 +176,7 @@ impl Known {
                 && verdict.severity() < self.verdict.severity()
     }
 
-    /// Returns true if it excuses a record: the verdict, and for a violation also the symptom.
+    /// Returns true if the expectation excuses a record: its verdict, and for a violation also its symptom.
     pub fn excuses_record(&self, record: Shown<'_>) -> bool {
         let shown = |symptom: &ExpectedSymptom| {
             !record.verdict.is_violation() || symptom.is_shown_by(record)
@@ -203,7 +203,7 @@ struct Globs {
     processor: Option<GlobMatcher>,
     /// False if the machine has another processor, or if the run lacks a label.
     applies: bool,
-    /// Ids without wildcards, which most findings name.
+    /// Globs without wildcards, that is, plain ids. Most findings name only those.
     ids: HashSet<String>,
     cases: Vec<CaseGlob>,
 }
@@ -499,7 +499,7 @@ impl Expectations {
 
     /// Returns the expectation that prevents drawing a case on an adapter, if any.
     pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
-        // Few expectations skip anything, and few cases are named by any.
+        // Few expectations skip anything, and few cases are named by an expectation.
         let entries = self.all.iter().zip(&self.globs);
         let mut skips = entries.filter(|(known, _)| known.verdict == Verdict::Skipped);
         let named =
@@ -608,7 +608,7 @@ impl Expectations {
         self.find(adapter, case, verdict, |known| known.excuses(verdict))
     }
 
-    /// Looks up a record: as [`Expectations::look_up`], but with its symptom.
+    /// Looks up a record, like [`Expectations::look_up`], but also compares its symptom.
     pub fn look_up_record(
         &self,
         adapter: &AdapterRecord,

@@ -22,9 +22,9 @@ state_enum! {
 pub struct Shown<'a> {
     /// The verdict.
     pub verdict: Verdict,
-    /// The wrong samples that it lists.
+    /// The wrong samples that the record lists.
     pub wrong: &'a [WrongTexel],
-    /// Its counters.
+    /// The counters of the record.
     pub counters: &'a [CounterOutcome],
 }
 
@@ -44,18 +44,18 @@ pub struct ExpectedSymptom {
     /// The side of the legal range on which the wrong values are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
-    /// The counter that is wrong, while every texel is right.
+    /// The wrong counter, if all texels are right.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counter: Option<CounterKind>,
 }
 
 impl ExpectedSymptom {
-    /// Returns true if it states no fact.
+    /// Returns true if the symptom states no fact.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Returns true if it is about texels.
+    /// Returns true if the symptom is about texels.
     fn names_texels(&self) -> bool {
         let counter = self.counter;
         *self

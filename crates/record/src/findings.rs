@@ -33,7 +33,7 @@ pub struct Finding {
     pub versions: Option<String>,
     /// Globs over the ids of the cases that show the bug; `*` also matches `/`.
     pub cases: Vec<String>,
-    /// The expected verdict, if it is not the one of the grade.
+    /// The expected verdict, if it differs from the grade's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The symptom of the failure; other wrong values of the same case are not excused.
@@ -161,7 +161,7 @@ pub(crate) const REMEDY: &str =
     "a finding needs title, adapters, driver, cases, grade, clause and evidence; see ci/README.md";
 
 impl Finding {
-    /// Returns the expected verdict: its own, or the one of its grade.
+    /// Returns the expected verdict: the finding's own, or else the verdict of its grade.
     pub fn expected(&self) -> Verdict {
         self.verdict.unwrap_or_else(|| self.grade.verdict())
     }

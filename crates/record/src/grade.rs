@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// How strong the evidence of a finding is.
     Grade: array {
-        /// The API's specification forbids it.
+        /// The API's specification forbids the behaviour.
         Proven = "proven",
-        /// The specification is open, but a case of the Khronos CTS's mustpass lists is not.
+        /// The specification permits the behaviour, but a case on the Khronos CTS's mustpass lists does not.
         RequiredByCts = "required-by-cts",
-        /// Only a contested reading of the specification forbids it.
+        /// Only a contested reading of the specification forbids the behaviour.
         Disputed = "disputed",
-        /// Not yet compared with the specification.
+        /// The behaviour was not yet compared with the specification.
         Unread = "unread",
     }
 }

@@ -107,7 +107,7 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// Its number, from 1.
+    /// The shard's number, from 1.
     pub index: u32,
     /// The number of parts.
     pub count: u32,

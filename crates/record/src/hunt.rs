@@ -20,13 +20,13 @@ pub const HUNT_FORMAT: u32 = 1;
 pub struct MutantInfo {
     /// The stable name, its class first: `depth/write-ignored`.
     pub name: String,
-    /// Its effect, in one sentence.
+    /// The bug's effect, in one sentence.
     pub about: String,
-    /// The driver that once had it, or the kind of mistake.
+    /// The driver that once had the bug, or the kind of mistake.
     pub source: String,
     /// The area whose cases alone must catch it.
     pub area: String,
-    /// The reason why it is legal, with the clause; `None` if it must be caught.
+    /// The reason why the bug is legal, with the clause; `None` if the suite must catch it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub legal: Option<String>,
 }
@@ -67,12 +67,12 @@ pub struct AreaTally {
 pub struct Sighting {
     /// The case.
     pub case: String,
-    /// `Fail` or `Imprecise`; `InternalError` if it could not be drawn.
+    /// `Fail` or `Imprecise`; `InternalError` if the case could not be drawn.
     pub verdict: Verdict,
-    /// Its first texel outside the legal set or the yardstick.
+    /// The first texel outside the legal set or the yardstick.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texel: Option<WrongTexel>,
-    /// The error if it could not be drawn; empty otherwise.
+    /// The error if the case could not be drawn; empty otherwise.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
 }
@@ -83,11 +83,11 @@ pub struct Sighting {
 pub struct MutantRecord {
     /// The bug.
     pub mutant: MutantInfo,
-    /// Its outcome.
+    /// Whether and how the bug was caught.
     pub outcome: Catch,
-    /// Per area, in the order of the cases.
+    /// The verdicts of each area, in the order of the cases.
     pub areas: Vec<AreaTally>,
-    /// The case that showed it first.
+    /// The first case that showed the bug.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first: Option<Sighting>,
 }

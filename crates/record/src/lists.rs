@@ -155,7 +155,7 @@ fn known_status(status: &str) -> Result<Option<Verdict>, String> {
         "Pass" | "Skip" | "Warn" | "Missing" | "UnexpectedPass" | "UnexpectedImprovement" => {
             return Ok(None);
         }
-        // Better than the list said, but perhaps still bad. The result is in parentheses.
+        // The result, in parentheses, is better than the list says, but can still be bad.
         other if other.starts_with("UnexpectedImprovement(") => {
             let result = other.trim_start_matches("UnexpectedImprovement(");
             return known_status(result.trim_end_matches(')'));
@@ -188,8 +188,8 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
 }
 
 impl Expectations {
-    /// Returns the expectations about these cases on one adapter, as lists of deqp-runner. Verdicts that
-    /// have no status there become `Fail`.
+    /// Returns the expectations about these cases on one adapter, as lists of deqp-runner. Verdicts without a
+    /// deqp-runner status become `Fail`.
     pub fn lists(&self, adapter: &AdapterRecord, ids: &[String]) -> Lists {
         let mut lists = Lists::default();
         for id in ids {

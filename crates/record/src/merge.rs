@@ -24,7 +24,7 @@ pub struct Merge {
     /// Records and their folders, by the index of the adapter in the header and of the case in `ids`.
     records: HashMap<(usize, usize), (Record, PathBuf)>,
     merged: Merged,
-    /// The dead expectations that every part names.
+    /// The dead expectations that all parts have in common.
     dead: Vec<Dead>,
 }
 
@@ -73,7 +73,7 @@ impl Merge {
         let mut dead = Dead::read(first)?;
         for (folder, _) in &parts {
             let also = Dead::read(folder)?;
-            // Another part can match what this part never matched.
+            // An expectation that matched nothing in this part can match in another part.
             dead.retain(|entry| also.contains(entry));
         }
         let mut merge = Self {

@@ -1,4 +1,4 @@
-//! One line of a run: the result of a case on an adapter.
+//! A line of a run: the result of a case on an adapter.
 
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Expectation, Expectations};
@@ -30,8 +30,8 @@ pub struct Record {
     /// The expectation that the verdict agrees with, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<Expected>,
-    /// If the record is expected only because its reduced scene is the same as that of a finding's case:
-    /// that case. The finding itself names other cases.
+    /// The case of a finding with the same reduced scene, if the record is expected only for that reason. The
+    /// finding does not name the record's own case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
     /// The bad verdict that the expectations name, if the raw one is better.
@@ -45,7 +45,7 @@ pub struct Record {
     pub message: String,
     /// The number of samples by result; all zero if no frame came back.
     pub texels: TexelCounts,
-    /// The asserted share and sharpness, per aspect.
+    /// The asserted fraction and the sharpness, per aspect.
     pub assertions: Vec<Assertion>,
     /// The distance of the frame from the ideal, per aspect; empty if no frame came back.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -56,7 +56,7 @@ pub struct Record {
     /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong: Vec<WrongTexel>,
-    /// What the reference did at the first wrong sample.
+    /// The reference's operations at the first wrong sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub story: Option<Story>,
     /// The frame file's path below the run folder, with `/` between its parts.
@@ -76,7 +76,7 @@ pub struct Record {
     /// Messages of validation layers and debug output, at most [`MAX_VALIDATION`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub validation: Vec<String>,
-    /// The verdicts of all repetitions in fresh processes, without that of the first drawing.
+    /// The verdicts of all repetitions in fresh processes, without the first verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub repeats: Vec<Verdict>,
     /// The cases that must be drawn earlier in the same process, in this order, for this verdict. Drawn
@@ -92,15 +92,15 @@ pub struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossKind {
-    /// It exited or was ended by a signal.
+    /// The worker exited or was ended by a signal.
     Died,
-    /// It did not answer in time.
+    /// The worker did not answer in time.
     Timeout,
-    /// It exceeded its memory limit.
+    /// The worker exceeded its memory limit.
     Memory,
-    /// Its output was not a message of the protocol.
+    /// The worker's output was not a message of the protocol.
     Garbage,
-    /// It could not be started again.
+    /// The worker could not be started again.
     NotStarted,
 }
 
@@ -108,18 +108,18 @@ pub enum LossKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessEnd {
-    /// How it was lost.
+    /// How the process was lost.
     pub kind: LossKind,
-    /// The signal that ended it.
+    /// The signal that ended the process.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub signal: Option<i32>,
-    /// Its exit status.
+    /// The process's exit status.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exit: Option<i32>,
-    /// The end of its standard error.
+    /// The end of the process's standard error.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub stderr: String,
-    /// Seconds from when it could begin the case until the loss was noticed.
+    /// Seconds from the time when the process could begin the case until the loss was noticed.
     pub seconds: f64,
 }
 
@@ -313,7 +313,7 @@ impl Assertion {
             .saturating_add(other.yardstick_asserted);
     }
 
-    /// Returns the asserted share of all channels, 0 to 1; 0 without channels.
+    /// Returns the asserted fraction of all channels, 0 to 1; 0 without channels.
     pub fn share(&self) -> f64 {
         ratio(self.asserted, self.channels).unwrap_or(0.0)
     }
@@ -328,7 +328,7 @@ impl Assertion {
         ratio(self.yardstick_codes, self.yardstick_asserted)
     }
 
-    /// Returns the share of all channels that the yardstick asserts, 0 to 1.
+    /// Returns the fraction of all channels that the yardstick asserts, 0 to 1.
     pub fn yardstick_share(&self) -> f64 {
         ratio(self.yardstick_asserted, self.channels).unwrap_or(0.0)
     }

@@ -1,7 +1,7 @@
 //! The files that reports add to a run or bench folder.
 //!
-//! The crate that reports knows their names. Whoever begins a run or bench passes them in, so that a folder
-//! that is replaced keeps no report of the earlier run.
+//! The crate that reports knows their names. The code that begins a run or bench passes them in, so that no
+//! report of an earlier run stays in a replaced folder.
 
 use crate::error::RecordError;
 use std::fs;

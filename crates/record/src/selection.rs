@@ -23,11 +23,11 @@ pub fn selection_digest<'a>(ids: impl IntoIterator<Item = &'a str>) -> String {
     format!("{}-{:016x}", sorted.len(), fnv(bytes))
 }
 
-/// Returns the number, from 1, of the shard out of `count` that an id belongs to. It depends only on the
-/// id, so that a new case never moves another.
+/// Returns the number, from 1, of the shard out of `count` that an id belongs to. It depends only on the id,
+/// so that a new case never moves other cases to another shard.
 pub fn shard_of(id: &str, count: u32) -> u32 {
-    // FNV mixes the last bytes badly, and ids differ at their ends, so MurmurHash3's finaliser mixes them
-    // again.
+    // FNV mixes the last bytes badly, and ids often differ only at the end. MurmurHash3's finaliser therefore
+    // mixes the hash again.
     let mut hash = fnv(id.bytes());
     for factor in [0xff51_afd7_ed55_8ccd, 0xc4ce_b9fe_1a85_ec53] {
         hash = (hash ^ (hash >> 33)).wrapping_mul(factor);
@@ -102,7 +102,7 @@ mod tests {
             }
         }
         assert_eq!(shard_of("depth/a", 0), 1);
-        // Released ids must not move.
+        // Released ids must stay in their shards.
         assert_eq!(
             [2, 5, 9].map(|n| shard_of("depth/compare/compare=less", n)),
             [1, 3, 5]

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The contents of a driver's shader cache on disk when a run or bench began.
     ShaderCache {
-        /// Nothing: it was in an empty folder, or switched off.
+        /// The cache was empty: it was in a new folder, or switched off.
         Cold = "cold",
-        /// The shaders of earlier runs.
+        /// The cache has the shaders of earlier runs.
         Warm = "warm",
     }
 }

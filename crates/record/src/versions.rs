@@ -38,11 +38,11 @@ pub struct VersionsHeader {
     pub command: Vec<String>,
     /// The line of releases: `swiftshader`.
     pub line: String,
-    /// Its releases, oldest first.
+    /// The line's releases, oldest first.
     pub releases: Vec<ReleaseRecord>,
 }
 
-/// One release of the line.
+/// A release of the line.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReleaseRecord {
@@ -72,11 +72,11 @@ pub struct CaseVersions {
 pub enum Standing {
     /// The case is drawn correctly.
     Good,
-    /// It is drawn wrong, or the driver fails to draw it.
+    /// The case is drawn wrong, or the driver fails to draw it.
     Bad,
-    /// It is drawn correctly only some of the time.
+    /// The case is drawn correctly only some of the time.
     Flaky,
-    /// It is not drawn, or nothing is asserted.
+    /// The case is not drawn, or nothing is asserted.
     Unknown,
 }
 

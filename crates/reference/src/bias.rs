@@ -9,9 +9,9 @@ use etalon_scene::Draw;
 
 /// A polygon that may be biased.
 pub(crate) struct Biased<'a> {
-    /// The depths of its vertices; for a cut polygon, all depths that it has.
+    /// The depths of the polygon's vertices; for a cut polygon, all depths that it has.
     pub(crate) z: &'a [Interval],
-    /// Its snapped vertices; empty if it is cut.
+    /// The primitive's snapped vertices; empty if the primitive is cut.
     pub(crate) boxes: &'a [SnapBox],
     /// Returns its least and greatest slope per texel.
     pub(crate) slope: &'a dyn Fn() -> Interval,
@@ -35,7 +35,7 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
         }
         _ => {
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
-            // Vertices beyond the near and far planes may or may not count.
+            // The rules leave open whether vertices beyond the near and far planes count.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
             let lows = z.iter().map(|z| z.low);
             let low = if boxes.is_empty() || may_be_clipped(context, draw, boxes) {
@@ -83,7 +83,7 @@ fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: &[SnapBox]) -> 
 }
 
 /// Returns the interval that a bias adds if the biased depths of the vertices may be clamped to 0 to 1 before
-/// fragments interpolate them: at one end the room above the farthest depth, at the other the room below the
+/// fragments interpolate them: one end is the room above the farthest depth, the other the room below the
 /// nearest. Clipping can make vertices of any depth of the primitive.
 pub(crate) fn clamped_at_vertices(bias: Interval, z: &[Interval]) -> Interval {
     let held = |z: f64| z.clamp(0.0, 1.0);
@@ -137,7 +137,8 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
     }
     let error = context.rules.float_error.value() * ROUNDINGS;
     let all = z[0].hull(z[1]).hull(z[2]);
-    // The error of each vertex's depth: half its interval, plus the roundings of the terms that use it.
+    // The error of each vertex's depth: half the depth's interval, plus the roundings of the terms that use
+    // it.
     let off = z.map(|z| (z.high - z.low) / 2.0 + (all.high - all.low) * error);
     // The plane that is 1 at one vertex and 0 at the others.
     let share = |vertex: usize| {

@@ -20,9 +20,9 @@ struct Reach {
     draw: u32,
     /// The primitive within the draw's setup.
     primitive: u32,
-    /// Columns.
+    /// The columns of these texels.
     columns: Range<u32>,
-    /// Rows.
+    /// The rows of these texels.
     rows: Range<u32>,
 }
 
@@ -127,7 +127,7 @@ fn texels(size: [u32; 2], draw: &Draw, primitive: &SnappedPrimitive) -> [Range<u
         let (mut low, mut high) = (primitive.bounds[axis], primitive.bounds[axis + 2]);
         if let Shape::Triangle(_) = primitive.shape {
             let (start, length) = (viewport[axis], viewport[axis + 2]);
-            // `as` saturates.
+            // The cast saturates.
             low = low.max((start.floor() as i64).saturating_sub(BEYOND_VIEWPORT));
             high = high.min(((start + length).ceil() as i64).saturating_add(BEYOND_VIEWPORT));
         }
@@ -151,7 +151,7 @@ pub(crate) struct Rows<'s> {
 }
 
 impl Rows<'_> {
-    /// Returns the primitives of a row in drawing order. Rows must be asked for from top to bottom.
+    /// Returns the primitives of a row in drawing order. The caller must ask for rows from top to bottom.
     pub(crate) fn row(&mut self, row: u32) -> &[u32] {
         let rows = |number: &u32| &self.setup.reaches[*number as usize].rows;
         self.active.retain(|number| rows(number).end > row);
@@ -167,14 +167,14 @@ impl Rows<'_> {
     }
 }
 
-/// Parts of a row: at their borders, the set of primitives that can touch the row changes.
+/// The parts of a row. The same primitives can touch all texels of a part.
 #[derive(Default)]
 pub(crate) struct Segments {
     /// Primitives with their columns in the row, sorted by first column.
     coming: Vec<Member>,
     members: Vec<Member>,
     numbers: Vec<u32>,
-    /// Columns at which a triangle begins or ceases to cover texels for certain.
+    /// Columns at which a triangle starts or stops certainly covering texels.
     breaks: Vec<u32>,
 }
 

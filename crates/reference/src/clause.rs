@@ -1,5 +1,5 @@
 //! The clauses that reject a draw, a primitive or a fragment at a sample, by API and version. They permit
-//! nothing, so they are not in [`rules`](crate::rules): only stories need them.
+//! nothing and only stories need them, so they are not in [`rules`](crate::rules).
 
 use crate::rules::Rules;
 use etalon_frame::{Api, ApiVersion, Limits, Rejection};
@@ -216,7 +216,7 @@ enum Edition {
 }
 
 impl Edition {
-    // Must choose the same editions as `Rules::of`.
+    // These editions must match the choice of `Rules::of`.
     fn of_opengl(version: ApiVersion) -> (&'static str, Self) {
         match (version.major, version.minor) {
             (3, _) | (4, 0 | 1) => ("OpenGL 3.3", Self::Gl33),

@@ -10,9 +10,9 @@ use etalon_scene::Viewport;
 use std::ops::RangeInclusive;
 
 /// The edges of a draw's viewport. They are clip planes and may be snapped. Points and lines are clipped
-/// before they get a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): what is left can reach one texel
-/// beyond an edge, and a clipped end or an outside point can be missing. If the rules let points or lines
-/// pass unclipped, these can reach any texel beyond.
+/// before they get a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the remaining part can reach one
+/// texel beyond an edge, and the texels at a clipped end, or an outside point, can be missing. If the rules
+/// permit unclipped points or lines, these can reach any texel beyond the edge.
 #[derive(Clone, Debug)]
 pub(crate) struct Clip {
     /// Left, top, width and height in sub-texel units.
@@ -72,7 +72,7 @@ impl Clip {
 
 impl Reach {
     fn new(rect: [f64; 4], slack: f64) -> Self {
-        // The integers strictly between two numbers; `as` saturates.
+        // The integers strictly between two numbers. The cast saturates.
         let between = |low: f64, high: f64| {
             (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1)
         };

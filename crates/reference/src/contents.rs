@@ -40,7 +40,7 @@ impl ChannelSum {
         self.between.unwrap_or(CodeInterval::exact(0))
     }
 
-    /// Returns the codes that a chain of rounded halvings can reach, within the range of the samples' codes.
+    /// Returns the codes, within the range of the samples' codes, that a chain of rounded halvings can give.
     fn within_halvings(&self, codes: Interval, samples: u32) -> CodeInterval {
         let (between, halvings) = (self.between(), halvings(samples));
         CodeInterval {
@@ -105,7 +105,8 @@ impl Walk<'_> {
             return Some(single);
         }
         let mut result = [CodeInterval::exact(0); 4];
-        // The averages of the codes, for implementations that do not convert sRGB to linear values.
+        // The averages of the codes themselves, as from implementations that do not convert sRGB to linear
+        // values.
         let mut of_codes = result;
         for (c, encoding) in encodings.iter().enumerate() {
             let linear = self.average_color(*encoding, &sums[c], attachment.samples);
@@ -136,7 +137,8 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let between = sum.between();
         let count = f64::from(samples);
-        // The error is relative to the samples: their sum can be a small difference of large values.
+        // The error is relative to the samples, not to their sum, which can be a small difference of large
+        // values.
         let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
         let error = values[0].max(values[1]) * count * self.rules.float_error.value();
         // An interval that includes NaN has no usable ends.
@@ -147,7 +149,7 @@ impl Walk<'_> {
         };
         let average = judging.encode(encoding, Range::same(exact));
         match self.rules.resolve.value() {
-            // The least code of a signed normalized integer equals the next one in value, and that one is
+            // The two least codes of a signed normalized integer have the same value, and the second is
             // stored.
             _ if between.is_exact() && !encoding.is_float() => {
                 between.hull(canonical(encoding, between.low))
@@ -156,7 +158,7 @@ impl Walk<'_> {
             Resolve::Between if encoding.is_float() => between.hull(average),
             Resolve::Between => between,
             Resolve::CoarseAverage if encoding.is_float() => {
-                // The error of a halving is a code at the magnitude of the largest sample.
+                // The error of a halving is one code at the magnitude of the largest sample.
                 let largest = between.low.abs().max(between.high.abs());
                 let next = (largest + 1).min(encoding.max_order());
                 let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));

@@ -1,4 +1,4 @@
-//! The pass that primitives are set up for. Setup and bias both need all of it.
+//! The pass for which primitives are set up, as setup and bias need it.
 
 use crate::rules::Rules;
 use crate::texels::Lattice;

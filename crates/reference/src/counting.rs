@@ -5,18 +5,18 @@ use crate::world::{Increment, World};
 use etalon_frame::{CountRange, CounterKind, CounterSet};
 use etalon_scene::Scene;
 
-/// One counter over the texels walked so far, and over the samples of the current texel.
+/// The count of a counter over the texels walked so far, and over the samples of the current texel.
 #[derive(Clone, Debug)]
 struct Count {
     low: u64,
     /// `None` if unlimited.
     high: Option<u64>,
-    /// Of this texel: certain events, summed over samples.
+    /// The certain events at this texel, summed over samples.
     certain: u64,
-    /// Of this texel: possible events, summed over samples; `None` if a sample is open.
+    /// The possible events at this texel, summed over samples; `None` if a sample is open.
     possible: Option<u64>,
-    /// This texel's fragments with at least one sample that certainly counts, with the number of such
-    /// samples; and fragments with at least one sample that can count.
+    /// This texel's fragments with samples that certainly count, with the number of these samples; and its
+    /// fragments with samples that can count.
     must: Vec<((u32, u32), u32)>,
     may: Vec<(u32, u32)>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Tally<'a> {
     scene: &'a Scene,
     rules: &'a Rules,
     counts: Vec<Count>,
-    /// Per draw of the scene, the least number of shader runs that share a fully covered texel.
+    /// For each draw of the scene, the least number of shader runs for a fully covered texel.
     least_runs: Vec<u32>,
 }
 
@@ -128,8 +128,8 @@ impl<'a> Tally<'a> {
                     };
                     (count.certain, high)
                 }
-                // Never without a fragment. The rules decide how often a fragment runs: at most once for each
-                // covered sample, or without a limit.
+                // The shader never runs without a fragment. The rules decide how often it runs for a
+                // fragment: at most once for each covered sample, or without a limit.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
                     let high = if self.rules.runs_once.value() {
@@ -137,14 +137,15 @@ impl<'a> Tally<'a> {
                     } else {
                         none.then_some(0)
                     };
-                    // Each run has a sample to itself; some of the runs can belong to uncovered samples.
+                    // Each run is for a sample of its own, but some of the runs can be for uncovered samples.
                     let runs = |((draw, _), covered): &((u32, u32), u32)| {
                         let least = self.least_runs[*draw as usize - 1];
                         u64::from((least + covered).saturating_sub(samples).max(1))
                     };
                     (count.must.iter().map(runs).sum(), high)
                 }
-                // Statistics only compare a driver with itself (Vulkan, Pipeline Statistics Queries).
+                // Statistics are only meant to compare a driver with itself (Vulkan, Pipeline Statistics
+                // Queries).
                 CounterKind::FragmentInvocations => (0, None),
             };
             count.low += low * times;

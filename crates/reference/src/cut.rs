@@ -1,11 +1,11 @@
-//! Primitives that reach behind the eye, or farther than vertices are snapped: what is left of them after
+//! Primitives that reach behind the eye, or farther than vertices are snapped: their visible part after
 //! clipping.
 //!
-//! Any clipping is legal that is exact up to floating-point precision: by the view volume, by a larger one,
-//! or none at all, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which lets
-//! implementations cut primitives for reasons of their own). The remaining edges, depths and attributes are
-//! those of the whole primitive. A vertex that clipping makes can be off by its roundings and by a step of
-//! the grid.
+//! Every clipping that is exact up to floating-point precision is legal: by the view volume, by a larger one,
+//! or no clipping at all, in homogeneous coordinates (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7, which
+//! lets implementations cut primitives for reasons of their own). The remaining edges, depths and attributes
+//! are those of the whole primitive. A vertex that clipping makes can be off by its roundings and by a step
+//! of the grid.
 
 use crate::bias::slope;
 use crate::context::PassContext;
@@ -22,13 +22,15 @@ use etalon_pipeline::{
 use etalon_scene::{Draw, Interpolation};
 
 /// The number of roundings in a clipped vertex's coordinates: two products and their sum, the quotient by w,
-/// and the viewport's product and sum; doubled, since two planes can cut an edge.
+/// and the viewport's product and sum; all doubled, since two planes can cut an edge.
 const ROUNDINGS: f64 = 8.0;
 
-/// How far beyond a viewport a primitive is followed, in texels: nothing farther out can reach into it.
+/// How far beyond a viewport a primitive is tracked, in texels. Nothing farther out can reach into the
+/// viewport.
 const BEYOND: f64 = 64.0;
 
-/// The share of w by which the near and far planes are moved out, so that roundings stay between them.
+/// The fraction of w by which the near and far planes are moved outwards, so that rounded vertices stay
+/// between them.
 const DEPTH_SLACK: f64 = 1.0 / 1024.0;
 
 /// Returns true if the perspective division or the grid cannot place one of the vertices.
@@ -101,8 +103,8 @@ impl<'a> Seen<'a> {
         ]
     }
 
-    /// Returns functions that are both non-negative between the near and far planes, which are moved out by a
-    /// share of w.
+    /// Returns functions that are both non-negative between the near and far planes, which are moved outwards
+    /// by a fraction of w.
     fn between_planes(&self, vertex: usize, slack: f64) -> [f64; 2] {
         let [.., z, w] = self.draw.mesh.vertices[vertex].position.map(f64::from);
         if self.draw.depth_clamp {
@@ -111,7 +113,7 @@ impl<'a> Seen<'a> {
         [z + slack * w, w * (1.0 + slack) - z]
     }
 
-    /// Grows the vertex error for a corner that is given as shares of the primitive's vertices.
+    /// Increases the vertex error for a corner that is given by weights of the primitive's vertices.
     fn grow(&mut self, vertices: &[usize], shares: &[f64]) {
         let sum = |value: &dyn Fn(usize) -> f64| -> f64 {
             let each = vertices.iter().zip(shares);
@@ -140,8 +142,8 @@ pub(crate) struct CutTriangle<'a> {
     homogeneous: HomogeneousTriangle,
     /// The corners of the visible part, each as its weights of the three vertices.
     corners: Vec<[f64; 3]>,
-    /// The share of the visible area that is within the error of its edges. From 1 on, the area can have either
-    /// sign.
+    /// The fraction of the visible area that is within the error of its edges. At 1 and above, the area can
+    /// have either sign.
     flatness: f64,
 }
 
@@ -176,13 +178,13 @@ impl<'a> CutTriangle<'a> {
         Some(cut)
     }
 
-    /// Returns the position of a corner in the window.
+    /// Returns a corner's position in the window.
     fn place(&self, corner: [f64; 3]) -> [f64; 2] {
         let sum = |axis: usize| dot(corner, self.homogeneous.vertices.map(|v| v[axis]));
         [sum(0) / sum(2), sum(1) / sum(2)]
     }
 
-    /// Returns the share of the visible area that is within the error of its edges.
+    /// Returns the fraction of the visible area that is within the error of its edges.
     fn flatness(&self) -> f64 {
         let places: Vec<[f64; 2]> = self.corners.iter().map(|c| self.place(*c)).collect();
         let (mut area, mut around) = (0.0, 0.0);
@@ -200,7 +202,7 @@ impl<'a> CutTriangle<'a> {
         }
     }
 
-    /// Returns the triangle's edges. Between two snapped vertices, which `boxes` has, an edge is the line
+    /// Returns the triangle's edges. An edge between two snapped vertices, given by `boxes`, is the line
     /// through both.
     pub(crate) fn triangle(&self, boxes: [Option<SnapBox>; 3], ids: [VertexId; 3]) -> Triangle {
         let edges = [0, 1, 2].map(|i| match (boxes[i], boxes[(i + 1) % 3]) {
@@ -236,7 +238,7 @@ impl<'a> CutTriangle<'a> {
                 high[axis] = high[axis].max(place[axis] + self.seen.off[axis]);
             }
         }
-        // `as` saturates, and NaN counts as everywhere.
+        // The cast saturates. NaN counts as reaching everywhere.
         let within = |v: f64, otherwise: f64| {
             let v = if v.is_nan() { otherwise } else { v };
             v.clamp(-FARTHEST, FARTHEST)
@@ -286,7 +288,7 @@ impl<'a> CutTriangle<'a> {
             depth.hull = depth.hull.widen(error);
         }
         if !self.seen.draw.depth_clamp {
-            // The rest is between the planes.
+            // The visible part is between the planes.
             depth.hull = depth
                 .hull
                 .clamp(near.min(far) - error, near.max(far) + error);
@@ -360,7 +362,7 @@ pub(crate) struct CutLine {
     pub(crate) ends: [SnapBox; 2],
     pub(crate) window_z: [Interval; 2],
     pub(crate) reciprocal_w: [Interval; 2],
-    /// True if rounding can clip all of it.
+    /// True if rounding can clip the whole line.
     pub(crate) may_be_clipped: bool,
 }
 
@@ -395,7 +397,7 @@ impl CutLine {
             let axis = |axis: usize| {
                 let places = end(i).into_iter().map(|t| {
                     let exact = sum(t, windows.map(|v| v[axis])) / w(t);
-                    // Equal places stay equal, whatever the rounding of their shares.
+                    // Equal positions stay equal, however their weights are rounded.
                     Interval::exact((exact * 1024.0).round() / 1024.0)
                 });
                 let hull = places

@@ -8,10 +8,10 @@ use smallvec::SmallVec;
 /// A depth over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
-    /// The planes through the legally snapped vertices, except planes that are nowhere extreme near the
-    /// primitive. Empty if the depth is constant or only the vertices' depths are known.
+    /// The planes through the legally snapped vertices, except planes that are nowhere the lowest or highest
+    /// near the primitive. Empty if the depth is constant or only the vertices' depths are known.
     planes: Vec<DepthPlane>,
-    /// The largest growth of any plane over one unit right and one down.
+    /// The largest change of any plane over one unit to the right and one down.
     pub(crate) steepest: f64,
     /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
@@ -51,7 +51,7 @@ impl Depth {
         self.planes.is_empty()
     }
 
-    /// Adds the interpolation error: a weighted sum of equal depths need not be that depth.
+    /// Adds the interpolation error: even a weighted sum of equal depths can differ from that depth.
     pub(crate) fn interpolated(mut self, float_error: f64) -> Self {
         let largest = self.hull.low.abs().max(self.hull.high.abs());
         self.error += largest * float_error;
@@ -102,7 +102,7 @@ impl Depth {
         });
         depth.steepest = growth.0 + growth.1;
         depth.planes = extreme(&all, near(vertices, units));
-        // Positions may be interpolated before or after snapping: one step of the grid.
+        // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
         let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
         depth.error += depth.steepest * grid as f64 + own;
         depth
@@ -162,8 +162,8 @@ fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
     all.corners()
 }
 
-/// Returns the planes that are lowest or highest somewhere in a rectangle. A plane that is above another at
-/// none of the corners is nowhere above it inside.
+/// Returns the planes that are lowest or highest somewhere in a rectangle. A plane that is not above another
+/// plane at any corner is not above it anywhere inside.
 fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     if all.len() < 3 {
         return all.to_vec();
@@ -188,8 +188,8 @@ fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     highest.into_iter().map(|i| all[i]).collect()
 }
 
-/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's growth
-/// is a quotient of functions that are linear in each coordinate, so its extremes are at corners.
+/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's slope is
+/// a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
     let corners = |b: SnapBox| {
         let all = b.corners();

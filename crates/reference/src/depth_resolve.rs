@@ -1,8 +1,8 @@
 //! Resolves of depth and stencil.
 //!
-//! The first sample is taken with its worlds, depth and stencil together. A least or greatest depth is the
-//! hull over the worlds of all samples; a stencil value is each value that some choice of worlds gives. Both
-//! contain every outcome, as an average does.
+//! A resolve to the first sample keeps that sample's worlds, with depth and stencil together. A least or
+//! greatest depth is the hull over the worlds of all samples; a stencil value is each value that some choice
+//! of worlds gives. The results contain every outcome, and so does the interval of an average.
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};

@@ -1,8 +1,8 @@
-//! Clip distances over a primitive, which is clipped where they are negative.
+//! Clip distances over a primitive, which is clipped wherever a distance is negative.
 //!
-//! Vertices made by clipping are computed and snapped like others. An edge made by clipping is therefore
+//! Vertices made by clipping are computed and snapped like all others. An edge made by clipping is therefore
 //! within some steps of the grid of the zero of the distance, and a sample nearer than that can be on either
-//! side. The ends of a line are open by two texels whatever ends it (Vulkan, Bresenham Line Segment
+//! side. Two texels at each end of a line are open, whatever ends it (Vulkan, Bresenham Line Segment
 //! Rasterization; OpenGL 4.6, 14.5.1).
 
 use crate::depth::Depth;
@@ -14,7 +14,7 @@ use etalon_pipeline::{DepthPlane, Point};
 /// The number of grid steps that an edge made by clipping can be off by.
 const EDGE_STEPS: f64 = 2.0;
 
-/// One clip distance over a primitive.
+/// A clip distance over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) enum Distance {
     /// The least and the greatest value anywhere on the primitive.
@@ -22,7 +22,7 @@ pub(crate) enum Distance {
     /// Linear over a triangle.
     Over {
         plane: Depth,
-        /// What the error in the edge's position can add or subtract.
+        /// The largest change of the distance through the error in the edge's position.
         error: f64,
     },
     /// Linear along a line.
@@ -30,7 +30,7 @@ pub(crate) enum Distance {
 }
 
 impl Distance {
-    /// Returns a distance that is constant, or whose course between the vertices is unknown.
+    /// Returns a distance that is constant, or that varies between the vertices in an unknown way.
     pub(crate) fn between(values: &[f64]) -> Self {
         let all = values.iter().map(|v| Interval::exact(*v));
         let hull = all.reduce(Interval::hull);
@@ -59,7 +59,7 @@ impl Distance {
         [units, grid]: [i64; 2],
         float_error: f64,
     ) -> Self {
-        // If all have one sign, nothing is clipped, or everything.
+        // If all values have the same sign, nothing or everything is clipped.
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
             return Self::between(&values);
         }

@@ -1,8 +1,8 @@
-//! The step of a depth bias that a frame shows. The specification leaves the step open, but all of an
-//! attachment has the same one. A frame is therefore legal only if all its samples are legal under one step.
-//! The search halves the range of steps: the legal set of a part of the range contains every frame of every
-//! step in it, so a part whose set refuses the frame is refused as a whole, and the frame is refused only if
-//! all parts are.
+//! The step of a depth bias that a frame shows. The specification leaves the step open, but it is the same
+//! for a whole attachment. A frame is therefore legal only if all its samples are legal under one step. The
+//! search halves the range of steps: the legal set of a part of the range contains every frame of every step
+//! in it, so a part whose set refuses the frame is refused as a whole, and the frame is refused only if all
+//! parts are.
 
 use crate::legal_sets::{Judgement, Sets, set_by};
 use crate::read_back::depth_encoding;
@@ -12,10 +12,11 @@ use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// The relative width at which a part is not halved further: single results can be off by this much anyway.
+/// The relative width below which a part is not halved, because single results can be off by this much
+/// anyway.
 const NARROW: f64 = 2e-5;
 
-/// The maximum number of legal sets per search. A search that ends early refuses nothing.
+/// The maximum number of legal sets per search. A search that ends early refuses no frame.
 const MOST_SETS: u32 = 160;
 
 /// Rules with the step of depth bias that a frame shows, and the legal set under it.
@@ -23,13 +24,13 @@ const MOST_SETS: u32 = 160;
 pub struct Fitted {
     /// The rules.
     pub rules: Rules,
-    /// The values that they allow.
+    /// The values that the rules allow.
     pub legal: Arc<LegalSet>,
 }
 
 impl Judgement {
-    /// Returns the judgement under the depth bias step that a frame of the scene shows; this judgement if its
-    /// scene leaves no step open.
+    /// Returns the judgement under the depth bias step that a frame of the scene shows; returns this
+    /// judgement if its scene leaves no step open.
     ///
     /// # Errors
     /// If the frame does not fit the scene.

@@ -1,4 +1,4 @@
-//! One fragment in one world: culling, shading, tests, blending, stores.
+//! A fragment in one world: culling, shading, tests, blending, stores.
 
 use crate::input_mask::InputBits;
 use crate::interval::Interval;
@@ -110,7 +110,7 @@ impl Walk<'_> {
                 coverage: Possible::Never,
             }
         };
-        // A masked sample requires no run of the shader.
+        // The shader does not have to run for a masked sample.
         let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let shaded = Shaded {
@@ -125,9 +125,9 @@ impl Walk<'_> {
             if masked || !writes || self.rules.early_ignores_written.value() {
                 return;
             }
-            // The shader may nevertheless have run first.
+            // The shader may still have run before.
         }
-        // A fragment that contributes nothing requires a run only if the rules say so.
+        // For a fragment that contributes nothing, the shader has to run only if the rules say so.
         let asks = !masked && self.counts_runs(place) && self.rules.runs_for_discarded.value();
         let survives = covered.survives();
         if !survives.must() {
@@ -308,7 +308,7 @@ impl Walk<'_> {
     }
 
     /// Adds a run of the shader for a fragment; `certain` if the rules demand it. If a later fragment can
-    /// make earlier ones unnecessary, their runs are no longer certain.
+    /// make earlier fragments unnecessary, their runs are no longer certain.
     fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
         if !self.counts_runs(place) {
             return;
@@ -439,7 +439,7 @@ impl Walk<'_> {
         let of_lost = losses.map(|(kept, rule)| (!kept.must()).then(|| rule.value()));
         let allows = |updates: EarlyUpdates| of_lost.contains(&Some(updates));
         if allows(EarlyUpdates::Either) || allows(EarlyUpdates::Each) {
-            // As if the fragment had never been tested, except for what it counted.
+            // The state before the fragment was tested, except that its counts are kept.
             let mut untouched = before.clone();
             untouched.events.clone_from(&passed.events);
             if allows(EarlyUpdates::Each) {
@@ -543,8 +543,8 @@ impl Walk<'_> {
     }
 
     /// Returns the depth that is tested and stored. It is clamped to the viewport's range if the draw clamps;
-    /// otherwise the rules decide about a depth outside the range. Only a clipped fixed-function depth is
-    /// always inside.
+    /// otherwise the rules decide about a depth outside the range. A fixed-function depth is always inside if
+    /// the primitive is clipped.
     fn in_range(&self, place: Place<'_>, depth: Range, source: Source) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
@@ -557,7 +557,7 @@ impl Walk<'_> {
         let slack = self.rules.float_error.value() * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == Source::Written;
-        // A point beyond the near or far plane can be drawn.
+        // The rules can let a point beyond the near or far plane be drawn.
         let point = matches!(place.primitive.shape, Shape::Point(_));
         let exported = written || point || place.primitive.is_biased();
         let depth = if depth.float.may_be_nan() {
@@ -610,8 +610,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns true if the fragment has a shader, or if the rules let it go on without one as it was
-    /// rasterized.
+    /// Returns true if the fragment has a shader, or if the rules let it pass unchanged without a shader.
     fn goes_on(&self, place: Place<'_>) -> bool {
         place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
@@ -774,7 +773,7 @@ impl Walk<'_> {
 }
 
 /// The outcome of shading for a sample: whether the shader's discard, the shader's sample mask, and the
-/// draw's mask with alpha to coverage can keep it, and whether they must.
+/// draw's mask with alpha to coverage can keep the sample, and whether they must.
 #[derive(Clone, Copy, Debug)]
 struct Covered {
     kept: Possible,

@@ -38,7 +38,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Notes that an operation ends a fragment, or can end it.
+    /// Notes that an operation ends, or can end, a fragment.
     pub(crate) fn note_rejection(
         &self,
         notes: &mut Notes<'_>,

@@ -125,7 +125,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Widens each end by a share of its magnitude; zero and infinities stay unchanged.
+    /// Widens each end by a fraction of its magnitude; zero and infinities stay unchanged.
     pub fn widen_relative(self, share: f64) -> Self {
         Self {
             low: widened(self.low, -self.low.abs() * share),

@@ -36,7 +36,7 @@ impl Range {
         Self::same(Interval::exact(value))
     }
 
-    /// Returns one interval for both ways of computing.
+    /// Returns the same interval for all ways of computing.
     pub fn same(interval: Interval) -> Self {
         Self {
             float: interval,
@@ -77,7 +77,7 @@ impl Range {
     }
 }
 
-/// What a blend that does not compute in floating-point rounds its results to.
+/// The values to which a blend rounds its results if it does not compute in floating-point.
 #[derive(Clone, Copy)]
 enum Grid {
     /// The destination's codes.
@@ -93,8 +93,8 @@ pub struct Judging<'r> {
     pub rules: &'r Rules,
     /// True if blends are advanced and may be computed with the precision of 16-bit floats.
     advanced: bool,
-    /// True if operands of blends into signed formats are clamped to -1 to 1, false if to 0 to 1. If `None`,
-    /// the rules decide, or both are possible.
+    /// True if operands of blends into signed formats are clamped to -1 to 1, false if they are clamped to 0
+    /// to 1. If `None`, the rules decide, or both are possible.
     pub(crate) signed_operands: Option<bool>,
 }
 
@@ -217,8 +217,8 @@ impl<'r> Judging<'r> {
         precision.value() == BlendPrecision::DestinationCodes
     }
 
-    /// Widens an operand or an exact result, whose computed values are in `computed`, by the rounding to the
-    /// shortest significand with the destination's precision.
+    /// Widens an operand or an exact result by the rounding to the shortest significand with the
+    /// destination's precision. `computed` contains its computed values.
     fn float_outward(
         &self,
         encoding: ChannelEncoding,
@@ -235,7 +235,8 @@ impl<'r> Judging<'r> {
         computed.hull(to_significand(bits, exact))
     }
 
-    /// Returns the least number of bits of a normalized destination's blends, without a sign.
+    /// Returns the least number of bits, without a sign, with which blends into a normalized destination are
+    /// computed.
     fn bits(&self, encoding: ChannelEncoding) -> Option<u32> {
         let bits = match encoding {
             ChannelEncoding::Unorm(bits) => u32::from(bits),
@@ -250,7 +251,8 @@ impl<'r> Judging<'r> {
         })
     }
 
-    /// Returns the number of steps between 0 and 1 in fixed-point of the least precision: a power of two.
+    /// Returns the number of steps between 0 and 1 in fixed-point arithmetic of the least precision, a power
+    /// of two.
     fn steps(&self, encoding: ChannelEncoding) -> f64 {
         self.bits(encoding)
             .map_or(1.0, |bits| 2_f64.powi(bits as i32))
@@ -269,7 +271,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Rounds what is not computed in floating-point.
+    /// Rounds the results that are not computed in floating-point.
     fn on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
         let codes = self.round_outward(encoding, Grid::Codes, value.codes);
         let has_fractions = matches!(
@@ -288,7 +290,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Returns one over a value; values not above 0 do not matter.
+    /// Returns one over a value; the result does not matter for values of 0 and below.
     fn inverse(&self, encoding: ChannelEncoding, value: Range) -> Range {
         let exact = value.map(|v| {
             let least = f64::from(f32::MIN_POSITIVE);
@@ -432,7 +434,7 @@ impl<'r> Judging<'r> {
             v if v > limit => encoding.max_order(),
             v => encoding.order_below(v),
         };
-        // Past the largest value, it or infinity is stored.
+        // Above the largest value, either that value or infinity is stored.
         let high = match value.high {
             v if v > limit => encoding.max_order() + 1,
             v => encoding.order_above(v),
@@ -664,9 +666,9 @@ impl Arithmetic for Judging<'_> {
         let largest = f64::from(range[0].max(range[1]));
         Range::same(match self.rules.depth_terms.value() {
             DepthTerms::NearPlane if range[0] == 0.0 => value.float.widen_relative(error),
-            // Difference, product and sum, each rounded.
+            // The difference, the product and the sum are each rounded.
             DepthTerms::NearPlane => value.float.widen(largest * error * 2.0),
-            // Also the depth from -1 to 1.
+            // The depth from -1 to 1 is rounded too.
             DepthTerms::Middle => value.float.widen(largest * error * 3.0),
         })
     }
@@ -712,7 +714,8 @@ impl Arithmetic for Judging<'_> {
         if value.is_same() {
             return float;
         }
-        // Codes divided and multiplied again are integers but for this machine's own rounding.
+        // Codes that were divided and multiplied again are integers, except for the rounding of this
+        // computation.
         let codes = float.hull(self.store(encoding, value.codes, INTEGER_SLACK));
         if value.fixed == value.codes {
             return codes;
@@ -879,7 +882,7 @@ impl Arithmetic for Judging<'_> {
             .zip(self.rounded_once(encoding, product), Interval::hull)
     }
 
-    /// Each way of computing decides separately.
+    /// Each permitted way of computing selects separately.
     fn blend_select(&mut self, a: Range, b: Range, at_most: Range, otherwise: Range) -> Range {
         let one = |[a, b, at_most, otherwise]: [Interval; 4]| {
             let unknown = a.may_be_nan() || b.may_be_nan();
@@ -897,7 +900,8 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    /// Exact for exact codes; the hull of all outcomes for a few codes; otherwise anything.
+    /// The result is exact for exact codes, the hull of all outcomes for a few codes, and otherwise
+    /// unbounded.
     fn logic(
         &mut self,
         encoding: ChannelEncoding,

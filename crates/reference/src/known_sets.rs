@@ -10,8 +10,8 @@ use std::sync::Arc;
 pub struct KnownSets(Vec<(AskedValues, Arc<LegalSet>)>);
 
 impl KnownSets {
-    /// Returns the set of some rules: a cached one if the rules have the same values for all permissions it
-    /// asked for; otherwise the result of `compute`, which is then cached.
+    /// Returns the set of some rules: a cached one if the rules have the same values for all permissions that
+    /// computing the set asked for; otherwise the result of `compute`, which is then cached.
     pub fn get(
         &mut self,
         rules: &Rules,
@@ -21,7 +21,7 @@ impl KnownSets {
         if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
-        // A clone starts without recorded permissions, so it records those of this computation alone.
+        // A clone starts without recorded permissions, so it records only those of this computation.
         let rules = rules.clone();
         let set = Arc::new(compute(&rules));
         self.0.push((rules.asked(), Arc::clone(&set)));

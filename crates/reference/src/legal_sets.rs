@@ -62,7 +62,7 @@ pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) ->
 
 /// Gives the legal set of some texels of a scene for limits and rules: the result of [`legal_set_of_texels`]
 /// for these, or for equal limits and rules with the same values for all permissions that were asked for. The
-/// limits contain only what sets depend on.
+/// limits contain only the values on which sets depend.
 pub type Sets<'a> = dyn Fn(&Limits, &Rules) -> Arc<LegalSet> + 'a;
 
 /// Returns the legal set of a scene for limits under which every depth format has one encoding.
@@ -108,7 +108,7 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
             samples: Vec::new(),
             blendable: false,
             depth: support.depth.clone(),
-            // How it is read is applied after the walk.
+            // The way of reading back is applied after the walk.
             read: ReadPath::Copy,
         };
         Some((format, basis))

@@ -1,6 +1,6 @@
 //! Lines with too few fragments. The specifications leave open which texel of a column has a line's fragment,
 //! so a missing line violates no single texel's legal set. The number of fragments is not open, though. A
-//! column counts as having one if any of its texels can contain what the line leaves there.
+//! column counts as having a fragment if any of its texels can contain what the line writes there.
 
 use crate::notes::Notes;
 use crate::primitive::{Edge, Shape, Side, SnappedPrimitive, line_times};
@@ -17,10 +17,10 @@ use std::ops::Range;
 /// The maximum number of columns of a scene's lines that are checked.
 const MOST_COLUMNS: usize = 4096;
 
-/// A line with fewer fragments than any algorithm can give it.
+/// A line with fewer fragments than any legal algorithm can produce.
 #[derive(Clone, Debug)]
 pub struct LineGap {
-    /// The pass, the draw and the primitive that is the line, or has it as an edge.
+    /// The pass, the draw and the primitive, which is the line or has it as an edge.
     pub origin: [usize; 3],
     /// The least legal number of fragments, and the greatest number that the frame can contain.
     pub fragments: [usize; 2],
@@ -122,8 +122,8 @@ fn along(point: Point, axis: usize) -> i64 {
 }
 
 /// Returns the axis along which a line is longer, wherever its ends are snapped, and the columns (or rows)
-/// that it crosses from side to side: the diamond-exit rule gives each a fragment. `None` if the axis depends
-/// on the snapping.
+/// that it crosses from side to side. The diamond-exit rule gives each of them a fragment. `None` if the axis
+/// depends on the snapping.
 fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
     let inner = |axis: usize| {
         let (first, second) = if along(a.low, axis) <= along(b.low, axis) {
@@ -142,7 +142,7 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
         .into_iter()
         .find(|axis| least(*axis) > most(1 - axis))?;
     let (low, high) = inner(axis);
-    // An end at a side of its texel can be in the next texel's diamond.
+    // An end on the border of its texel can be in the next texel's diamond.
     let (first, end) = (low.div_euclid(units) + 1, -(-high).div_euclid(units) - 1);
     Some((axis, first..end.max(first)))
 }
@@ -159,8 +159,8 @@ impl Walk<'_> {
     ) -> Option<(usize, Vec<WrongTexel>)> {
         let [a, b] = line.ends;
         let all = a.hull(b);
-        // A fragment is off by at most a texel, and an end on the side of a texel can count as the next
-        // one's.
+        // A fragment is off by at most a texel, and an end on the border of a texel can count for the next
+        // texel.
         let cells = |axis: usize| {
             let low = (along(all.low, axis) - 1).div_euclid(self.units);
             let high = along(all.high, axis).div_euclid(self.units);
@@ -202,7 +202,7 @@ impl Walk<'_> {
             if is_possible {
                 found += 1;
             } else if due.contains(&column) {
-                // The middle one is nearest to the line.
+                // The middle texel is nearest to the line.
                 let middle = refused.len() / 2;
                 wrong.extend(refused.into_iter().nth(middle));
             }

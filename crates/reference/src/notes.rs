@@ -4,7 +4,7 @@
 use crate::world::Cell;
 use etalon_frame::{Effect, Event, Origin, Rejection, Step, Target};
 
-/// One operation with its effect.
+/// An operation with its effect.
 #[derive(Clone, Debug)]
 pub(crate) struct Note {
     pub(crate) event: Event,
@@ -34,7 +34,7 @@ impl Note {
     }
 }
 
-/// The notes, if a story is being made; otherwise they cost nothing.
+/// The notes; `None` unless a story is being made.
 pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Vec<Note>>);
 
 impl Notes<'_> {

@@ -1,7 +1,7 @@
 //! Load and store operations and clear commands of passes.
 //!
-//! A clear stores the same as the initial clear of an attachment. Discarded contents stay in the worlds: the
-//! walk goes on with them, and at the end everything that depends on them is opened.
+//! A clear stores the same as the initial clear of an attachment. Discarded contents stay in the worlds. The
+//! walk continues with them, and at the end everything that depends on them becomes open.
 
 use crate::judging::{Judging, all_codes};
 use crate::notes::{Note, Notes};

@@ -1,5 +1,5 @@
 //! Whole pictures. Every sample is in a *state*: the set of its possible worlds, shared by all samples with
-//! the same set. A draw takes a state and a signature to another state, which is computed once, for the first
+//! the same set. A draw maps a state and a signature to another state, which is computed once, for the first
 //! sample that needs it. The cost depends mostly on the number of different things that happen to texels, and
 //! little on the number of texels.
 
@@ -27,8 +27,8 @@ struct Known {
 }
 
 impl Known {
-    /// Returns true if outcomes of a draw recur often enough to keep them. If every sample has a signature of
-    /// its own, as with interpolated depths or a shader that reads its position, keeping them costs more than it
+    /// Returns true if outcomes of a draw recur often enough to keep them. If every sample has its own
+    /// signature, as with interpolated depths or a shader that reads its position, a cache costs more than it
     /// saves.
     fn pays(&mut self, draw: u32) -> bool {
         const TRIED: u32 = 512;
@@ -139,7 +139,7 @@ impl Walk<'_> {
         let Some(index) = self.pictures.borrow().shape(shape) else {
             return;
         };
-        // Draws that sample the picture see its contents from before the pass.
+        // Draws that sample the picture see its contents before the pass.
         let mut picture = self.pictures.borrow().samples[index].clone();
         if !pass.cleared().is_empty() {
             self.each_state(&mut picture, |worlds| {
@@ -169,8 +169,8 @@ impl Walk<'_> {
         self.pictures.borrow_mut().samples[index] = picture;
     }
 
-    /// Opens the samples of draws whose vertices are open. Such draws can cover any texel, even one that no known
-    /// primitive touches.
+    /// Makes the samples of draws with unknown vertices open. Such draws can cover any texel, even one that
+    /// no known primitive touches.
     fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [State]) {
         let draws = self.scene.passes[p].draws.iter();
         for (draw, texts) in draws.zip(&self.open_texts[p]) {

@@ -1,13 +1,13 @@
-//! Whether something happens under the rules.
+//! Three-valued answers: whether something happens under the rules.
 
 /// Whether something happens under the rules, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Possible {
-    /// Under no reading.
+    /// The event happens under no reading.
     Never,
-    /// Under some readings.
+    /// The event happens under some readings.
     Maybe,
-    /// Under all readings.
+    /// The event happens under all readings.
     Always,
 }
 
@@ -21,17 +21,17 @@ impl Possible {
         }
     }
 
-    /// Returns true if it can happen.
+    /// Returns true if the event can happen.
     pub(crate) fn can(self) -> bool {
         self != Self::Never
     }
 
-    /// Returns true if it must happen.
+    /// Returns true if the event must happen.
     pub(crate) fn must(self) -> bool {
         self == Self::Always
     }
 
-    /// Returns whether both this and another thing happen.
+    /// Returns whether this event and another one both happen.
     pub(crate) fn and(self, other: Self) -> Self {
         self.min(other)
     }

@@ -53,8 +53,8 @@ pub(crate) struct Triangle {
 pub(crate) enum Edge {
     /// Between two snapped vertices.
     Between([SnapBox; 2]),
-    /// What is left of an edge that reaches behind the eye, or farther than vertices are snapped: the line's
-    /// value is at most `off` wherever legal clipping can put the edge.
+    /// The remaining part of an edge that reaches behind the eye, or farther than vertices are snapped.
+    /// Wherever legal clipping can put the edge, the line's value there is at most `off`.
     Cut { line: DepthPlane, off: f64 },
 }
 
@@ -66,7 +66,7 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) beyond: bool,
     /// The flat vertex colour.
     pub(crate) color: [Interval; 4],
-    /// The texels that it can touch: left, top, right, bottom, the last two excluded.
+    /// The texels that the primitive can touch: left, top, right and bottom, the last two exclusive.
     pub(crate) bounds: [i64; 4],
     /// Window depth, before any bias.
     pub(crate) window_depth: Depth,
@@ -85,20 +85,20 @@ pub(crate) struct SnappedPrimitive {
     /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
     /// depth, or if no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
-    /// Its index in the draw.
+    /// The primitive's index in the draw.
     pub(crate) index: u32,
 }
 
 /// The side of an edge on which a sample is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Side {
-    /// The edge function is positive, whatever the snapping.
+    /// The edge function is positive under every legal snapping.
     Positive,
-    /// The edge function is negative, whatever the snapping.
+    /// The edge function is negative under every legal snapping.
     Negative,
-    /// Exactly on the edge, whatever the snapping.
+    /// The sample is exactly on the edge under every legal snapping.
     On,
-    /// It depends on the snapping.
+    /// The side depends on the snapping.
     Unknown,
 }
 
@@ -108,7 +108,7 @@ impl Triangle {
         let moved = vertices.map(size).into_iter().max().unwrap_or(0);
         let [a, b, c] = vertices;
         let all = a.hull(b).hull(c);
-        // A sample of a texel that the triangle can touch is no farther from any vertex.
+        // No sample of a texel that the triangle can touch is farther from a vertex.
         let reach = (all.high.x - all.low.x) + (all.high.y - all.low.y) + 4 * units;
         Self {
             edges: [[a, b], [b, c], [c, a]].map(Edge::Between),
@@ -118,7 +118,7 @@ impl Triangle {
         }
     }
 
-    /// Returns a triangle that can have cut edges; whether a sample is inside a cut edge never depends on
+    /// Returns a triangle that can have cut edges. Whether a sample is inside a cut edge never depends on
     /// other primitives.
     pub(crate) fn cut(edges: [Edge; 3], ids: [VertexId; 3], area: (i64, i64)) -> Self {
         Self {
@@ -195,8 +195,8 @@ impl Triangle {
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
-            // The edge function over the texel of column x is at least start + growth * x, and at most that
-            // plus the variation within a texel.
+            // Over the texel in column x, the edge function is at least start + growth * x, and greater by at
+            // most the variation within a texel.
             let start = dy * p.x;
             let lowest = start + one.min(other) + growth.min(0);
             let highest = start + one.max(other) + growth.max(0);
@@ -253,7 +253,7 @@ impl SnappedPrimitive {
                     Edge::Cut { .. } => (0, 1),
                 });
                 let most = each.iter().map(|t| t.1).sum();
-                // The rules let overlapping edges be drawn once.
+                // The rules permit drawing overlapping edges only once.
                 (each.iter().map(|t| t.0).max().unwrap_or(0), most)
             }
             Shape::Triangle(_) => (0, 1),
@@ -266,8 +266,8 @@ impl SnappedPrimitive {
         Values::same(depth.plus(self.bias))
     }
 
-    /// Returns the depth that a shader reads, with or without the bias. With several samples it can be that
-    /// of any point of the texel.
+    /// Returns the depth that a shader reads, with or without the bias. With several samples it can be the
+    /// depth at any point of the texel.
     pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Values {
         let mut depth = self.window_depth.at(at);
         if samples > 1 {
@@ -303,7 +303,7 @@ impl SnappedPrimitive {
         Some(seen(value, at, units, samples))
     }
 
-    /// Returns true if a depth bias can move its fragments.
+    /// Returns true if a depth bias can move the primitive's fragments.
     pub(crate) fn is_biased(&self) -> bool {
         !self.bias.is(0.0)
     }
@@ -349,8 +349,8 @@ impl SnappedPrimitive {
     }
 }
 
-/// Returns a value that a shader reads. With several samples it can be that of any point of the texel, even
-/// of a centre outside the primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+/// Returns a value that a shader reads. With several samples it can be the value at any point of the texel,
+/// even at a centre outside the primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
 fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
     if samples > 1 {
         value.at(at).hull(value.over_texel(at, units))
@@ -436,8 +436,8 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
         || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
     // An axis-aligned line covers nothing farther away than the adjacent texel: a fragment may deviate by one
-    // unit from that of the diamond-exit rule (OpenGL 3.3, 3.5.1; OpenGL 4.6, 14.5.1; OpenGL ES 3.2, 13.6.1;
-    // Vulkan, Bresenham Line Segment Rasterization, which lines that are not strict may follow).
+    // unit from the diamond-exit rule's fragment (OpenGL 3.3, 3.5.1; OpenGL 4.6, 14.5.1; OpenGL ES 3.2,
+    // 13.6.1; Vulkan, Bresenham Line Segment Rasterization, which lines that are not strict may follow).
     let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
         || (vertical && misses(all.low.x, all.high.x, at.x));
     (u32::from(must), u32::from(!beside))

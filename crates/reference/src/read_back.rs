@@ -105,7 +105,7 @@ pub(crate) fn as_read(
 struct Change<'s> {
     image: &'s ImageInfo,
     stored: ChannelEncoding,
-    /// True if its contents are undefined.
+    /// True if the depth's contents are undefined.
     open: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Clauses with two readings. A driver follows one of them: nothing between the results of both is legal.
+//! Clauses with two readings. A driver follows one reading throughout; a mix of both is not legal.
 
 use crate::rules::{ConstantClamp, Rules, SignedClamp, SrgbLogic};
 use crate::world::{Contested, Decision, World, Worlds};
@@ -6,12 +6,12 @@ use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Draw, Pass, PrimitiveTopology, PrimitiveVertices, RESTART, Scene};
 use smallvec::{SmallVec, smallvec};
 
-/// What the specifications leave open about a draw, wherever its fragments are.
+/// The parts of a draw that the specifications leave open, independent of its fragments.
 pub(crate) struct OpenTexts {
-    /// The contested clauses that matter to it.
+    /// The contested clauses that matter to the draw.
     contested: SmallVec<[Contested; 2]>,
-    /// True if an index that need not be a restart points past the vertices, or if a line can continue beyond
-    /// the near or far plane. What is drawn then is not modelled.
+    /// True if an index that might not be a restart points past the vertices, or if a line can continue
+    /// beyond the near or far plane. The result is then not modelled.
     pub(crate) vertices: bool,
 }
 

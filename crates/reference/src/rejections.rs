@@ -1,5 +1,5 @@
-//! Notes of what does not happen: the draws, primitives and fragments that change nothing at a sample.
-//! Primitives with the same reason share a note: most of a mesh covers other texels.
+//! Notes of rejections: the draws, primitives and fragments that change nothing at a sample. Primitives with
+//! the same reason share a note: most of a mesh covers other texels.
 
 use crate::clause::clause;
 use crate::notes::{Note, Notes, Skipped};
@@ -11,7 +11,7 @@ use etalon_scene::Draw;
 type Numbered<'a> = (usize, usize, &'a Draw);
 
 impl Walk<'_> {
-    /// Notes that a draw ends as a whole: by rasterizer discard, or otherwise by its scissor rectangle.
+    /// Notes that the whole draw is rejected: by rasterizer discard, or otherwise by its scissor rectangle.
     pub(crate) fn note_draw(&self, notes: &mut Notes<'_>, draw: Numbered<'_>) {
         let (rejection, step) = if draw.2.rasterizer_discard {
             (Rejection::RasterizerDiscard, Step::RasterizerDiscard)
@@ -49,7 +49,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Notes that some primitives of a draw end at a sample; with an empty list, that the whole draw does.
+    /// Notes that some primitives of a draw are rejected at a sample; an empty list means the whole draw.
     fn note_primitives(
         &self,
         notes: &mut Notes<'_>,

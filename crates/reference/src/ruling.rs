@@ -15,13 +15,13 @@ use etalon_scene as scene;
 /// The maximum number of outcomes, and of draws, that a ruling lists.
 const LISTED: usize = 3;
 
-/// One aspect of one attachment, as part of a legal set.
+/// An aspect of an attachment, as part of a legal set.
 struct View {
     attachment: usize,
     name: String,
     aspect: Aspect,
     encodings: Vec<ChannelEncoding>,
-    /// Its first channel in the set.
+    /// The index of the aspect's first channel in the set.
     first: usize,
 }
 
@@ -304,7 +304,8 @@ impl Known<'_> {
         }
     }
 
-    /// Returns the rejections of all draws, or of those after `since`: the last operation that each reaches.
+    /// Returns the rejections of all draws, or of the draws after `since`. A rejection is the last operation
+    /// that a draw reaches.
     fn ends(&self, view: &View, since: Option<(usize, usize)>) -> Vec<Reason> {
         let mut draws: Vec<(usize, usize)> = Vec::new();
         let effective = self.events().filter(|e| !e.effect.is_none());

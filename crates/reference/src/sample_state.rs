@@ -32,7 +32,8 @@ fn frag_coord_at(rules: &Rules, state: &Multisample, samples: u32) -> ShadedAt {
     match (rules.frag_coord.value(), state.min_sample_shading) {
         (FragCoord::Inputs, _) => inputs_at(rules, state),
         (FragCoord::Sample, None) => ShadedAt::Center,
-        // With as many runs as samples, and at least one sample per run, each run has one sample.
+        // If there are as many runs as samples, and each run has at least one sample, each run has exactly
+        // one.
         (FragCoord::Sample, Some(_)) if state.least_runs(samples) == samples => ShadedAt::Sample,
         (FragCoord::Sample, Some(_)) => ShadedAt::AnySample,
     }
@@ -75,8 +76,8 @@ impl Walk<'_> {
         w.map_or(Range::exact(0.0), Range::same)
     }
 
-    /// Returns the number of samples whose points may be the one at which inputs are interpolated: 1 if it is
-    /// the sample's own.
+    /// Returns the number of samples at whose points inputs may be interpolated; 1 if only the sample's own
+    /// point is possible.
     pub(crate) fn samples_shaded(&self, place: Place<'_>) -> u32 {
         let own = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
         match place.primitive.shape {

@@ -223,7 +223,7 @@ impl Walk<'_> {
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
         let mut largest: f64 = 0.0;
-        // Averages along one axis: of the rows and of the columns.
+        // The averages along one axis, for the rows and then for the columns.
         let mut lines = [[[Interval::exact(0.0); 4]; 2]; 2];
         let part = |axis: usize, far: i64| match far {
             0 => 1.0 - weight[axis],
@@ -276,7 +276,8 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the integers between two numbers, at most twice around the texture, which reaches every texel.
+/// Returns the integers between two numbers, but at most twice the texture's size, which is enough to reach
+/// every texel.
 fn whole(low: f64, high: f64, size: u32) -> Vec<f64> {
     let most = 2 * size as usize + 1;
     std::iter::successors(Some(low), |v| Some(v + 1.0))

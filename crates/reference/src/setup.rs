@@ -25,7 +25,7 @@ struct Vertex {
     id: VertexId,
 }
 
-/// What the primitives of one draw share.
+/// Data that the primitives of one draw share.
 struct Vertices {
     /// The vertices that have been set up for an earlier primitive.
     known: Vec<Option<Vertex>>,
@@ -71,8 +71,8 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
     primitives
 }
 
-/// Returns true if no judged texel is near a primitive, by a rough estimate: for most of a million small
-/// triangles, this is the whole cost.
+/// Returns true if no judged texel is near a primitive, by a rough estimate. Most of a million small
+/// triangles need only this check.
 fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> bool {
     if context.lattice == Lattice::ALL {
         return false;
@@ -93,14 +93,14 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
             if !v.is_finite() {
                 return false;
             }
-            // More than the legal error of a position, or the reach of a line beyond its ends.
+            // This is more than the legal error of a position, and more than a line's reach beyond its ends.
             let slack = 4.0 + v.abs() / 1024.0;
             low[axis] = low[axis].min(v - slack);
             high[axis] = high[axis].max(v + slack);
         }
     }
     let [width, height] = context.size;
-    // `as` saturates.
+    // The cast saturates.
     let within = |v: f32, most: u32| (v as u32).min(most);
     !context.lattice.meets([
         within(low[0].floor(), width),
@@ -110,7 +110,7 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
     ])
 }
 
-/// What differs between the shapes of a primitive.
+/// The data that differ between shapes of primitives.
 struct Parts {
     shape: Shape,
     window_depth: Depth,
@@ -123,7 +123,7 @@ struct Parts {
     distances: Vec<Distance>,
 }
 
-/// Returns a primitive; `None` if clipping leaves nothing of it.
+/// Returns a primitive; `None` if all of it is clipped.
 fn primitive(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -234,7 +234,7 @@ fn snapped(
             let clip_z = v.map(|v| v.clip_z);
             let inside = clip_z.iter().all(|z| z.low >= 0.0 && z.high <= 1.0);
             let clip = if inside && draw.polygon_mode == PolygonMode::Fill {
-                // Nothing is clipped, wherever the sample is.
+                // Nothing is clipped at any sample.
                 Depth::flat(&clip_z)
             } else {
                 Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z)
@@ -361,7 +361,7 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
     Some(Parts {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
-        // The near and far planes have already clipped it.
+        // The near and far planes have already clipped the line.
         clip_depth: Depth::flat(&[Interval::exact(0.5)]),
         bias: Interval::exact(0.0),
         all: a.hull(b),
@@ -374,7 +374,7 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
     })
 }
 
-/// Begins the hash of the inputs of depth with the ones shared by all primitives of a draw.
+/// Begins the hash of the inputs of depth with the inputs that all primitives of a draw share.
 fn draw_geometry(draw: &Draw) -> DefaultHasher {
     let mut hasher = DefaultHasher::new();
     let viewport = &draw.viewport;

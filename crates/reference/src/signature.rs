@@ -1,6 +1,6 @@
 //! Signatures: everything that a draw's outcome at a sample depends on, apart from the sample's earlier
-//! contents. Samples with equal signatures and equal contents have equal contents afterwards, so one of them
-//! is judged for all.
+//! contents. Samples with equal signatures and equal contents have equal contents afterwards, so only one of
+//! them is judged.
 
 use crate::interval::Interval;
 use crate::judging::Range;
@@ -29,7 +29,7 @@ pub(crate) struct Inputs {
     /// Whether the primitives themselves matter, because counters identify fragments by them.
     primitives: bool,
     textures: SmallVec<[Texture; 2]>,
-    /// For each primitive, the number of what is constant over it.
+    /// For each primitive, the number of the set of values that are constant over it.
     kinds: Vec<u32>,
 }
 
@@ -44,7 +44,7 @@ enum Texture {
     Value(usize),
 }
 
-/// One draw of a signature: the words from `start` on.
+/// A draw's part of a signature: the words from `start` on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Part {
     pub(crate) draw: u32,
@@ -59,8 +59,8 @@ pub(crate) struct SampleKey {
     pub(crate) parts: Vec<Part>,
     /// The sides for all primitives, even if they miss the sample.
     sides: Vec<[Side; 3]>,
-    /// True if all samples of a row between this one and one with equal signature and sides have that
-    /// signature too.
+    /// True if all samples in the row between this sample and another with equal signature and sides also
+    /// have that signature.
     constant: bool,
 }
 
@@ -71,8 +71,9 @@ impl SampleKey {
         &self.words[self.parts[part].start as usize..end.unwrap_or(self.words.len())]
     }
 
-    /// Returns true if all samples of a row between two with these signatures have the same one. A side on
-    /// which a sample certainly is, is a half-plane, whose points in a row form an interval.
+    /// Returns true if all samples in a row between two samples with these signatures have the same
+    /// signature. The points that are certainly on one side of an edge form a half-plane, whose points in a
+    /// row form an interval.
     pub(crate) fn spans(&self, other: &Self) -> bool {
         self.constant
             && other.constant
@@ -142,7 +143,7 @@ impl Walk<'_> {
         let same_size = attachment.size == self.scene.pass_size(own);
         let same_shape = same_size && attachment.samples == self.scene.pass_samples(own);
         match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {
-            // The coordinates say which texels, and these are the same for all samples.
+            // The coordinates select the texels, which are the same for all samples.
             (Some(_), false) => Texture::Known,
             (Some(_), true) => Texture::Value(index),
             (None, true) if same_shape || !same_size => Texture::Known,
@@ -315,7 +316,7 @@ impl Walk<'_> {
 }
 
 impl Inputs {
-    /// Returns what is constant over a primitive.
+    /// Returns the values that are constant over a primitive.
     fn kind(&self, primitive: &SnappedPrimitive) -> SmallVec<[u64; 24]> {
         let mut words: SmallVec<[u64; 24]> = SmallVec::new();
         words.push(match &primitive.shape {

@@ -1,5 +1,5 @@
-//! The stencil state that a fragment is tested with: that of its face, with the reference of the draw or of
-//! its shader.
+//! The stencil state with which a fragment is tested: the state of its face, with the reference of the draw
+//! or of its shader.
 //!
 //! Tests before the shader use the draw's reference, whatever the shader writes.
 

@@ -1,15 +1,15 @@
-//! The judged texels of an image: all of them, or a lattice. Large pictures are there to be measured, and
-//! judging one completely would take longer than drawing it.
+//! The judged texels of an image: all of them, or a lattice. Large pictures exist to be timed, and judging
+//! one completely would take longer than drawing it.
 
 use etalon_scene::{Attachment, Scene};
 
 /// The texels that are judged. Nothing is computed or asserted for others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Texels {
-    /// All.
+    /// All texels.
     All,
-    /// At most this many of each image, on a lattice that is the same for all images of one size. It reaches
-    /// every row and column if the number allows it.
+    /// At most this many texels of each image, on a lattice that is the same for all images of one size. It
+    /// reaches every row and column if the number allows it.
     AtMost(u64),
     /// One texel, as column and row.
     One([u32; 2]),
@@ -33,7 +33,7 @@ impl Texels {
         self == Self::All
     }
 
-    /// Returns the choice for a scene: [`Texels::All`] if it would leave out nothing there.
+    /// Returns the choice for a scene: [`Texels::All`] if the choice would leave out nothing.
     pub(crate) fn of(self, scene: &Scene) -> Self {
         let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
         if scene.attachments.iter().all(whole) {
@@ -65,7 +65,7 @@ impl Texels {
                 }
                 let fits = |step: &u64| Lattice::Step(*step).count(size) <= most;
                 let primes = (texels.div_ceil(most)..).filter(|n| is_prime(*n) && *n != SHEAR);
-                // A step as large as the number of texels leaves one lattice point, so one step always fits.
+                // A step as large as the number of texels leaves one lattice point, so some step always fits.
                 Lattice::Step(primes.into_iter().find(fits).unwrap_or(texels))
             }
         }

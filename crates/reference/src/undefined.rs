@@ -1,8 +1,8 @@
 //! Results that depend on discarded contents.
 //!
 //! A store operation discards an aspect as a whole, and a draw that reads undefined contents is assumed to
-//! make everything that it writes undefined. What is undefined therefore follows from the scene alone,
-//! whatever the sample, and is not part of the worlds.
+//! make everything that it writes undefined. The undefined parts therefore follow from the scene alone, are
+//! the same at every sample, and are not part of the worlds.
 
 use etalon_frame::Aspect;
 use etalon_scene::{Clear, ClearTarget, CompareFunction, Draw, Pass, ResolveMode, Scene};
@@ -100,7 +100,7 @@ impl Undefined {
     }
 
     /// Returns true if the fragments of a draw, or their values, depend on undefined contents. Blending does
-    /// not count: it changes only what is undefined already.
+    /// not count, because it changes only contents that are undefined already.
     fn is_read(&self, pass: &Pass, draw: &Draw) -> bool {
         let undefined = |aspect| pass.depth_stencil.is_some_and(|i| self.aspect(i, aspect));
         let reads = |function: CompareFunction| {
@@ -138,7 +138,7 @@ mod tests {
     use super::*;
     use etalon_case::{CaseFile, Profile};
 
-    /// Returns what is undefined after passes over `color`, `other` and `depth`, with a counter.
+    /// Returns the undefined parts after passes over `color`, `other` and `depth`, with a counter.
     fn undefined(passes: &str) -> Undefined {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{

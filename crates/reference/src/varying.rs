@@ -103,7 +103,7 @@ impl Perspective {
                 })
             })
         });
-        // Positions may be interpolated before or after snapping: one step of the grid.
+        // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
         Self::of(choices.collect(), [grid as f64; 2], values, float_error)
     }
 

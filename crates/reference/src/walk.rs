@@ -191,7 +191,7 @@ impl<'a> Walk<'a> {
         self.known.borrow_mut().clear();
     }
 
-    /// Makes a line cover a sample from now on, instead of any earlier one.
+    /// Makes a line cover a sample from now on. Replaces an earlier call.
     pub(crate) fn force(&self, forced: Forced) {
         self.forced.set(Some(forced));
         self.known.borrow_mut().clear();

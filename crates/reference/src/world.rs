@@ -48,7 +48,7 @@ pub(crate) struct Increment {
     pub(crate) counter: u16,
     /// The draw and the primitive whose fragment counts.
     pub(crate) fragment: (u32, u32),
-    /// True if it certainly counts; otherwise it may.
+    /// True if it certainly counts; otherwise it may or may not count.
     pub(crate) certain: bool,
 }
 
@@ -94,7 +94,7 @@ impl Decision {
     }
 }
 
-/// One consistent history: the contents of every attachment, and the choices that led there.
+/// A consistent history: the contents of every attachment, and the choices that led there.
 #[derive(Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,

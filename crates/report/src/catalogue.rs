@@ -1,5 +1,4 @@
-//! The cases of a run as intended: scene, shader and reference picture, in one script per area next to the
-//! page.
+//! The scenes, shaders and reference pictures of a run's cases, in one script per area next to the page.
 //!
 //! A browser lets a page from the file system read its neighbours only by running them as scripts. Each file
 //! is therefore a call of one function with one value. The page's policy allows its own script to load these
@@ -21,7 +20,7 @@ pub const CATALOGUE: &str = "cases";
 /// The maximum number of bytes of one area's pictures. Pictures beyond this limit are left out.
 const PICTURE_BYTES: usize = 1_000_000;
 
-/// One case as intended.
+/// A case, with its scene, shaders and reference picture.
 #[derive(Clone, Debug)]
 pub struct CatalogueCase {
     /// The id.
@@ -58,8 +57,8 @@ struct Area<'a> {
     scenes: Interner<Vec<usize>>,
     /// Lists of shaders.
     used: Interner<&'a [&'static str]>,
-    /// By file and the rest of the id: the indices of the scene, the picture (-1 for none) and the list of
-    /// shaders.
+    /// The indices of the scene, the picture (-1 for none) and the list of shaders, by file and then by the
+    /// rest of the id.
     cases: BTreeMap<&'a str, BTreeMap<&'a str, (usize, i64, usize)>>,
 }
 

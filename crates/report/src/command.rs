@@ -32,7 +32,7 @@ pub(crate) fn explain(record: &Record) -> String {
     }
 }
 
-/// Returns the commands that lead from a wrong picture to a report, each with its result.
+/// Returns the commands that turn a wrong picture into a bug report, each with a description of its result.
 pub(crate) fn onward(record: &Record) -> [(&'static str, String); 3] {
     let (case, adapter) = (quoted(&record.case), quoted(&record.adapter));
     [

@@ -18,7 +18,7 @@ pub(crate) fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf
     match result {
         Ok(()) => Ok(path),
         Err(source) => {
-            // Best effort: the first error is the one to report.
+            // Errors are ignored: the first error is reported.
             let _ = fs::remove_file(&beside);
             Err(ReportError::Io { path, source })
         }

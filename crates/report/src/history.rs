@@ -1,4 +1,5 @@
-//! The pages of a history: what changed since the last run, scores over time, and the whole course of each case.
+//! The pages of a history: what changed since the last run, scores over time, and the full history of each
+//! case.
 //!
 //! The start page needs no script. Everything else is in neighbouring files, each a script that hands its
 //! data to the page's script: a browser does not let a page from the file system read its neighbours

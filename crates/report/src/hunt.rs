@@ -36,7 +36,7 @@ pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError
 }
 
 /// Returns a table with a row per area, the totals, and the bugs that were only noticed, survived, or were
-/// seen by other areas only. The text always ends in a newline.
+/// caught only by other areas. The text always ends in a newline.
 pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     let (table, _) = area_table().terminal(areas(hunt), options, &[]);
     let mut text = format!("{table}\n\n{}\n", totals(hunt));
@@ -225,9 +225,9 @@ struct AreaRow<'a> {
     area: &'a str,
     /// The number of bugs that this area must catch alone.
     own: usize,
-    /// The number of these bugs whose outcome the area reaches alone.
+    /// The number of these bugs for which the area's own cases suffice.
     own_reached: usize,
-    /// The number of bugs of any area that it caught, noticed without catching, and passed.
+    /// The numbers of bugs, of any area, that this area caught, noticed without catching, and missed.
     counts: [usize; 3],
 }
 
@@ -275,7 +275,7 @@ fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
 /// The text that a terminal shows below a bug.
 type Reason = fn(&MutantRecord) -> Option<&String>;
 
-/// Returns bugs to look at: noticed, survived, or caught only by cases of other areas.
+/// Returns the bugs to look at: those only noticed, survived, or caught only by cases of other areas.
 fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
     let found = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);

@@ -29,7 +29,7 @@ pub(crate) fn grouped<K: Hash + Eq + Clone, V>(
     keys.values.into_iter().zip(groups).collect()
 }
 
-/// Moves one item of each kind before the second item of any kind, and otherwise keeps the order.
+/// Moves the first item of every kind before all second items, and otherwise keeps the order.
 pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     let mut seen: HashMap<K, usize> = HashMap::new();
     items.sort_by_cached_key(|item| {
@@ -39,7 +39,7 @@ pub(crate) fn spread<T, K: Hash + Eq>(items: &mut [T], kind: impl Fn(&T) -> K) {
     });
 }
 
-/// Distinct values, by the place at which they first occurred.
+/// Distinct values in the order in which they first occurred.
 pub(crate) struct Interner<T> {
     places: HashMap<T, usize>,
     pub(crate) values: Vec<T>,
@@ -61,7 +61,7 @@ impl<T: Serialize> Serialize for Interner<T> {
 }
 
 impl<T: Hash + Eq + Clone> Interner<T> {
-    /// Returns true if the value has a place.
+    /// Returns true if the list contains the value.
     pub(crate) fn has(&self, value: &T) -> bool {
         self.places.contains_key(value)
     }

@@ -17,11 +17,11 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// Records that are unexpected and were not before, the most serious first.
+    /// Records that became unexpected, the most serious first.
     pub broken: Vec<NewsEntry>,
-    /// Records that were unexpected before and are not now.
+    /// Records that are no longer unexpected.
     pub fixed: Vec<NewsEntry>,
-    /// Records that are unexpected as before.
+    /// Records that are still unexpected.
     pub old: Vec<NewsEntry>,
     /// Unexpected records that triage settled as real or ignored. They do not count.
     pub triaged: Vec<NewsEntry>,
@@ -32,11 +32,11 @@ pub struct News {
 pub struct Since {
     /// The adapter's name.
     pub adapter: String,
-    /// The run before, with its driver and commit; `None` if there is no earlier run to compare with.
+    /// The previous run, with its driver and commit; `None` if no earlier run can be compared.
     pub run: Option<String>,
 }
 
-/// One record with a note.
+/// A record with a note.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NewsEntry {
     /// The case.
@@ -45,7 +45,7 @@ pub struct NewsEntry {
     pub adapter: String,
     /// The verdict of this run.
     pub verdict: Verdict,
-    /// The verdict before, or the reason for which it does not count.
+    /// The previous verdict, or the reason why the record does not count.
     pub note: String,
 }
 
@@ -55,7 +55,8 @@ impl News {
         (self.broken.len() + self.old.len()) as u64
     }
 
-    /// Returns the run as reports show it: records that triage settled are expected, for the entry's reason.
+    /// Returns the run as reports show it: records that triage settled count as expected, with the entry's
+    /// reason.
     pub fn settle<'r>(&self, run: &'r Run) -> Cow<'r, Run> {
         if self.triaged.is_empty() {
             return Cow::Borrowed(run);

@@ -52,7 +52,8 @@ pub(crate) fn change(ratio: f64) -> String {
     }
 }
 
-/// Returns a share with this many decimals: `12.3 %`. Only 0 and 1 become `0 %` and `100 %`.
+/// Returns a fraction as a percentage with this many decimals: `12.3 %`. Only 0 and 1 become `0 %` and `100
+/// %`.
 pub(crate) fn percent(share: f64, decimals: usize) -> String {
     match share {
         s if s <= 0.0 => "0 %".to_owned(),
@@ -65,12 +66,12 @@ pub(crate) fn percent(share: f64, decimals: usize) -> String {
     }
 }
 
-/// Returns a part of a whole as [`percent`] does; 0 % if the whole is 0.
+/// Returns a part of a whole, like [`percent`]; 0 % if the whole is 0.
 pub(crate) fn percent_of(part: u64, whole: u64) -> String {
     percent(part as f64 / whole.max(1) as f64, 1)
 }
 
-/// Returns an error as a share of full brightness, with three significant digits: `0.25 %`.
+/// Returns an error as a percentage of full brightness, with three significant digits: `0.25 %`.
 pub(crate) fn share(value: f64) -> String {
     match value * 100.0 {
         0.0 => "0".to_owned(),

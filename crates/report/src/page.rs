@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 
 const STYLE: &str = include_str!("page/style.css");
 
-/// One page.
+/// A page.
 pub(crate) struct Page<'a> {
     title: &'a str,
     source: &'a str,

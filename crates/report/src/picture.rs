@@ -10,7 +10,7 @@ use maud::{Markup, Render, html};
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
-/// The largest side of a texel on the page, in pixels, which images of up to 20 texels have.
+/// The largest side of a texel on the page, in pixels. Images of up to 20 texels use it.
 const ENLARGED: u32 = 8;
 /// The approximate width to which images are enlarged on the page, in pixels.
 const TARGET: u32 = 160;
@@ -324,12 +324,12 @@ impl<'a> View<'a> {
             let (base, mark) = match self.image.wrong[sample] {
                 FrameImage::FINE => return FINE,
                 FrameImage::IMPRECISE => {
-                    // A dot.
+                    // The mark is a dot.
                     let inside = |v: u32| v * 2 + 2 >= block && v * 2 <= block;
                     (IMPRECISE, inside(x) && inside(y))
                 }
                 _ => {
-                    // A cross.
+                    // The mark is a cross.
                     let edge = x == 0 || y == 0 || x == block - 1 || y == block - 1;
                     (FAIL, !edge && (x == y || x + y == block - 1))
                 }

@@ -1,4 +1,4 @@
-//! One run: `index.html` and the summary for a terminal.
+//! The report of a run: `index.html` and the summary for a terminal.
 
 mod dead;
 pub(crate) mod grid;

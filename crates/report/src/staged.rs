@@ -32,7 +32,7 @@ pub struct WrittenFolder {
     pub bytes: u64,
 }
 
-/// Checks that a place is empty, or that it has only files of an earlier folder of this kind and may be
+/// Checks that a path is free, or that it has only files of an earlier folder of this kind and may be
 /// replaced.
 fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     let path = to.to_owned();
@@ -102,7 +102,7 @@ impl Staged {
     /// Begins a folder. With `replace`, it can replace an earlier folder of its kind.
     ///
     /// # Errors
-    /// Returns an error if the place has no name, cannot be read, or has other files.
+    /// Returns an error if the path has no name, cannot be read, or has other files.
     pub(crate) fn begin(
         to: &Path,
         kind: &'static Kind,
@@ -163,7 +163,7 @@ impl Staged {
         }
         if let Err(source) = fs::rename(&self.beside, &self.to) {
             if replaces {
-                // Best effort: the first error is the one to report.
+                // Errors are ignored: the first error is reported.
                 let _ = fs::rename(&old, &self.to);
             }
             return Err(ReportError::unwritten(&self.to)(source));
@@ -182,7 +182,8 @@ impl Staged {
 
 impl Drop for Staged {
     fn drop(&mut self) {
-        // A finished folder no longer exists here. Best effort: nothing uses an unfinished one.
+        // A finished folder was moved away from here. Errors are ignored, since nothing uses an unfinished
+        // folder.
         let _ = fs::remove_dir_all(&self.beside);
     }
 }

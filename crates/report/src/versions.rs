@@ -94,7 +94,7 @@ fn shown((_, group): &(usize, &Group<'_>)) -> bool {
     matches!(group.course, Course::Bad | Course::Flaky)
 }
 
-/// Returns the number of cases by course.
+/// Returns the number of cases by how they changed over the releases.
 fn totals(groups: &[Group<'_>]) -> [u64; 4] {
     let mut totals = [0; 4];
     for group in groups {

@@ -2,7 +2,7 @@
 //! arrive.
 //!
 //! A run writes a record of every case and can resume. In a batch, most cases pass and are forgotten, so a
-//! case costs only its drawing and its judgement. Each worker draws the next case that no other worker has
+//! case costs only the time to draw and to judge it. Each worker draws the next case that no other worker has
 //! taken. The records are in the order of the cases, so that they do not depend on the number of workers.
 
 use crate::drawing::Due;
@@ -71,7 +71,7 @@ impl Batches {
         let count = self.workers.len();
         let workers = Mutex::new(self.workers.iter_mut());
         let ended = threads::share(count, || {
-            // Without its own thread, a worker gets its turn when no case is left.
+            // A worker for which no thread could be started has no case left to draw.
             while share.is_left()
                 && let Some(worker) = { lock(&workers).next() }
             {

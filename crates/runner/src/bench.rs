@@ -42,7 +42,7 @@ pub struct BenchPlan<'a> {
     pub timeout: Duration,
     /// The known bad verdicts.
     pub expectations: &'a Expectations,
-    /// True to continue the bench in the folder, by measuring what it lacks.
+    /// True to continue the bench in the folder by measuring its missing rounds.
     pub resume: bool,
     /// The bench folder.
     pub folder: &'a Path,
@@ -75,7 +75,7 @@ pub enum BenchEvent {
     Done {
         /// The case and the adapter, with the reason.
         done: Done,
-        /// The number of rounds that it does not need.
+        /// The number of rounds that are not needed.
         spared: u32,
     },
     /// A case has no more rounds on an adapter, although some are missing.
@@ -178,25 +178,25 @@ pub fn bench(
 struct Adapter {
     record: AdapterRecord,
     supervisor: Supervisor,
-    /// The time that its rounds took.
+    /// The time that the adapter's rounds took.
     spent: Duration,
 }
 
 impl Adapter {
-    /// Returns true if its rounds have used up their time.
+    /// Returns true if the adapter's rounds have used up their time.
     fn is_spent(&self, limit: Option<Duration>) -> bool {
         limit.is_some_and(|limit| self.spent >= limit)
     }
 }
 
-/// A case on an adapter with a right picture: its numbers, and the fingerprint of the picture.
+/// A case and an adapter that draws it correctly, both by index, with the fingerprint of the picture.
 struct Pair {
     case: usize,
     adapter: usize,
     picture: u64,
-    /// The rounds that it already has, and what else is known.
+    /// The pair's record, with the rounds that it already has.
     record: BenchRecord,
-    /// The name of its cell in the performance matrix.
+    /// The name of the case's cell in the performance matrix.
     cell: Option<String>,
 }
 
@@ -357,8 +357,8 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// Removes the pairs that need no further round: all pairs of an adapter whose time is spent, and pairs
-    /// whose intervals are narrow enough.
+    /// Removes the pairs that need no further round: all pairs of an adapter whose time has run out, and
+    /// pairs whose intervals are narrow enough.
     fn finish(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         let within = self.within.filter(|_| number as usize >= MIN_ROUNDS);
         let enough: Vec<Option<Enough>> = pairs
@@ -500,8 +500,8 @@ impl Bench<'_, '_> {
     }
 }
 
-/// Returns true if the interval of a pair is within a share of its value: the rate of its cell, or
-/// otherwise its wall time.
+/// Returns true if the interval of a pair's value is narrow enough, relative to the value. The value is the
+/// rate of its cell, or otherwise its wall time.
 fn is_narrow(pair: &Pair, pairs: &[Pair], software: bool, share: f64) -> bool {
     if let Some(cell) = &pair.cell {
         let other = pairs.iter().find(|other| {

@@ -19,13 +19,13 @@ pub(crate) struct Drawing {
     pub(crate) frames: Result<Vec<Frame>, Failure>,
     /// The time that the worker spent, by its own clock.
     pub(crate) working: Duration,
-    /// The time since the worker could begin.
+    /// The time from when the worker could begin until the last answer.
     pub(crate) since: Duration,
     /// Messages of validation layers and debug output.
     pub(crate) messages: Vec<String>,
 }
 
-/// The number of answers to the requests of some frames.
+/// The number of expected answers to the requests for some frames.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Due {
     answers: usize,
@@ -33,7 +33,7 @@ pub(crate) struct Due {
 }
 
 impl Due {
-    /// One frame of one scene.
+    /// A single frame of a single scene.
     pub(crate) const ONE: Self = Self {
         answers: 4,
         frames: 1,
@@ -72,7 +72,7 @@ pub fn draw_frames(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, Bac
 }
 
 impl Drawing {
-    /// Returns the drawing of a case whose worker could not be asked.
+    /// Returns the result of a case if no request could be sent to its worker.
     pub(crate) fn failed(failure: Failure) -> Self {
         Self {
             frames: Err(failure),

@@ -7,9 +7,9 @@ use std::process::ExitStatus;
 /// The report on a lost worker.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ExitReport {
-    /// For people: the cause, and the end of standard error.
+    /// A message for people: the cause, and the end of standard error.
     pub(crate) message: String,
-    /// For programs.
+    /// The same facts for programs.
     pub(crate) end: ProcessEnd,
 }
 

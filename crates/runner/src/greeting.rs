@@ -80,7 +80,7 @@ mod tests {
         };
         assert!(shell.contains("`Last login: today \\u{1b}[31m`"), "{shell}");
         assert!(shell.contains("must not print"), "{shell}");
-        // Without an end of line, no more is read than can be quoted.
+        // A line without an end is read only up to the length that can be quoted.
         assert!(checked(&"x".repeat(1 << 20)).is_err());
     }
 }

@@ -25,8 +25,8 @@ pub struct HuntPlan<'a> {
 /// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
 /// plan. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
 ///
-/// Every thread has its own share of the bugs and draws the cases in order, so that state that a bug
-/// carries from one case to the next is always the same.
+/// Every thread has its own part of the bugs and draws the cases in order, so that state that a bug carries
+/// from one case to the next is always the same.
 pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
@@ -59,8 +59,8 @@ pub fn hunt(
     found.into_iter().map(|(_, record)| record).collect()
 }
 
-/// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are judged
-/// only once.
+/// Draws one case with each of a thread's bugs. Most bugs give one of a few frames, and each distinct frame
+/// is judged only once.
 fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
@@ -125,7 +125,7 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws a case's scenes once each. A panic makes the mutant broken, but does not end the hunt.
+/// Draws a case's scenes once each. If the mutant panics, it is reported as broken, and the hunt goes on.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
     match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),

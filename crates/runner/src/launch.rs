@@ -21,7 +21,7 @@ pub struct Launch {
     pub adapter: String,
     /// The program.
     pub program: PathBuf,
-    /// Its arguments.
+    /// The program's arguments.
     pub arguments: Vec<String>,
     /// Environment variables that are added to the parent's; `None` removes one.
     pub environment: Vec<(String, Option<String>)>,
@@ -52,7 +52,7 @@ pub struct Launcher {
 pub struct Setup {
     /// The adapter that the worker opens.
     pub open: String,
-    /// The variables that it needs; `None` means that a variable must not be set.
+    /// The environment variables that the worker needs; `None` means that a variable must not be set.
     pub environment: Vec<(String, Option<String>)>,
 }
 

@@ -17,17 +17,17 @@ pub(crate) enum Failure {
 /// How a worker was lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Loss {
-    /// It did not answer within this time.
+    /// The worker did not answer within this time.
     Timeout(Duration),
-    /// It used `held` MiB of memory, more than its limit.
+    /// The worker used `held` MiB of memory, more than its limit.
     Memory { held: u64, limit: u64 },
-    /// Its output is not a message, or does not answer the request.
+    /// The worker's output is not a message, or does not answer the request.
     Garbage(String),
-    /// Its end of the pipe is closed.
+    /// The worker's end of the pipe is closed.
     Died,
-    /// It could not be started; the message states the reason.
+    /// The worker could not be started; the message states the reason.
     NotStarted(String),
-    /// The run is being stopped, and the answer is no longer needed.
+    /// The run is being stopped, so the answer is no longer needed.
     Cancelled,
 }
 

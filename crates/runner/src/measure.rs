@@ -27,7 +27,7 @@ const FRAMES: [u32; 2] = [3, 31];
 /// The truths of a run's method cases, each computed once for all methods and adapters.
 #[derive(Debug, Default)]
 pub(crate) struct Truths {
-    /// By question and scene.
+    /// The truths, by question and scene.
     scenes: Mutex<HashMap<(String, String), Vec<Known>>>,
 }
 
@@ -218,8 +218,8 @@ mod tests {
         assert_eq!(measured(0), None);
         assert_eq!(measured(1), Some([1, 1]));
         assert_eq!(measured(5), Some([1, 5]), "93.75 % at most");
-        // Tables of the sign test: 6 to 8 times lose none at either end, 9 to 11 lose one, 12 to 14 two, 31
-        // nine.
+        // From tables of the sign test: with 6 to 8 times, none is dropped at either end; with 9 to 11, one;
+        // with 12 to 14, two; with 31, nine.
         assert_eq!(measured(6), Some([1, 6]));
         assert_eq!(measured(8), Some([1, 8]));
         assert_eq!(measured(9), Some([2, 8]));

@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// The time that a worker may take to exit after its pipe broke.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
-/// The time that the rest of a worker's standard error may take to arrive.
+/// How long to wait for the rest of a worker's standard error.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// The time that a worker which is no longer needed may take to exit.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
@@ -122,7 +122,7 @@ impl WorkerProcess {
                 Ok(true) => greets.store(true, Ordering::Relaxed),
                 Ok(false) => return,
                 Err(loss) => {
-                    // If the parent has stopped waiting, the loss does not matter.
+                    // If the parent no longer waits, a lost message does not matter.
                     let _ = sender.send(vec![(Instant::now(), Err(loss))]);
                     return;
                 }
@@ -161,7 +161,8 @@ impl WorkerProcess {
         })
     }
 
-    /// Kills the worker when it uses more than `limit` MiB of memory, unless a launcher hides it.
+    /// Kills the worker when it uses more than `limit` MiB of memory, unless the worker runs behind a
+    /// launcher.
     ///
     /// # Errors
     /// If the system refuses the thread that watches it.
@@ -174,7 +175,7 @@ impl WorkerProcess {
         Ok(())
     }
 
-    /// Returns true if a worker has greeted.
+    /// Returns true if the worker has sent its greeting.
     pub(crate) fn has_greeted(&self) -> bool {
         self.greeted.load(Ordering::Relaxed)
     }

@@ -37,7 +37,7 @@ pub(crate) enum Response {
         /// The request's slot.
         slot: u32,
         outcome: Result<Payload, BackendError>,
-        /// The time that the worker spent.
+        /// The time that the worker spent on the request.
         elapsed: Duration,
         /// Messages of validation layers and debug output since the last answer.
         messages: Vec<String>,
@@ -57,9 +57,9 @@ pub(crate) enum Payload {
 /// An adapter as its worker describes it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello {
-    /// Its names and versions.
+    /// The adapter's names and versions.
     pub info: AdapterInfo,
-    /// Its limits and features.
+    /// The adapter's limits and features.
     pub limits: Limits,
 }
 

@@ -27,7 +27,7 @@ pub enum ReductionError {
     Lost {
         /// The name of the adapter.
         adapter: String,
-        /// Why it did not start.
+        /// Why the worker did not start.
         error: StartError,
     },
     /// The adapter lacks what the case needs.
@@ -50,14 +50,14 @@ pub enum ReductionError {
         /// The verdict, with the record's message.
         verdict: String,
     },
-    /// The case fails only in some drawings, or in several ways.
+    /// The case does not fail every time it is drawn, or fails in several ways.
     #[error("{case} is flaky on {adapter}: {flakiness}; only a steady failure can be reduced")]
     Flaky {
         /// The id of the case.
         case: String,
         /// The name of the adapter.
         adapter: String,
-        /// How its drawings differ.
+        /// How the results of drawing the case differ.
         flakiness: Flakiness,
     },
     /// The reduced case does not fail in a new process as it did before.
@@ -70,20 +70,20 @@ pub enum ReductionError {
     },
 }
 
-/// How the drawings of one case differ.
+/// How the results of repeatedly drawing one case differ.
 #[derive(Debug, Error)]
 pub enum Flakiness {
-    /// It fails only in some drawings.
+    /// The case fails only some of the times.
     #[error("it fails in {failing} of {drawings} drawings, in {processes} processes")]
     Sometimes {
-        /// The number of drawings that failed.
+        /// How often the case failed.
         failing: usize,
-        /// The number of drawings.
+        /// How often the case was drawn.
         drawings: usize,
         /// The number of processes.
         processes: usize,
     },
-    /// It fails in two ways.
+    /// The case fails in two ways.
     #[error("it fails by {0} and by {1}")]
     TwoWays(Box<Symptom>, Box<Symptom>),
 }

@@ -111,7 +111,7 @@ impl Worker {
 
 /// A scene that was drawn once.
 pub struct Recorded {
-    /// Its frame.
+    /// The scene's frame.
     pub frame: Frame,
     /// Messages of validation layers and debug output.
     pub messages: Vec<String>,

@@ -3,7 +3,7 @@
 use etalon_frame::TextureFormat;
 use serde::{Deserialize, Serialize};
 
-/// One texture.
+/// A texture that passes draw to or read from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attachment {
     /// Name in the case file.

@@ -98,13 +98,14 @@ pub struct BlendState {
 
 state_enum! {
     /// A separable mode of advanced blending: a function f of source and destination, each divided by its
-    /// alpha. Source and destination are premultiplied; where only one of them covers, it counts in full.
+    /// alpha. Source and destination are premultiplied. In the part of the pixel that only one of them
+    /// covers, that one counts in full.
     AdvancedBlend {
         /// Source times destination.
         Multiply = "multiply",
-        /// Both inverted, multiplied and inverted again.
+        /// Inverts source and destination, multiplies them, and inverts the product.
         Screen = "screen",
-        /// Multiply or screen with doubled strength; the destination decides which.
+        /// Multiply or screen at double strength, depending on the destination.
         Overlay = "overlay",
         /// The smaller of the two.
         Darken = "darken",
@@ -114,9 +115,9 @@ state_enum! {
         ColorDodge = "color-dodge",
         /// The inverted destination divided by the source, inverted.
         ColorBurn = "color-burn",
-        /// Multiply or screen with doubled strength; the source decides which.
+        /// Multiply or screen at double strength, depending on the source.
         HardLight = "hard-light",
-        /// The destination darkened or lightened; the source decides which.
+        /// The destination darkened or lightened, depending on the source.
         SoftLight = "soft-light",
         /// The distance between the two.
         Difference = "difference",

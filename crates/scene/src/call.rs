@@ -44,7 +44,7 @@ impl Call<'_> {
         match self.index {
             IndexFormat::Uint32 => all.flat_map(|i| i.to_ne_bytes()).collect(),
             IndexFormat::Uint16 => {
-                // `RESTART` becomes the greatest 16-bit index.
+                // `RESTART` is truncated to the greatest 16-bit index.
                 all.flat_map(|i| (*i as u16).to_ne_bytes()).collect()
             }
         }

@@ -67,7 +67,7 @@ state_enum! {
         Zero = "zero",
         /// Set to the reference.
         Replace = "replace",
-        /// All bits inverted.
+        /// Inverts all bits.
         Invert = "invert",
         /// Plus one, clamped to the largest value.
         IncrementClamp = "increment-clamp",
@@ -83,9 +83,9 @@ state_enum! {
 /// The stencil test of a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct StencilState {
-    /// For front faces.
+    /// The test for front faces.
     pub front: StencilFace,
-    /// For back faces.
+    /// The test for back faces.
     pub back: StencilFace,
 }
 

@@ -119,7 +119,7 @@ impl Draw {
 
     /// Returns the bits of the shader's enabled clip distances.
     pub fn clipping_distances(&self) -> u8 {
-        // A shader has at most eight.
+        // A shader has at most eight clip distances.
         let own = (1_u32 << self.shader.clip_distances()) - 1;
         self.clip_distances & own as u8
     }

@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// When the depth bounds, stencil and depth tests happen, relative to the fragment shader.
     EarlyTests {
-        /// The API's default for the shader: in effect afterwards.
+        /// The API's default for the shader: as if after the shader.
         Implicit = "implicit",
-        /// Before the shader, whatever it does.
+        /// Before the shader, even if it discards fragments or writes depth.
         Forced = "forced",
-        /// In effect afterwards; the shader promises a depth not below the fragment's own.
+        /// As if after the shader, which promises a depth not below the fragment's own.
         GreaterEqual = "greater-equal",
-        /// In effect afterwards; the shader promises a depth not above the fragment's own.
+        /// As if after the shader, which promises a depth not above the fragment's own.
         LessEqual = "less-equal",
-        /// In effect afterwards; the shader promises to write the fragment's own depth.
+        /// As if after the shader, which promises to write the fragment's own depth.
         Unchanged = "unchanged",
     }
 }

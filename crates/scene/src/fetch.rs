@@ -20,14 +20,14 @@ state_enum! {
 /// The 16-bit index that restarts a strip.
 pub const RESTART_16: u16 = u16::MAX;
 
-/// The way of vertices to the pipeline. The default serves most draws: 32-bit indices, everything from the
-/// first one on, no instances.
+/// How vertices reach the pipeline. The default suits most draws: 32-bit indices, starting at the first
+/// vertex and index, not instanced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fetch {
     /// The size of an index.
     pub index: IndexFormat,
-    /// The number added to every index. The vertices are moved to match, or the indices if it is negative, so
-    /// that the sums refer to the mesh's vertices.
+    /// The number added to every index. The vertices (or, if the number is negative, the indices) are moved
+    /// to match, so that the sums refer to the mesh's vertices.
     pub base_vertex: i32,
     /// The number of unused indices before the used ones.
     pub first_index: u32,

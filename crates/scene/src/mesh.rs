@@ -4,7 +4,7 @@ use crate::rasterization::PrimitiveTopology;
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
-/// One vertex: 40 bytes, attributes in this order.
+/// A vertex: 40 bytes, with the attributes in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
 #[repr(C)]
 pub struct Vertex {

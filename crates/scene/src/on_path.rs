@@ -1,6 +1,6 @@
 //! Scenes rewritten for their paths.
 //!
-//! The values of [`PathStart`], [`PathDraws`] and [`PathTests`] need nothing of an API that a scene cannot
+//! The values of [`PathStart`], [`PathDraws`] and [`PathTests`] need nothing from an API that a scene cannot
 //! express: a load operation, a clear command, a draw, indices, a test. They are therefore applied here once,
 //! as another scene with the same picture, for every backend; a backend executes the other keys itself.
 
@@ -103,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// Takes the contents of a colour attachment that its pass loads, and puts others in their place.
+    /// Takes the contents of a colour attachment that its pass loads, and replaces them by others.
     fn take_color(&mut self, pass: &Pass, location: usize, first: &[usize]) -> Option<[f32; 4]> {
         let index = pass.color[location];
         let loads = pass.color_operations(location).load == LoadOperation::Load;

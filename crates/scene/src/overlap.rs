@@ -1,9 +1,8 @@
 //! Draws whose primitives can reach a sample twice.
 //!
-//! Advanced blending without coherence leaves the second time undefined (OpenGL ES 3.2, 15.1.5.3; Vulkan,
-//! Advanced Blend Operations), so such a draw needs the feature for coherence. Whenever more than a
-//! comparison of flat triangles would be needed to decide, the answer is yes: no case has to draw such a
-//! mesh.
+//! Advanced blending without coherence leaves the result of the second time undefined (OpenGL ES 3.2,
+//! 15.1.5.3; Vulkan, Advanced Blend Operations), so such a draw needs the feature for coherence. If a
+//! comparison of flat triangles cannot decide this, the answer is yes. No case needs such a mesh.
 
 use crate::draw::Draw;
 use crate::mesh::PrimitiveVertices;

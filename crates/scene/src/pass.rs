@@ -1,8 +1,8 @@
 //! Passes: their attachments, and what happens to these before, between and after the draws.
 //!
 //! Load and store operations are separate from the lists of attachments, and clear commands are separate from
-//! the draws, each with the index of the draw that it precedes. A pass without any is the same as if they did
-//! not exist.
+//! the draws, each with the index of the draw that it precedes. A pass without them is described as if they
+//! did not exist.
 
 use crate::draw::Draw;
 use crate::path::Path;
@@ -10,8 +10,8 @@ use etalon_frame::{Aspect, PathResolves, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One render pass. Attachments keep their contents from the previous pass, unless a load operation clears
-/// them or a store operation discarded them.
+/// A render pass. Attachments keep their contents from the previous pass, unless a load operation clears them
+/// or a store operation discarded them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// Indices of the colour attachments, in location order.
@@ -39,7 +39,7 @@ pub struct Pass {
 /// A resolve of the samples of depth and stencil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DepthStencilResolve {
-    /// Index of the attachment that it writes: single-sample, of the same format and size.
+    /// Index of the attachment that the resolve writes: single-sample, of the same format and size.
     pub to: usize,
     /// The mode of depth; [`ResolveMode::None`] for formats without depth.
     pub depth: ResolveMode,
@@ -83,10 +83,10 @@ pub struct PassOperations {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Operations<V> {
-    /// At the start of the pass.
+    /// The operation at the start of the pass.
     #[serde(default)]
     pub load: LoadOperation<V>,
-    /// At the end of the pass, after resolves.
+    /// The operation at the end of the pass, after resolves.
     #[serde(default)]
     pub store: StoreOperation,
 }
@@ -98,7 +98,7 @@ pub enum LoadOperation<V> {
     /// The previous contents.
     #[default]
     Load,
-    /// This value, in all texels and samples.
+    /// This value in all texels and samples.
     Clear(V),
 }
 
@@ -113,7 +113,7 @@ impl<V: Copy> LoadOperation<V> {
 }
 
 state_enum! {
-    /// What happens to an aspect at the end of a pass.
+    /// The fate of an aspect's contents at the end of a pass.
     #[derive(Default)]
     StoreOperation {
         /// The aspect keeps its contents.
@@ -138,9 +138,9 @@ pub struct Clear {
 /// The aspects that a clear command writes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ClearTarget {
-    /// One colour attachment.
+    /// A colour attachment.
     Color {
-        /// Its location in the pass.
+        /// The attachment's location in the pass.
         location: usize,
         /// Red, green, blue, alpha.
         value: [f32; 4],

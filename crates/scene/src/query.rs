@@ -13,33 +13,33 @@ pub struct Query {
     pub first: (usize, usize),
     /// The indices of the pass and the draw after which it ends.
     pub last: (usize, usize),
-    /// True if it begins before the first draw's pass and ends after the last draw's.
+    /// True if the query begins before the first draw's pass and ends after the last draw's.
     pub over_passes: bool,
 }
 
 impl Query {
-    /// Returns true if it begins before a draw, within the pass.
+    /// Returns true if the query begins before a draw, within the pass.
     pub fn begins_at(&self, draw: (usize, usize)) -> bool {
         !self.over_passes && self.first == draw
     }
 
-    /// Returns true if it ends after a draw, within the pass.
+    /// Returns true if the query ends after a draw, within the pass.
     pub fn ends_at(&self, draw: (usize, usize)) -> bool {
         !self.over_passes && self.last == draw
     }
 
-    /// Returns true if it begins before a pass.
+    /// Returns true if the query begins before a pass.
     pub fn begins_before(&self, pass: usize) -> bool {
         self.over_passes && self.first.0 == pass
     }
 
-    /// Returns true if it ends after a pass.
+    /// Returns true if the query ends after a pass.
     pub fn ends_behind(&self, pass: usize) -> bool {
         self.over_passes && self.last.0 == pass
     }
 
-    /// Returns true if it encloses other operations than draws: a clear, the load or store operations of a
-    /// pass, or a resolve.
+    /// Returns true if the query encloses operations other than draws: a clear, the load or store operations
+    /// of a pass, or a resolve.
     pub fn encloses_operations(&self, scene: &Scene) -> bool {
         let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
         let between = |before: usize| self.first.1 < before && before <= self.last.1;

@@ -1,4 +1,4 @@
-//! What one query encloses.
+//! The part of a scene that one query encloses.
 
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
@@ -8,7 +8,7 @@ state_enum! {
     /// The part of a scene that one query encloses.
     #[derive(Default)]
     QueryScope {
-        /// One draw.
+        /// A single draw.
         #[default] Draw = "draw",
         /// Consecutive draws of a pass that use its counter, and the clears between them.
         Pass = "pass",

@@ -35,9 +35,9 @@ state_enum! {
 state_enum! {
     /// The part of a polygon that is drawn.
     PolygonMode {
-        /// Its inside.
+        /// Fills the polygon.
         Fill = "fill",
-        /// Its edges, one texel wide.
+        /// Draws the polygon's edges, one texel wide.
         Line = "line",
     }
 }
@@ -51,7 +51,7 @@ state_enum! {
         Front = "front",
         /// Back faces.
         Back = "back",
-        /// Both; points and lines remain.
+        /// Both faces are culled; points and lines remain.
         FrontAndBack = "front-and-back",
     }
 }
@@ -108,18 +108,18 @@ pub struct Multisample {
     pub alpha_to_coverage: bool,
     /// True if alpha counts as 1 after alpha to coverage.
     pub alpha_to_one: bool,
-    /// The minimum share of a texel's samples, 0 to 1, that have shader runs of their own; `None` turns it
-    /// off.
+    /// The fraction of each texel's samples, 0 to 1, that get at least their own shader run; `None` turns
+    /// sample shading off.
     pub min_sample_shading: Option<f32>,
-    /// The share of samples that is drawn, whatever the fragment covers; `None` turns it off.
+    /// The fraction of each texel's samples that can be drawn; `None` turns sample coverage off.
     pub sample_coverage: Option<SampleCoverage>,
 }
 
-/// A share of a texel's samples that is drawn (OpenGL 4.6, 14.9.3).
+/// Sample coverage: only a fraction of each texel's samples can be drawn (OpenGL 4.6, 14.9.3).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCoverage {
-    /// The share, clamped to 0 to 1.
+    /// The fraction, clamped to 0 to 1.
     pub value: f32,
     /// True if the other samples are drawn instead.
     #[serde(default)]

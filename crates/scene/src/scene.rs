@@ -69,8 +69,8 @@ impl Scene {
         }
     }
 
-    /// Returns true if the path leaves a colour attachment out of its passes: nothing reads it, and each of
-    /// them has another one.
+    /// Returns true if the path leaves a colour attachment out of its passes. Such an attachment is never
+    /// read, and each of its passes has another one.
     pub fn is_gap(&self, index: usize) -> bool {
         let mut passes = self.passes.iter().filter(|p| p.color.contains(&index));
         self.path.colors == PathColors::Gaps

@@ -18,11 +18,11 @@ struct Facts {
     wgsl: &'static str,
     /// False if there is only a vertex shader.
     fragment: bool,
-    /// True if it reads the parameter block.
+    /// True if the shader reads the parameter block.
     params: bool,
     /// True if the vertex shader outputs only a position.
     position_only: bool,
-    /// True if it reads interpolated texture coordinates as numbers.
+    /// True if the shader reads interpolated texture coordinates as numbers.
     uv: bool,
     /// How these are interpolated.
     interpolation: Interpolation,
@@ -32,41 +32,41 @@ struct Facts {
     either: bool,
     /// The number of textures that it reads.
     textures: usize,
-    /// True if it samples its texture instead of fetching single texels.
+    /// True if the shader samples its texture instead of fetching single texels.
     sampler: bool,
-    /// True if it also samples at coordinates that it computes.
+    /// True if the shader also samples at coordinates that it computes.
     taps: bool,
     /// The number of colour locations that it writes.
     outputs: usize,
-    /// True if it writes integers.
+    /// True if the shader writes integers.
     integers: bool,
-    /// True if it writes a second source for blending.
+    /// True if the shader writes a second source for blending.
     second_source: bool,
-    /// True if it writes a sample mask.
+    /// True if the shader writes a sample mask.
     mask: bool,
-    /// True if it reads a sample mask.
+    /// True if the shader reads a sample mask.
     reads_mask: bool,
-    /// True if it writes the stencil reference.
+    /// True if the shader writes the stencil reference.
     reference: bool,
-    /// The depth that it writes.
+    /// The depth that the shader writes.
     depth: Depth,
-    /// True if it can discard fragments.
+    /// True if the shader can discard fragments.
     discards: bool,
     /// The number of clip distances that its vertices output.
     clip_distances: u32,
     /// The number of cull distances that its vertices output.
     cull_distances: u32,
-    /// True if it counts its runs in a storage buffer.
+    /// True if the shader counts its runs in a storage buffer.
     counter: bool,
-    /// How it uses the scene's pool.
+    /// How the shader uses the scene's pool.
     pool: PoolUse,
-    /// True if it runs once per sample.
+    /// True if the shader runs once per sample.
     per_sample: bool,
-    /// True if it reads the fragment's coordinates in the picture.
+    /// True if the shader reads the fragment's coordinates in the picture.
     coordinates: bool,
-    /// True if it reads the fragment's depth.
+    /// True if the shader reads the fragment's depth.
     reads_depth: bool,
-    /// True if it reads 1 over the clip-space w.
+    /// True if the shader reads 1 over the clip-space w.
     reads_w: bool,
 }
 
@@ -93,18 +93,18 @@ pub enum InterpolationSampling {
 /// How a shader uses the scene's pool.
 #[derive(PartialEq, Eq)]
 enum PoolUse {
-    /// Not at all.
+    /// The shader does not use the pool.
     None,
-    /// It adds its fragments.
+    /// The shader adds its fragments.
     Adds,
-    /// It reads the list of its texel.
+    /// The shader reads the list of its texel.
     Reads,
 }
 
 /// The depth that a shader writes.
 #[derive(PartialEq, Eq)]
 enum Depth {
-    /// None: the fragment's own depth is used.
+    /// The shader writes no depth; the fragment's own depth is used.
     Fixed,
     /// The red of the vertex colour.
     VertexRed,
@@ -359,9 +359,9 @@ shaders! {
     ClipUniform = "clip_uniform" { params: true, clip_distances: 8 },
     /// `params.color`; counts its runs.
     CountedColor = "counted_color" { params: true, counter: true, position_only: true },
-    /// As `flat_color_depth`; counts its runs.
+    /// Like `flat_color_depth`, and counts its runs.
     CountedDepth = "counted_depth" { params: true, depth: Depth::VertexRed, counter: true },
-    /// As `texel_discard`; counts its runs.
+    /// Like `texel_discard`, and counts its runs.
     CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true, position_only: true },
     /// The vertex colour, flat; culled by both texture coordinates.
     CullFlat = "cull_flat" { cull_distances: 2 },
@@ -372,27 +372,27 @@ shaders! {
     DepthLinearized = "depth_linearized" { params: true, reads_depth: true, position_only: true },
     /// Minus the fragment's depth, its depth, 0 and 1.
     DepthRange = "depth_range" { reads_depth: true, position_only: true },
-    /// One step of dual depth peeling: depths, front and back colours to locations 0 to 2.
+    /// A step of dual depth peeling: depths, front and back colours to locations 0 to 2.
     DualPeel = "dual_peel" { textures: 2, outputs: 3, reads_depth: true },
     /// The vertex colour with its alpha weighted by the first texture coordinate (the distance from an edge
     /// in texels) plus a half, clamped to 0 to 1.
     EdgeAlpha = "edge_alpha" { uv: true },
     /// The vertex colour; first does as many steps of work as `params.back_color`'s red says.
     ExpensiveColor = "expensive_color" { params: true },
-    /// As `expensive_color`; writes the fragment's own window depth as depth.
+    /// Like `expensive_color`, and writes the fragment's own window depth as depth.
     ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },
-    /// As `expensive_color`; discards if the vertex colour's alpha is below `params.color`'s.
+    /// Like `expensive_color`, and discards if the vertex colour's alpha is below `params.color`'s.
     ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
     /// `params.color`; writes the red of the texel of texture 0 under the fragment as stencil reference.
     ExportedColor = "exported_color" { params: true, textures: 1, reference: true, position_only: true },
-    /// As `exported_color`; writes the texel's green as depth.
+    /// Like `exported_color`, and writes the texel's green as depth.
     ExportedDepth = "exported_depth" { params: true, textures: 1, reference: true, depth: Depth::Computed, position_only: true },
-    /// As `exported_color`; discards if the texel's blue is below `params.color`'s.
+    /// Like `exported_color`, and discards if the texel's blue is below `params.color`'s.
     ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
-    /// As `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
+    /// Like `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
     ExportedFacing = "exported_facing" { params: true, textures: 1, reference: true, position_only: true },
-    /// As `sample_index`; writes the red of the texel of texture 0 under the fragment plus the number of the
-    /// sample as stencil reference. Runs once per sample.
+    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment plus the number
+    /// of the sample as stencil reference. Runs once per sample.
     ExportedSample = "exported_sample" { textures: 1, reference: true, per_sample: true, position_only: true },
     /// The vertex colour, flat.
     FlatColor = "flat_color" {},
@@ -415,13 +415,13 @@ shaders! {
     Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
     /// Four bits of its input sample mask, starting from the bit number in `params.color`'s red.
     InputMask = "input_mask" { params: true, reads_mask: true, position_only: true },
-    /// As `input_mask`, with the sample's own bit inverted. Runs once per sample.
+    /// Like `input_mask`, with the sample's own bit inverted. Runs once per sample.
     InputMaskSample = "input_mask_sample" { params: true, reads_mask: true, per_sample: true, position_only: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
     /// between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, reads_w: true, depth: Depth::Computed },
-    /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and height
-    /// of the picture.
+    /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and
+    /// height of the picture.
     ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
     /// The list of the texel, composed nearest first, premultiplied, with the transmittance as alpha.
     /// `params.color`: width and height of the picture.
@@ -432,12 +432,12 @@ shaders! {
     /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
     /// sample mask.
     MaskedColor = "masked_color" { params: true, textures: 1, mask: true, position_only: true },
-    /// As `masked_color`; writes the texel's green as depth.
+    /// Like `masked_color`, and writes the texel's green as depth.
     MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed, position_only: true },
-    /// As `masked_color`; discards if the texel's blue is below `params.color`'s.
+    /// Like `masked_color`, and discards if the texel's blue is below `params.color`'s.
     MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true, position_only: true },
-    /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
-    /// all bits except the sample's own inverted. Runs once per sample.
+    /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment as sample mask,
+    /// with all bits except the sample's own inverted. Runs once per sample.
     MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true, position_only: true },
     /// Moment-based transparency: absorbance to location 0, its moments along depth to location 1.
     MomentAbsorbance = "moment_absorbance" { outputs: 2, reads_depth: true },
@@ -447,8 +447,8 @@ shaders! {
     /// Moment-based transparency: the vertex colour, premultiplied, times the transmittance in front of the
     /// fragment, from the absorbance in texture 0 and its moments in texture 1.
     MomentTransmittance = "moment_transmittance" { textures: 2, reads_depth: true },
-    /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind the
-    /// depth in texture 0; discards all others.
+    /// A step of depth peeling: writes the vertex colour, and the depth to location 1. Discards fragments
+    /// that are not behind the depth in texture 0.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
     /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
     /// once per sample.
@@ -458,24 +458,24 @@ shaders! {
     SampleIndex = "sample_index" { per_sample: true, position_only: true },
     /// Texture 0 sampled at the interpolated texture coordinates.
     SampledColor = "sampled_color" { textures: 1, sampler: true },
-    /// As `sampled_color`; discards if the alpha is below `params.color`'s.
+    /// Like `sampled_color`, and discards if the alpha is below `params.color`'s.
     SampledDiscard = "sampled_discard" { params: true, textures: 1, sampler: true, discards: true },
     /// The whole steps of the fragment coordinate's w and depth, times `params.color`'s red and green, as
     /// colours: see `stepped_perspective`.
     SteppedFragCoord = "stepped_frag_coord" { params: true, reads_depth: true, reads_w: true, position_only: true },
-    /// As `stepped_perspective`, interpolated linearly in the window.
+    /// Like `stepped_perspective`, interpolated linearly in the window.
     SteppedLinear = "stepped_linear" { uv: true, interpolation: Interpolation::Linear },
-    /// As `stepped_linear`, inside the part of the texel that the primitive covers.
+    /// Like `stepped_linear`, inside the part of the texel that the primitive covers.
     SteppedLinearCentroid = "stepped_linear_centroid" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Centroid },
-    /// As `stepped_linear`, at each sample. Runs once per sample.
+    /// Like `stepped_linear`, at each sample. Runs once per sample.
     SteppedLinearSample = "stepped_linear_sample" { uv: true, interpolation: Interpolation::Linear, sampling: InterpolationSampling::Sample, per_sample: true },
     /// The whole steps of the texture coordinates, 0 to 7, as colours. The first coordinate gives red, green
     /// and blue such that neighbouring steps differ in one channel; the second gives alpha, which is 1 for
     /// odd steps.
     SteppedPerspective = "stepped_perspective" { uv: true },
-    /// As `stepped_perspective`, interpolated inside the part of the texel that the primitive covers.
+    /// Like `stepped_perspective`, interpolated inside the part of the texel that the primitive covers.
     SteppedPerspectiveCentroid = "stepped_perspective_centroid" { uv: true, sampling: InterpolationSampling::Centroid },
-    /// As `stepped_perspective`, interpolated at each sample. Runs once per sample.
+    /// Like `stepped_perspective`, interpolated at each sample. Runs once per sample.
     SteppedPerspectiveSample = "stepped_perspective_sample" { uv: true, sampling: InterpolationSampling::Sample, per_sample: true },
     /// The vertex colour, opaque; discards if its alpha is below the sample's channel of texture 0. Runs once
     /// per sample.

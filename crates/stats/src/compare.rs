@@ -55,7 +55,7 @@ pub enum Conclusion {
     Faster,
     /// The second bench takes more time.
     Slower,
-    /// Neither faster nor slower is shown.
+    /// The samples show neither faster nor slower.
     CannotTell(Why),
 }
 

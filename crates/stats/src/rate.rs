@@ -24,7 +24,7 @@ pub struct Pair<'a> {
 pub struct Slope {
     /// The seconds for one unit in each round, in order. Noise can make them 0 or negative.
     pub rounds: Vec<f64>,
-    /// Their median.
+    /// The median of `rounds`.
     pub median: f64,
     /// The interval of the median over all possible rounds, with confidence [`RATE_CONFIDENCE`]; `None` with
     /// fewer than 6 rounds, whose whole range is not that certain.
@@ -71,7 +71,7 @@ impl Slope {
         Some([1.0 / high, 1.0 / low])
     }
 
-    /// Returns true if the interval of the rate is within a share of it.
+    /// Returns true if the interval of the rate is within a given fraction of the rate.
     pub fn is_within(&self, share: f64) -> bool {
         match (self.rate(), self.rate_interval()) {
             (Some(rate), Some(interval)) => is_within(rate, interval, share),

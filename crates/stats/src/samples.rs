@@ -9,7 +9,7 @@ pub struct Samples {
     rounds: Vec<Vec<f64>>,
     /// Logarithm of each round's median.
     logs: Vec<f64>,
-    /// The same minus the logarithm of the ruler's time.
+    /// For each round, the logarithm of the median minus the logarithm of the ruler's time.
     ruled: Option<Vec<f64>>,
 }
 

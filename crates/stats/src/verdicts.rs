@@ -31,7 +31,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// Returns the words for reports, which precede the run.
+    /// Returns the phrase that reports put before the run, such as `broken at`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Broken => "broken at",
@@ -48,9 +48,9 @@ impl Event {
 pub struct Happening<K> {
     /// The event.
     pub event: Event,
-    /// The last run without it.
+    /// The last run without the event.
     pub after: K,
-    /// The first run that shows it.
+    /// The first run that shows the event.
     pub at: K,
 }
 
@@ -154,9 +154,9 @@ impl Score {
 /// The score of one run of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scores {
-    /// Over the cases that all runs have: only the driver can change it.
+    /// The score over the cases that all runs have, which only the driver can change.
     pub common: Score,
-    /// Over all cases of the run: cases that appear or disappear change it too.
+    /// The score over all cases of the run, which also changes when cases appear or disappear.
     pub own: Score,
 }
 

@@ -82,11 +82,11 @@ impl Edge {
 /// How much of a rectangle a polygon covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overlap {
-    /// None of it, by more than rounding error.
+    /// The polygon misses the rectangle by more than rounding error.
     None,
-    /// Possibly a part of it.
+    /// The polygon may cover a part of the rectangle.
     Part,
-    /// All of it, by more than rounding error.
+    /// The polygon covers the whole rectangle, with more than rounding error to spare.
     Whole,
 }
 
@@ -99,7 +99,7 @@ pub(super) struct PreparedSurface<'a> {
     pub(super) uv: Option<[Linear; 2]>,
     /// The largest rounding error of a depth.
     pub(super) slack: f64,
-    /// True if it hides everything behind it.
+    /// True if the surface hides everything behind it.
     pub(super) opaque: bool,
     /// The least and the largest value of any channel of its colour.
     pub(super) tones: [(f64, f64); 3],

@@ -1,4 +1,4 @@
-//! The attachments of a planned pass, with what happens to them before and after it.
+//! The attachments of a planned pass, with their load and store operations and resolves.
 
 use crate::clear::Ends;
 use ash::vk;

@@ -131,7 +131,7 @@ fn columns(aspects: &[Aspect], [width, height]: [u32; 2]) -> Vec<Blit> {
         .collect()
 }
 
-/// Returns a blit from a place to the first level and layer of another image.
+/// Returns a blit from a part of an image to the first level and layer of another image.
 fn region(blit: &Blit, source: Place) -> vk::ImageBlit {
     let aspects = blit.aspects.iter();
     let mask = aspects.fold(vk::ImageAspectFlags::empty(), |mask, aspect| {

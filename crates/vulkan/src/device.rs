@@ -509,7 +509,7 @@ impl Device {
             vk::PhysicalDeviceDepthClipEnableFeaturesEXT::default().depth_clip_enable(true);
         let mut enabled_logic = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default()
             .extended_dynamic_state2_logic_op(true);
-        // Both are mandatory in Vulkan 1.3.
+        // Both features are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
             .synchronization2(true);

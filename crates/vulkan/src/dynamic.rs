@@ -316,7 +316,7 @@ const IDLE_BIAS: DepthBias = DepthBias {
     clamp: 0.0,
 };
 
-/// The parameters of a disabled depth bounds test; no case stores a depth inside them.
+/// The parameters of a disabled depth bounds test; no case stores a depth inside these bounds.
 const IDLE_BOUNDS: [f32; 2] = [0.999_999, 0.999_999_5];
 
 /// Returns the Vulkan viewport. The negative height turns clip space's y axis up: y = 1 is at the top of the

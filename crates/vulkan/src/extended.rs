@@ -21,14 +21,14 @@ const STATES: [vk::DynamicState; 7] = [
 /// The number of [`STATES`] that a pass without colour attachments has.
 const COLORLESS: usize = 4;
 
-/// The part of logic operations that is dynamic.
+/// The part of the logic operation state that is dynamic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum DynamicLogic {
     /// No part.
     Nothing,
     /// The operation.
     Operation,
-    /// The operation and its enable.
+    /// The operation, and whether it is enabled.
     All,
 }
 
@@ -155,7 +155,7 @@ impl Extended {
         if let (Some(api), true) = (&device.dynamic_logic, colored)
             && self.further.logic != DynamicLogic::Nothing
         {
-            // If the operation is disabled, this one would be visible.
+            // If the operation is disabled, drawing with this one would be visible.
             let operation = self.logic.unwrap_or(LogicOperation::Invert);
             // SAFETY: upheld by the caller; the feature is enabled if the function is loaded.
             unsafe { api.cmd_set_logic_op(commands, state::logic(operation)) };

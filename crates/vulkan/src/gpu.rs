@@ -1,5 +1,5 @@
-//! An open device and the objects that outlive a scene. They are apart from the backend because a prepared
-//! scene needs only these.
+//! An open device and the objects that outlive a scene. They are separate from the backend because a prepared
+//! scene needs only them.
 
 use crate::device::Device;
 use crate::format::{self, Native};
@@ -21,7 +21,7 @@ pub(crate) struct Gpu {
     pub(crate) pools: RefCell<Pools>,
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
-    /// Dropped last: everything else was created from it.
+    /// The device is dropped last, because everything else was created from it.
     pub(crate) device: Device,
 }
 
@@ -53,8 +53,8 @@ impl Gpu {
 impl Drop for Gpu {
     fn drop(&mut self) {
         let pools = self.pools.get_mut();
-        // Prepared scenes borrow the device, so all of them are dropped, and each waited for the device to
-        // finish.
+        // Prepared scenes borrow the device, so all of them have been dropped, and each of them waited for
+        // the device to finish.
         pools.slots.destroy(&self.device);
         pools.memory.destroy(&self.device);
         pools.pipelines.destroy(&self.device);

@@ -18,9 +18,9 @@ pub(crate) struct ImageKey {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
-    /// How the image contains the part that is used.
+    /// The level, layer or slice that is used.
     pub(crate) target: PathTarget,
-    /// The layer that is read, of three, if passes have several layers.
+    /// The layer that is read, out of three, if passes have several layers.
     pub(crate) layered: Option<u32>,
 }
 
@@ -50,7 +50,8 @@ pub(crate) struct Shape {
 }
 
 impl ImageKey {
-    /// Returns the dimensions. The part that is used is never the first, except for plain targets.
+    /// Returns the dimensions. The used part is never the first level, layer or slice, except for plain
+    /// targets.
     pub(crate) fn shape(&self) -> Shape {
         let [width, height] = self.size;
         let mut shape = Shape {
@@ -100,7 +101,7 @@ impl ImageKey {
 }
 
 impl Place {
-    /// Returns the place as a range of barriers: all slices of its level and layer, or all layers.
+    /// Returns the range for barriers: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             aspect_mask: mask,
@@ -111,7 +112,7 @@ impl Place {
         }
     }
 
-    /// Returns the place as ranges of clears. Several layers are two ranges: the first layer, and the others.
+    /// Returns the ranges for clears. Several layers give two ranges: the first layer, and the others.
     pub(crate) fn cleared(self, mask: vk::ImageAspectFlags) -> Vec<vk::ImageSubresourceRange> {
         let range = self.range(mask);
         if self.layered {
@@ -126,7 +127,7 @@ impl Place {
         }
     }
 
-    /// Returns the places that receive texels: one for each layer that passes draw to.
+    /// Returns the destinations of uploaded texels: one for each layer that passes draw to.
     pub(crate) fn uploaded(self) -> Vec<Self> {
         if self.layered {
             DRAWN_LAYERS
@@ -138,7 +139,7 @@ impl Place {
         }
     }
 
-    /// Returns the place as a range of views, in which slices are layers.
+    /// Returns the range for views, in which slices are layers.
     fn viewed(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             base_array_layer: self.layer + self.slice,
@@ -152,7 +153,7 @@ impl Place {
         if self.layered { LAYERS } else { 1 }
     }
 
-    /// Returns the place as the layers of copies.
+    /// Returns the layers for copies.
     pub(crate) fn layers(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceLayers {
         vk::ImageSubresourceLayers {
             aspect_mask: mask,

@@ -104,7 +104,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::Tessellation | Feature::UpperLeftDomain => features.tessellation_shader,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
-        // Only OpenGL has these.
+        // Only OpenGL has these features.
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StencilExport => device.stencil_export.into(),

@@ -1,5 +1,5 @@
-//! How Vulkan draws on a path: the values that a device has, and what each means for an attachment, a pass or
-//! a draw.
+//! How Vulkan draws on a path: the values that a device supports, and their meaning for an attachment, a pass
+//! or a draw.
 //!
 //! Other modules call the functions here and do not read the path, so a new value changes only these
 //! functions.
@@ -20,7 +20,7 @@ use etalon_frame::{
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
 
-/// Returns the path values that a device has. A format can lack some of them, as [`target`] and [`end`]
+/// Returns the path values that a device supports. A format can lack some of them, as [`target`] and [`end`]
 /// decide.
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
@@ -35,7 +35,7 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::Layers(PathLayers::Written) => device.written_layer,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
-        // Only OpenGL has them.
+        // Only OpenGL has these values.
         PathValue::Target(PathTarget::Renderbuffer)
         | PathValue::Clip(PathClip::Toggled)
         | PathValue::Draws(PathDraws::IndirectBeside)
@@ -63,9 +63,9 @@ pub(crate) fn further(device: &Device, state: PathState) -> Further {
     }
 }
 
-/// Returns the part of a texture that the attachment is. An attachment that cannot be the part that the path
-/// names is a plain image: multisampled images have one level and no cube, and shaders cannot read a slice of a
-/// 3D image.
+/// Returns the part of a texture that serves as the attachment. If the attachment cannot be the part that the
+/// path names, it is a plain image: multisampled images have one level and no cube, and shaders cannot read a
+/// slice of a 3D image.
 pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> PathTarget {
     let single = attachment.samples == 1;
     let read_by_shader = || {
@@ -196,7 +196,8 @@ pub(crate) fn is_copied(end: PathEnd) -> bool {
     }
 }
 
-/// Returns true if a linear filter supports the format, and twice a half is a code again.
+/// Returns true if a linear filter supports the format, and half the value of a code, doubled, is that code
+/// again.
 fn is_filtered(format: TextureFormat) -> bool {
     let halved = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Unorm(_));
     format.is_color() && format.color_channels().iter().all(halved)
@@ -229,7 +230,7 @@ pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
     };
     match path.area {
         PathArea::Part if width > 1 => {
-            // Not the middle, where tile boundaries often are.
+            // Avoids the middle, where tile boundaries often are.
             let left = (width * 2 / 5).max(1);
             vec![columns(0, left), columns(left, width - left)]
         }

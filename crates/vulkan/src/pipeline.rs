@@ -374,7 +374,7 @@ fn create(
     if let Some(origin) = &mut origin {
         patches = patches.push_next(origin);
     }
-    // One word holds the masks of up to 32 samples.
+    // One 32-bit word holds the mask of up to 32 samples.
     let mask = [key.multisample.mask];
     let min_sample_shading = key.multisample.min_sample_shading.map(f32::from_bits);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()

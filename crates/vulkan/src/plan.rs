@@ -41,11 +41,11 @@ pub(crate) struct Plan {
 /// The initial contents of an attachment and its role in the passes.
 pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
-    /// The part of the image that is the attachment.
+    /// The part of the image that serves as the attachment.
     pub(crate) place: Place,
-    /// How it reaches the host.
+    /// How the attachment reaches the host.
     pub(crate) end: PathEnd,
-    /// The image that it is copied to before it is read.
+    /// The image to which the attachment is copied before it is read.
     pub(crate) copy: Option<vk::Image>,
     /// The intermediate image that blits write, from which it is copied.
     pub(crate) between: Option<vk::Image>,
@@ -114,7 +114,7 @@ pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
     /// The pipeline that is bound for a moment between setting the state and drawing.
     pub(crate) other: Option<Rc<Pipeline>>,
-    /// The pipeline of a second draw, the same to the other of two layers.
+    /// The pipeline of a second draw, which repeats the draw to the other of two layers.
     pub(crate) again: Option<Rc<Pipeline>>,
     /// True if the state is first set to other values.
     pub(crate) overwritten: bool,

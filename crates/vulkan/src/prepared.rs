@@ -59,7 +59,7 @@ pub(crate) struct PreparedScene<'a> {
 /// The state of the attachments and the output buffer.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Progress {
-    /// Not drawn yet, or the last attempt failed.
+    /// The scene was not drawn yet, or the last attempt failed.
     NotDrawn,
     /// Drawn.
     Drawn,
@@ -339,7 +339,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-/// What the draws of a pass share within one of its areas.
+/// Data that the draws of a pass share within one of its areas.
 struct Drawing<'a> {
     device: &'a Device,
     state: PathState,

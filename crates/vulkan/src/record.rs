@@ -273,8 +273,8 @@ fn between_passes(device: &Device, commands: vk::CommandBuffer) {
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
-/// Makes all writes visible to advanced blends, whose reads ordinary accesses do not include (Vulkan, Access
-/// Types).
+/// Makes all writes visible to advanced blends, whose reads are not part of the ordinary accesses (Vulkan,
+/// Access Types).
 fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
     let barriers = [vk::MemoryBarrier2::default()
         .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)

@@ -13,7 +13,7 @@ pub(crate) enum Role {
     /// The resolve target of depth and stencil.
     DepthStencilResolve,
     Fetched,
-    /// Not used by any pass. It can still be read back.
+    /// No pass uses the image. It can still be read back.
     Idle,
 }
 

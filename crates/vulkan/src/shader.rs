@@ -13,7 +13,7 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::HashMap;
 
-/// SPIR-V with what a pipeline must know about it.
+/// SPIR-V with the facts that a pipeline needs.
 #[derive(Debug)]
 pub(crate) struct Translated {
     pub(crate) words: Vec<u32>,

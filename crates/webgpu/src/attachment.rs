@@ -24,7 +24,7 @@ pub(crate) struct Attached {
     /// The pass that clears it: the first pass that uses it, if that pass draws to it and loads all of it.
     /// `None` if a separate pass clears it.
     cleared_by: Option<usize>,
-    /// True if a pass writes to it.
+    /// True if a pass writes to the attachment.
     changes: bool,
 }
 

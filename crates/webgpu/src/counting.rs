@@ -56,7 +56,7 @@ pub(crate) struct Counted {
 struct Enclosed {
     /// The query, if it begins before the draw.
     begins: Option<u32>,
-    /// True if it ends after the draw.
+    /// True if the query ends after the draw.
     ends: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What lowering needs to know about a device.
+//! The facts about a device that lowering needs.
 
 use crate::calls::texture_usage::{COPY_DST, COPY_SRC, RENDER_ATTACHMENT, TEXTURE_BINDING};
 use etalon_frame::{ChannelEncoding, Limits, ReadPath, TextureFormat};
@@ -9,7 +9,7 @@ pub const SAMPLES: u32 = 4;
 /// The facts about a device that lowering uses.
 #[derive(Clone, Debug)]
 pub struct Device {
-    /// What scenes can use.
+    /// The limits and features that scenes can use.
     pub limits: Limits,
     /// Abilities that [`Limits`] do not include.
     pub abilities: Abilities,

@@ -120,7 +120,7 @@ impl Geometry {
     }
 }
 
-/// A draw, with what its pass must know about it.
+/// A draw, with the facts that its pass needs.
 pub(crate) struct PreparedDraw {
     pub(crate) counted: Counted,
     /// The commands that bundles can also contain.

@@ -1,4 +1,4 @@
-//! What a device supports, as limits that scenes are checked against.
+//! The capabilities of a device, as limits against which scenes are checked.
 
 use crate::device::{Abilities, Device, SAMPLES, read_path, samples_are_exact};
 use crate::path::paths;
@@ -8,7 +8,7 @@ use etalon_frame::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// WebGPU does not report it; 4 is the minimum of the APIs under it.
+/// WebGPU does not report this number; 4 is the minimum of the APIs under WebGPU.
 const SUB_PIXEL_BITS: u8 = 4;
 /// The largest size of a texel in the sum over a pass's colour attachments, in bytes
 /// (maxColorAttachmentBytesPerSample).
@@ -34,7 +34,7 @@ const BEYOND_COMPATIBILITY: [Feature; 4] = [
     Feature::SampleMaskOutput,
 ];
 
-/// What WebGPU guarantees of a device.
+/// The guarantees of WebGPU about a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Everything: the device has `core-features-and-limits`.
@@ -45,7 +45,7 @@ pub enum Level {
     Less,
 }
 
-/// What a device supports.
+/// The capabilities of a device.
 #[derive(Clone, Debug)]
 pub struct Offer {
     /// The formats whose textures can be uploaded, fetched from and read, with their other uses.
@@ -58,7 +58,7 @@ pub struct Offer {
     pub indirect: bool,
     /// True if the first instance of an indirect draw can be other than 0 (feature `indirect-first-instance`).
     pub indirect_first_instance: bool,
-    /// What WebGPU guarantees of the device.
+    /// The guarantees of WebGPU about the device.
     pub level: Level,
     /// GPUSupportedLimits.
     pub limits: DeviceLimits,

@@ -329,7 +329,7 @@ mod tests {
         let [layer, plain] = [PathTarget::ArrayLayer, PathTarget::Plain];
         assert_eq!(found_target(color, PathEnd::Store), layer);
         assert_eq!(found_target(color, PathEnd::ShaderRead), plain);
-        // Its depth is never copied.
+        // The attachment's depth is never copied.
         assert_eq!(found_target(depth, PathEnd::Store), plain);
     }
 

@@ -37,9 +37,9 @@ impl Reading {
 /// The results of a counter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CounterReading {
-    /// The places of the numbers whose sum is the result.
+    /// Where the numbers are that add up to the result.
     pub parts: Vec<Place>,
-    /// True if the result is 1 if the sum is greater than 0, and 0 otherwise.
+    /// True if the result only says whether the sum is greater than 0, as 1 or 0.
     pub any: bool,
 }
 
@@ -98,7 +98,7 @@ pub struct ImageReading {
     /// The read path that the image declares. Multisampling is supported only if a shader returns the codes
     /// of a copy, or a shader also reads single samples; stencil is exact on both paths.
     pub read: ReadPath,
-    /// How it reaches the buffer.
+    /// How the image reaches the buffer.
     pub method: ReadMethod,
     /// The first byte.
     pub offset: u64,

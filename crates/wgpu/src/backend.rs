@@ -16,7 +16,7 @@ use wgpu::{Backends, InstanceFlags};
 pub enum Via {
     /// Vulkan.
     Vulkan,
-    /// OpenGL, or else OpenGL ES, through EGL.
+    /// OpenGL through EGL, or OpenGL ES if OpenGL is not available.
     Gl,
 }
 
@@ -316,7 +316,7 @@ mod tests {
         assert_eq!(backend.messages(), Vec::<String>::new());
     }
 
-    /// As above, for OpenGL's debug output.
+    /// The same check for OpenGL's debug output.
     #[test]
     fn an_error_planted_below_wgpu_is_reported_by_opengl() {
         let backend = watched(Via::Gl);

@@ -23,7 +23,7 @@ impl Errors {
         device.on_uncaptured_error(Arc::new(move |error| locked(&raised).push(error)));
         let lost = Arc::clone(&errors.lost);
         device.set_device_lost_callback(move |reason, message| {
-            // The other reason is that this program dropped the device.
+            // The other possible reason is that this program dropped the device.
             if matches!(reason, wgpu::DeviceLostReason::Unknown) {
                 *locked(&lost) = Some(message);
             }

@@ -85,7 +85,7 @@ impl Gpu {
         if result.is_err() {
             self.forget();
             if let Some(clock) = &self.clock {
-                // The buffer can be mapped. If it is not, the error is discarded.
+                // The buffer might be mapped. If it is not, the error is discarded.
                 clock.mapped.unmap();
                 self.errors.forget();
             }

@@ -1,4 +1,4 @@
-//! What an adapter supports, as wgpu reports it.
+//! The capabilities of an adapter, as wgpu reports them.
 
 use crate::format;
 use etalon_frame::{Feature, TextureFormat};
@@ -76,11 +76,11 @@ fn uses(adapter: &wgpu::Adapter, features: Features, format: TextureFormat) -> O
     })
 }
 
-/// Returns the features that wgpu supports beyond the ones that every device has. wgpu lacks or refuses the
-/// rest: advanced blending, clears within a pass, resolves of depth and stencil, reversed depth ranges,
-/// mirrored viewports, scissors beyond the attachments, polygon modes (a native feature of wgpu that no
-/// specification describes), tessellation, last provoking vertices, disabled clip distances, factors of `min`
-/// and `max`, counts of samples, sample coverage, and minimum sample shading.
+/// Returns the features that wgpu supports beyond those of every device. wgpu lacks or refuses the rest:
+/// advanced blending, clears within a pass, resolves of depth and stencil, reversed depth ranges, mirrored
+/// viewports, scissors beyond the attachments, polygon modes (a native feature of wgpu that no specification
+/// describes), tessellation, last provoking vertices, disabled clip distances, factors of `min` and `max`,
+/// counts of samples, sample coverage, and minimum sample shading.
 ///
 /// Translation keeps early-test attributes of shaders, since the wgpu feature requires the GLSL versions that
 /// have them. If wgpu reports a feature and then refuses it, the feature's cases fail.

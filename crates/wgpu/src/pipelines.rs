@@ -1,4 +1,4 @@
-//! Shader modules, layouts, samplers and pipelines, cached by what they are created from.
+//! Shader modules, layouts, samplers and pipelines, cached by their descriptions.
 
 use crate::cache::Cache;
 use crate::error::Errors;
@@ -7,7 +7,7 @@ use etalon_backend::BackendError;
 use etalon_scene::Sampler;
 use etalon_webgpu::{CallList, LayoutEntry, Pipeline, PipelineState, Shader, VertexBuffer};
 
-/// What a pipeline is created from.
+/// The description of a pipeline.
 type PipelineKey = (Shader, Vec<LayoutEntry>, PipelineState);
 
 /// The objects that do not depend on a scene's textures and buffers.

@@ -160,7 +160,7 @@ pub(crate) fn target(target: &PipelineTarget) -> Result<wgpu::ColorTargetState, 
     Ok(wgpu::ColorTargetState {
         format: format::known(target.format)?,
         blend: target.blend.map(blend),
-        // Bit 0 is red in both.
+        // Bit 0 is red in both APIs.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
     })
 }

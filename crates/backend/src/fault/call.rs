@@ -104,7 +104,7 @@ faults! {
     ResolveFirst = "resolve-first" in "sequence/resolve-several/*" of Vulkan OpenGl WebGpu;
     /// Every query of a submission has the result of the first.
     QueryFirst = "query-first" in "sequence/queries-*/*";
-    /// Queries after the first end before their draw.
+    /// All queries except the first end before their draw.
     QueryEarly = "query-early" in "sequence/queries-*/*";
     /// Queries end after their first draw, if they can end within a pass.
     QueryOneDraw = "query-one-draw" in "sequence/spans/*";
@@ -184,9 +184,9 @@ faults! {
     BlitScale = "blit-scale" in "paths/blits*/end=blit-scaled/*";
     /// Blits filter nothing.
     BlitFilter = "blit-filter" in "paths/blits/end=blit-linear/*";
-    /// Blits begin at the first texel of the destination.
+    /// Blits begin at the destination's first texel, whatever their offset.
     BlitPlace = "blit-place" in "paths/blits/end=blit-part/*";
-    /// Blits of only depth, or only stencil, to another place are skipped.
+    /// Blits of only depth, or only stencil, to another position are skipped.
     BlitAspectAlone = "blit-aspect-alone" in "paths/blits-depth-stencil/end=blit-part/*" of OpenGl;
     /// Of the regions of a blit, only the first is copied.
     BlitFirstRegion = "blit-first-region" in "paths/blits/end=blit-part/*" of Vulkan;
@@ -214,7 +214,7 @@ faults! {
     ClearFirstRange = "clear-first-range" in "sequence/layers/*/layers=written/*" of Vulkan;
     /// Resolved parts keep their places.
     ResolvePlace = "resolve-place" in "sequence/resolves/*";
-    /// After a clear, the second scissor rectangle is the first.
+    /// After a clear, the second scissor rectangle equals the first.
     ScissorFirst = "scissor-first" in "paths/scissor-array/*";
     /// All channels of colour are written.
     WriteMaskOpen = "write-mask-open" in "paths/write-masks/*/start=load-operation" of WebGpu;

@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 pub struct DrawNumbers {
     /// True if the draw has indices.
     pub indexed: bool,
-    /// True if it draws points or lines.
+    /// True if the draw has points or lines.
     pub thin: bool,
     /// The number of vertices or indices.
     pub count: i32,

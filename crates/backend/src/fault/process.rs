@@ -8,29 +8,29 @@ use serde::{Deserialize, Serialize};
 pub enum ProcessFault {
     /// The process aborts.
     Abort,
-    /// It reads unmapped memory.
+    /// The process reads unmapped memory.
     Segv,
-    /// It ends with status 7.
+    /// The process ends with status 7.
     Exit,
     /// The suite's own code panics.
     Panic,
-    /// It sleeps endlessly.
+    /// The process sleeps endlessly.
     Hang,
-    /// It loops endlessly.
+    /// The process loops endlessly.
     Spin,
-    /// It allocates memory endlessly.
+    /// The process allocates memory endlessly.
     Memory,
-    /// It writes bytes that are not a message.
+    /// The process writes bytes that are not a message.
     Garbage,
-    /// It ends in the middle of a message.
+    /// The process ends in the middle of a message.
     Half,
     /// The device is lost.
     Lost,
     /// An allocation is refused.
     Refused,
-    /// It writes 100,000 lines to standard error, then aborts.
+    /// The process writes 100,000 lines to standard error, then aborts.
     Chatter,
-    /// It reports a validation message.
+    /// The process reports a validation message.
     Validation,
     /// Pictures are wrong in about half of all processes.
     Flaky,

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Code {
     pub(super) rust: String,
-    /// `None` if WebGPU cannot express it.
+    /// `None` if WebGPU cannot express the code.
     pub(super) script: Option<String>,
 }
 

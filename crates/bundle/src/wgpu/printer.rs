@@ -8,13 +8,13 @@ use crate::wrap::wrapped;
 use etalon_backend::Recording;
 use etalon_webgpu::CallList;
 
-/// The statements, and what they need.
+/// The statements, and the data and features that they need.
 pub(super) struct Statements<'a> {
     /// The statements in their order, indented.
     pub(super) body: Code,
     /// The buffer that is mapped.
     pub(super) mapped: String,
-    /// The memories that are filled from it.
+    /// The memory regions that are filled from it.
     pub(super) memories: Vec<Memory>,
     /// The features that the device had.
     pub(super) features: Vec<&'a str>,

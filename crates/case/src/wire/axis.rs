@@ -138,6 +138,6 @@ pub(crate) struct DerivedWire {
     /// The number of positions further on, wrapping at the end.
     #[serde(default)]
     pub(crate) shift: usize,
-    /// As many values as the axis has, each used in place of the axis's own.
+    /// One value for each value of the axis, used instead of it.
     pub(crate) values: Option<Vec<Value>>,
 }

@@ -4,15 +4,15 @@ use etalon_scene::{IndexFormat, Splat};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The numbers of a draw call apart from its mesh. Whatever they are, the same mesh is drawn.
+/// The numbers that a draw call takes in addition to its mesh. The same mesh is drawn whatever their values.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FetchWire {
     /// The size of an index.
     #[serde(default = "uint32")]
     pub(crate) index: IndexFormat,
-    /// The number added to every index. That many unused vertices come first, so that the mesh stays the same;
-    /// if the number is negative, the indices are greater instead.
+    /// The number added to every index. To keep the mesh the same, that many unused vertices come first or,
+    /// if the number is negative, all indices are increased.
     #[serde(default)]
     pub(crate) base_vertex: i32,
     /// The number of unused indices before the used ones.
@@ -34,7 +34,7 @@ impl Default for FetchWire {
     }
 }
 
-/// Instances: the mesh once for each, in the instance's colour in place of its vertices' colours.
+/// Instances: the mesh is drawn once for each, in the instance's colour instead of its vertices' colours.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InstancesWire {

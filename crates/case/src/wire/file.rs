@@ -91,8 +91,7 @@ pub(crate) struct StatesWire {
     pub(crate) size: [u32; 2],
 }
 
-/// A scene of draws that alternate between two states: the first, the third and so on have one state, the
-/// others have the other.
+/// A scene of draws that alternate between two states.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SequenceWire {
@@ -131,11 +130,11 @@ pub(crate) struct SequenceWire {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Across {
-    /// As draws of one pass.
+    /// In draws of one pass.
     Draw,
-    /// As passes on the same attachments.
+    /// In passes on the same attachments.
     Pass,
-    /// As passes that alternate between these attachments and others like them.
+    /// In passes that alternate between these attachments and a second set with the same formats and size.
     Framebuffer,
 }
 
@@ -143,7 +142,7 @@ pub(crate) enum Across {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VariantWire {
-    /// Its name in records.
+    /// The variant's name in records.
     pub(crate) name: String,
     /// JSON pointers into the scene, and the values that replace what is there.
     #[serde(default)]
@@ -201,13 +200,13 @@ impl QuickWire {
     }
 }
 
-/// One literal colour that must come back.
+/// A colour that a texel of the frame must have.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpectWire {
     pub(crate) attachment: String,
     /// Column and row.
     pub(crate) texel: [u32; 2],
-    /// The values, channel by channel, as exact arithmetic gives them; the nearest code must come back.
+    /// The exact value of each channel; the frame must have the nearest code.
     pub(crate) value: Vec<f64>,
 }

@@ -109,17 +109,17 @@ impl JsonSchema for ClearWire {
 pub(crate) enum TexelsWire {
     /// One texel per column, the same in all rows.
     Columns {
-        /// As many texels as the attachment is wide.
+        /// One texel per column.
         values: Vec<[f64; 4]>,
     },
     /// One texel per row, the same in all columns.
     Rows {
-        /// As many texels as the attachment is high.
+        /// One texel per row.
         values: Vec<[f64; 4]>,
     },
     /// Every texel, row by row from the top.
     Grid {
-        /// As many rows as the attachment is high, each with as many texels as it is wide.
+        /// All texels of the attachment, row by row.
         values: Vec<Vec<[f64; 4]>>,
     },
     /// Codes computed from the format, which distinguish rows, columns, channels and bits.

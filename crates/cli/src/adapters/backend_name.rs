@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A backend, with the profiles of OpenGL and the APIs below `wgpu` as separate ones. `Webgpu` is a
+/// A backend. The profiles of OpenGL and the APIs below `wgpu` count as separate backends. `Webgpu` is a
 /// browser's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -40,9 +40,9 @@ pub(super) struct Started {
 
 /// The reason why an adapter did not start.
 pub(super) enum NoStart {
-    /// It cannot be used.
+    /// The adapter cannot be used.
     Absent(AbsentAdapter),
-    /// Its driver is installed, but crashes or hangs while it starts.
+    /// The adapter's driver is installed, but crashes or hangs while it starts.
     Failed(BackendName, AbsentAdapter),
     /// A built-in entry needs a variable that is not set.
     NotEnabled(AbsentAdapter),
@@ -140,7 +140,8 @@ impl Candidate {
         };
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
-                // The file names packages, but not those of validation layers. A server is installed by now.
+                // The file names packages, but not the packages of validation layers. At this point, the
+                // server is already installed.
                 let starts_itself =
                     query.validate || self.remedy().is_empty() || resolved.server.is_some();
                 let remedy = if starts_itself {
@@ -243,7 +244,7 @@ impl Candidate {
             for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
                 environment.push((name.to_owned(), Some(manifest.clone())));
             }
-            // The user's selection among drivers does not apply here.
+            // The user's own choice of drivers must not apply here.
             for name in ["VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"] {
                 environment.push((name.to_owned(), None));
             }

@@ -74,12 +74,12 @@ pub(super) struct Description {
     #[serde(skip)]
     pub(super) fault: Option<Fault>,
     /// The words of a command that starts the worker elsewhere: in another userland, in a container, on
-    /// another machine. Paths then belong to that place and are not checked.
+    /// another machine. Paths then refer to that system and are not checked.
     #[serde(default)]
     launcher: Vec<String>,
     /// The path of etalon where the launcher starts it; by default this program's path.
     program: Option<String>,
-    /// The driver line that the adapter is a release of; requires `version`.
+    /// The driver line to which the adapter's release belongs; requires `version`.
     line: Option<String>,
     /// The version of the release: numbers with dots.
     version: Option<String>,
@@ -101,7 +101,7 @@ pub(super) struct Resolved {
     pub(super) library_path: Vec<PathBuf>,
     pub(super) browser: Option<Browser>,
     pub(super) server: Option<Server>,
-    /// The place of the page, with a token of this run.
+    /// The address of the page, with a token of this run.
     pub(super) listen: Option<Listen>,
 }
 

@@ -66,14 +66,14 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let reading = thread::Builder::new().spawn(move || {
         let mut bytes = Vec::new();
         if let Some(pipe) = &mut pipe {
-            // After a broken pipe the text does not parse.
+            // If the pipe breaks, the text does not parse.
             let _ = pipe.take(MAX_BYTES).read_to_end(&mut bytes);
         }
         // After the time limit there is no receiver.
         let _ = sender.send(bytes);
     });
     let mut end = || {
-        // Fails if the process has already ended.
+        // Killing fails if the process has already ended.
         let _ = child.kill();
         let _ = child.wait();
     };

@@ -70,7 +70,8 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     Ok(adapters)
 }
 
-/// Returns the adapters to start. Enumerates devices only if no name is given, or if a name is in no file.
+/// Returns the adapters to start. Enumerates devices only if no name is given, or if a name is missing from
+/// the files.
 fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
     let mut candidates = described(query.file)?;
     let is_known =

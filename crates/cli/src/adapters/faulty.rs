@@ -1,4 +1,4 @@
-//! The rasterizer with a planted fault: `cpu:fault=abort` and its relatives show that a run survives
+//! The rasterizer with a planted fault: `cpu:fault=abort` and similar names show that a run survives
 //! everything that drivers do to their processes. `cpu:slower=5%` shows that `etalon diff` finds a slow-down.
 
 use crate::output::say;
@@ -66,7 +66,7 @@ impl Faulty {
     }
 
     fn write(&self, bytes: &[u8]) {
-        // If the parent is gone, this process ends soon.
+        // If the parent has ended, this process ends soon.
         let _ = self.pipe.borrow_mut().write_all(bytes);
     }
 
@@ -79,8 +79,8 @@ impl Faulty {
                 std::process::abort()
             }
             ProcessFault::Segv => {
-                // The signal itself, since safe code cannot read invalid memory; twice, since the first one
-                // only removes the standard library's handler.
+                // Sends the signal, since safe code cannot read invalid memory. Sends it twice, since the
+                // first signal only removes the standard library's handler.
                 for _ in 0..2 {
                     let _ = kill_process(getpid(), Signal::SEGV);
                 }
@@ -141,8 +141,8 @@ fn sleep_endlessly() -> ! {
 
 /// Returns a hash of the scene.
 fn hash(scene: &Scene) -> u64 {
-    // Unseeded, so that each process chooses the same scenes. Hashes the serialized scene, so that a new kind
-    // of state with its default changes no hash.
+    // The hash is unseeded, so that each process chooses the same scenes. It covers the serialized scene, so
+    // that a new kind of state at its default changes no hash.
     let text = serde_json::to_string(scene).unwrap_or_default();
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -234,7 +234,7 @@ impl Prepared for FaultyScene<'_> {
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let mut frame = self.inner.read_back()?;
         if self.wrong {
-            // Flips all bits of all codes: wrong wherever anything is asserted.
+            // Flips all bits of all codes, so that every asserted texel is wrong.
             for code in frame.images.iter_mut().flat_map(|i| &mut i.codes) {
                 *code ^= 0xff;
             }

@@ -29,7 +29,7 @@ pub(crate) struct Open {
     /// The server of the driver, which the worker starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) server: Option<Server>,
-    /// The place at which a browser opens the page of the worker.
+    /// The address at which a browser opens the worker's page.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) listen: Option<Listen>,
     /// True if validation layers and debug output are enabled.

@@ -483,8 +483,8 @@ impl Tally {
         text
     }
 
-    /// Returns the groups of each finding that explains them, or only resembles them; findings with the most
-    /// scenes first.
+    /// Returns the findings that explain or resemble groups, each with its groups. Findings with the most
+    /// scenes come first.
     fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
         let mut matches: Vec<(&Match, Vec<&Group>)> = Vec::new();
         for group in &self.groups {

@@ -23,7 +23,7 @@ fn fetch(texels: [u32; 4], texture: &str) -> Value {
 }
 
 /// Alternately adds one of two attachments to the other. The first pass reads an upload and draws to a
-/// clear; all others read what was drawn.
+/// cleared attachment; later passes read what was drawn.
 pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
     let grid = [0, 1, 2, 3].map(|y| [0, 1, 2, 3, 4].map(|x| start(x, y)));
@@ -90,7 +90,7 @@ pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Resolves and reads, then draws more and does both again.
+/// Resolves and reads an attachment, draws to it again, and resolves and reads it again.
 pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
     let many = |texels: [u32; 4], params: Value| {
         json!({ "color": ["many"], "resolve": ["one"], "draws": [

@@ -96,7 +96,7 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
         with(corner(true, "uniform_color", &["c"]), scissored),
     ];
     assert_eq!(counted(s, precise(), draws)?.counters, [30, 0, 4]);
-    // The depths written by the first draw reject the second one.
+    // The depths written by the first draw reject the second draw.
     let draws = [&["a"][..], &["b"], &[]].map(|names| halves("uniform_color", names));
     assert_eq!(counted(s, precise(), draws.to_vec())?.counters, [128, 0, 0]);
     // Samples count even if nothing is written.
@@ -243,7 +243,7 @@ pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// A draw that discards: its shader runs, invocations and passed samples are three numbers.
+/// A draw that discards, for which shader runs, invocations and passed samples are counted separately.
 pub(crate) fn counters_of_all_kinds_go_together(s: &Subject) -> Checked {
     let drawn = |kinds: Value| {
         let names: Vec<_> = kinds.as_object().unwrap().keys().cloned().collect();

@@ -1,4 +1,4 @@
-//! Depth: cleared, written, compared and stored.
+//! Clears, writes, compares and stores depth.
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, RED, depth, stencil, texels, values};
@@ -64,7 +64,8 @@ pub(crate) fn depths_start_from_their_clear(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The stored depth, the comparison, whether it writes, the depths of four columns, and which of them pass.
+/// The stored depth, the comparison, whether the draw writes, the depths of four columns, and which columns
+/// pass.
 type Comparison = (f64, &'static str, bool, [f64; 4], [bool; 4]);
 
 /// Columns that are compared with a quarter and with one.
@@ -91,7 +92,8 @@ const COMPARISONS: [Comparison; 7] = [
     ),
 ];
 
-/// First draws a depth that differs from the clear's. The last draw must not write, and changes nothing.
+/// First draws a depth that differs from the clear value. The last draw does not write depth, so it changes
+/// nothing.
 pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
     for format in formats(s) {
         for (stored, compare, write, columns, passes) in COMPARISONS {

@@ -91,7 +91,7 @@ pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The last of three instances remains, and each one is counted.
+/// The last of three instances stays visible, and each instance is counted.
 fn instances(s: &Subject, mesh: Value, first: u32, fetch: Value) -> Checked {
     let colors = json!([[0, 1, 0, 1], [1, 1, 1, 1], [1, 0, 0, 1]]);
     let count = json!({ "front": { "compare": "always", "pass_op": "increment-clamp" } });

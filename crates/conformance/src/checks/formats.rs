@@ -1,4 +1,4 @@
-//! Every colour format that is offered: cleared, uploaded, fetched, drawn and blended.
+//! Clears, uploads, fetches, draws and blends every offered colour format.
 
 use super::Checked;
 use crate::frames::{Expect, check_within_one, codes, color, texels, values};
@@ -239,7 +239,7 @@ pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// The fetch decodes, and the draw encodes.
+/// The fetch decodes sRGB, and the draw encodes it.
 pub(crate) fn srgb_is_fetched_and_drawn(s: &Subject) -> Checked {
     let steps = [0, 10, 50, 90, 130, 170, 210, 251].repeat(2);
     let columns: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();

@@ -1,4 +1,4 @@
-//! Attachments of integers: cleared, uploaded, drawn, masked, resolved.
+//! Clears, uploads, draws, masks and resolves attachments of integers.
 
 use super::Checked;
 use crate::frames::{Expect, check_samples, color, texels};

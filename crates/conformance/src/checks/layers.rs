@@ -93,7 +93,7 @@ pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
     near(&frame, "next", (1, 1), [-0.5, 0.5, 0.0, 1.0], 1e-6);
     near(&frame, "front", (1, 1), [0.5, 0.0, 0.0, 0.5], 1e-6);
     near(&frame, "back", (1, 1), [0.0, 0.0, 1.0, 0.25], 1e-6);
-    // A single layer counts as the nearest.
+    // A single layer counts as the nearest layer.
     near(&frame, "front", (7, 3), [0.0, 0.0, 0.25, 0.25], 1e-6);
     near(&frame, "back", (7, 3), [0.0; 4], 0.0);
     Ok(())

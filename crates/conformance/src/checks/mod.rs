@@ -29,9 +29,9 @@ use crate::subject::{CheckResult, Missing, Subject};
 /// A check ends early if the limits deny a scene.
 type Checked = Result<(), Missing>;
 
-/// One check.
+/// A check of a driver.
 pub struct Check {
-    /// Its subject and name: `chains::two_attachments_take_turns`.
+    /// The check's subject and name: `chains::two_attachments_take_turns`.
     pub name: &'static str,
     /// The check's subject: `chains`.
     pub subject: &'static str,

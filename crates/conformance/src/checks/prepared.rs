@@ -58,7 +58,7 @@ pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
     }
     assert_eq!(read(&mut prepared), first);
     drop(prepared);
-    // The same frame from reused images and buffers.
+    // Reused images and buffers give the same frame.
     assert_eq!(s.draw(&scene)?, first);
     Ok(())
 }

@@ -184,7 +184,7 @@ pub(crate) fn shaders_write_the_depth_of_each_sample(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Of the third column, an edge leaves only the leftmost samples, if there are several.
+/// An edge covers only the leftmost samples of the third column, if there are several.
 pub(crate) fn attributes_at_centres_are_as_in_their_texel(s: &Subject) -> Checked {
     let mesh = json!({
         "kind": "vertices", "units": "texels", "values": [1],
@@ -334,7 +334,7 @@ fn drawn_to(format: TextureFormat) -> Value {
             "multisample": { "mask": 6 } })
 }
 
-/// Draws to half of the samples in the left half. Integers are not averaged: one sample is taken.
+/// Draws to half of the samples in the left half. Integers are not averaged; the resolve takes one sample.
 pub(crate) fn every_format_is_averaged(s: &Subject) -> Checked {
     for format in s.limits().formats.keys().filter(|f| f.is_color()) {
         let draw = with(drawn_to(*format), json!({ "scissor": [0, 0, 4, 8] }));

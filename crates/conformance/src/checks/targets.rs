@@ -53,7 +53,7 @@ pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// Sums that stay in their channels; one target is also tested with the byte order of windows.
+/// The sums do not overflow their channels. One target is also tested with the byte order of windows.
 pub(crate) fn targets_keep_apart(s: &Subject) -> Checked {
     let add = component("add", "one", "one");
     let keep = component("reverse-subtract", "zero", "one");
@@ -172,7 +172,7 @@ pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// As a factor of only the source, and of only the destination.
+/// The second source is a factor of only the source, and then of only the destination.
 pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
     let drawn = |rgb: Value, alpha: Value| {
         s.show(json!({

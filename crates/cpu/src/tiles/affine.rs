@@ -95,7 +95,7 @@ impl Term {
             source,
             ..
         } = *self;
-        // One by one, because loops over groups of lanes become gathers and scatters.
+        // Word by word, because loops over groups of lanes become gathers and scatters.
         for word in words.as_flattened_mut() {
             let value = plain.decode(encoding, [field.code(*word)]);
             let [value] = plain.blend_operand(encoding, value);

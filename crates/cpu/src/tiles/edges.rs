@@ -26,7 +26,7 @@ pub(crate) struct Edges {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Touch {
     None,
-    /// Some of them, or perhaps none.
+    /// The triangle covers some of the samples, or possibly none.
     Part,
     Whole,
 }
@@ -181,7 +181,7 @@ impl<S: Simd, I: SimdInt<S, Element = i32>> Numbers<S, I> {
         (a | b | c).simd_ge(I::splat(self.simd, 0))
     }
 
-    /// Adds a growth `times` times.
+    /// Adds `times` times an increment.
     #[inline(always)]
     pub(crate) fn grow(&mut self, growth: [i32; 3], times: i32) {
         for (numbers, growth) in self.edges.iter_mut().zip(growth) {

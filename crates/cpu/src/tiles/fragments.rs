@@ -16,7 +16,7 @@ pub(crate) const MOST: usize = 32;
 /// A mask for each group.
 type Masks = [Mask; MOST];
 
-/// Groups of fragments: their places in a sample's plane, and the lanes that are drawn.
+/// Groups of fragments: their indices in a sample's plane, and the lanes that are drawn.
 #[derive(Debug)]
 pub(crate) struct Fragments {
     masks: Masks,
@@ -56,26 +56,26 @@ impl Fragments {
         self.count == 0
     }
 
-    /// Returns the places and the masks of the groups.
+    /// Returns the indices and the masks of the groups.
     #[inline(always)]
     pub(crate) fn parts(&self) -> (&[u16], &[Mask]) {
         (&self.places[..self.count], &self.masks[..self.count])
     }
 
-    /// Returns the places of the groups with their masks.
+    /// Returns the indices of the groups with their masks.
     #[inline(always)]
     pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, Mask)> {
         self.with(&self.masks)
     }
 
-    /// Returns the places of the groups with other masks.
+    /// Returns the indices of the groups with other masks.
     #[inline(always)]
     pub(crate) fn with(&self, masks: &Masks) -> impl Iterator<Item = (usize, Mask)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
         places.zip(masks.iter().copied())
     }
 
-    /// Returns the places of the groups with their masks, which can be changed.
+    /// Returns the indices of the groups with their masks, which can be changed.
     #[inline(always)]
     pub(crate) fn groups_mut(&mut self) -> impl Iterator<Item = (usize, &mut Mask)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
@@ -113,7 +113,7 @@ impl Fragments {
     }
 
     /// Keeps the lanes whose codes pass the depth test against a sample's plane, and writes their codes if
-    /// the state says so. `codes` gives the codes of a group by its place.
+    /// the state says so. `codes` gives the codes of a group by its index.
     #[inline(always)]
     pub(crate) fn test_depth<S: Simd>(
         &mut self,

@@ -163,7 +163,7 @@ impl Image {
         }
     }
 
-    /// Writes the codes of one sample of a tile's row, given the sample's plane and the row's place in it.
+    /// Writes the codes of one sample of a tile's row, given the sample's plane and the row's position in it.
     fn row(&self, aspect: Aspect, channels: usize, [plane, within]: [usize; 2], codes: &mut [u32]) {
         let step = self.samples * channels;
         let place = plane * AREA + within;

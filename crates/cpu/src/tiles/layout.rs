@@ -7,7 +7,7 @@ use etalon_frame::ChannelEncoding;
 /// The words of a texel. Unused words are 0.
 pub(crate) type Words = [u32; 4];
 
-/// The number of words of a texel, and where its channels are in them.
+/// The number of words of a texel, and the position of each channel in them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     fields: [Field; 4],

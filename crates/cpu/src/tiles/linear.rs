@@ -34,8 +34,8 @@ struct ChannelFunction {
 }
 
 impl Linear {
-    /// Returns the function that equals the tables for all codes, if there is one near their slopes. A slope
-    /// is the growth of the result from the first code to the last.
+    /// Returns the function that equals the tables for all codes, if a function near their slopes does. A
+    /// slope is the difference between the results of the last and the first code.
     #[inline(always)]
     pub(crate) fn fitted(tables: &[[u8; CODES]; 4], slopes: [f32; 4]) -> Option<Self> {
         let mut found = [ChannelFunction::default(); 4];

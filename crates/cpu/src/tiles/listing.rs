@@ -1,4 +1,4 @@
-//! The kernels of a scene, in words.
+//! Descriptions of a scene's kernels.
 
 use super::layout::Layout;
 use super::paint::{Kernel, Paint};
@@ -50,7 +50,7 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
     lines
 }
 
-/// Returns the kernel of a draw's first colour, in words.
+/// Returns a description of the kernel of a draw's first colour.
 fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
     let color = match shading {
         Shading::Texture { .. } => return "stored unchanged",

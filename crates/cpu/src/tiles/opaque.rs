@@ -15,7 +15,7 @@ use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 /// The number of lanes for narrow triangles.
 pub(crate) const NARROW: i32 = 8;
 
-/// What opaque triangles of a draw do to texels.
+/// How the opaque triangles of a draw change texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Store {
     /// The indices of the draw and the paint.
@@ -32,7 +32,7 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Returns what a triangle does, if it is opaque and its stencil state does nothing.
+    /// Returns how a triangle changes texels, if it is opaque and its stencil state changes nothing.
     #[inline(always)]
     pub(crate) fn new(triangle: &Triangle, plan: &DrawPlan, paint: &Paint) -> Option<Self> {
         let color = match &paint.kernel {
@@ -183,9 +183,9 @@ pub(crate) struct Planes<'p> {
     pub(crate) position: [i32; 2],
     /// The texels whose sample can be written.
     pub(crate) rect: [i32; 4],
-    /// Empty if no colours are written.
+    /// The colours; empty if no colours are written.
     pub(crate) colors: &'p mut [u32],
-    /// Empty if no depths are tested.
+    /// The depths; empty if no depths are tested.
     pub(crate) depths: &'p mut [u32],
 }
 
@@ -210,7 +210,7 @@ trait Source {
     ) -> U;
 }
 
-/// One code for all texels.
+/// The same depth code for all texels.
 struct Flat(u32);
 
 impl Source for Flat {
@@ -220,7 +220,7 @@ impl Source for Flat {
     }
 }
 
-/// Codes of any kind.
+/// Depth codes of any kind.
 struct Any<'a>(&'a Depths, [i32; 2]);
 
 impl Source for Any<'_> {

@@ -111,7 +111,7 @@ impl PrimitiveRun {
     }
 }
 
-/// The source of a triangle's colour, which is constant over the triangle unless it is a texture's.
+/// The source of a triangle's colour, which is constant over the triangle unless it comes from a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shading {
     /// The provoking vertex's colour.
@@ -405,7 +405,7 @@ fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reaso
 /// Returns the texels of a rectangle whose sample, at a position in the texel, is inside the viewport.
 fn rect(draw: &Draw, [left, top, right, bottom]: [i32; 4], position: [i32; 2]) -> [i32; 4] {
     let [x, y, w, h] = draw.viewport.area();
-    // `as` saturates; the number of texels is far smaller.
+    // The cast saturates, far above any number of texels.
     let edge = |v: f32, position: i32| {
         let edge = (v * UNITS as f32).ceil() as i64 - i64::from(position);
         // The quotient is rounded up.

@@ -16,8 +16,8 @@ pub(crate) type Plane = [f32; TEXELS];
 /// The codes of one channel, or words.
 pub(crate) type CodePlane = [u32; TEXELS];
 
-/// Runs code once with an encoding. A common encoding has a branch of its own, in which the compiler knows
-/// it. The branches are patterns, since the compiler does not use what comparisons exclude.
+/// Runs code once with an encoding. A common encoding has its own branch, in which the compiler knows the
+/// encoding. The branches are patterns, because the compiler learns nothing from comparisons.
 macro_rules! with_encoding {
     ($encoding:expr, |$known:ident| $run:expr) => {{
         use etalon_frame::ChannelEncoding::{Float16, Float32, Ufloat, Unorm};

@@ -7,7 +7,7 @@ use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
 
-/// Returns true if the average of equal samples has their code, for all codes of these channels.
+/// Returns true if equal samples resolve to their own code, for all codes of these channels.
 fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
     let share = 1.0 / samples as f32;
     let small = |e: &ChannelEncoding| matches!(e, Unorm(..=10) | Srgb8);
@@ -44,7 +44,7 @@ pub(crate) struct Resolve {
     channels: &'static [ChannelEncoding],
     layout: Layout,
     samples: usize,
-    /// True if the average of equal samples has their code.
+    /// True if equal samples resolve to their own code.
     known: bool,
 }
 

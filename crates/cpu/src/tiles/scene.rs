@@ -33,7 +33,7 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// Returns everything that this machine has.
+    /// Returns all vector instructions and threads of this machine.
     pub(crate) fn whole() -> Self {
         Self {
             level: Level::new(),
@@ -95,7 +95,7 @@ impl TiledScene {
         }
     }
 
-    /// Replaces what store operations discard.
+    /// Replaces the contents that store operations discard.
     fn discard(&mut self, pass: usize) {
         for (index, aspect) in self.scene.passes[pass].discarded() {
             let format = self.scene.attachments[index].format;

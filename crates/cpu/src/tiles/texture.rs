@@ -81,7 +81,7 @@ fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coordinates {
     origin: [i32; 2],
-    /// The value at the origin, and its growth per unit to the right and down, for each axis.
+    /// For each axis, the value at the origin and its increments per unit to the right and down.
     axes: [[f64; 3]; 2],
 }
 

@@ -103,7 +103,7 @@ struct Drawing<'t, 'a> {
     tile: Tile<'a>,
     /// The index of the tile in the attachments.
     index: usize,
-    /// The left, top, right and bottom edges of its texels.
+    /// The left, top, right and bottom edges of the tile's texels.
     texels: [i32; 4],
     /// True if only the first sample is in memory, and all samples are equal to it.
     same: bool,
@@ -195,7 +195,8 @@ pub(crate) fn draw<S: Simd>(
 
 impl Drawing<'_, '_> {
     /// Draws a triangle. An opaque triangle that covers a part of the tile is left to
-    /// [`opaque`](Self::opaque): this makes the planes ready for it, and returns what it does to texels.
+    /// [`opaque`](Self::opaque): this function prepares the planes, and returns how the triangle changes
+    /// texels.
     #[inline(always)]
     fn triangle<S: Simd>(
         &mut self,
@@ -217,8 +218,8 @@ impl Drawing<'_, '_> {
         let outcome = TestResult::of(stencil, answer);
         // Stencil state that passes and changes nothing can be ignored.
         let face = face.filter(|face| match outcome {
-            // After a triangle that covers only a part, later triangles of the draw might have another
-            // result.
+            // After a triangle that covers only a part of the tile, the tests of later triangles of the draw
+            // might have another result.
             Some(outcome) if whole || outcome == TestResult::StencilFails => {
                 !keeps(face, outcome.operation(face))
             }
@@ -301,7 +302,8 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Widens the range of depths to what a triangle might have written, to all texels or to some.
+    /// Widens the range of depths to include every depth that a triangle might have written, to all texels or
+    /// to some.
     #[inline(always)]
     fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, all: bool) {
         if !plan.depth.is_some_and(|d| d.write) {
@@ -317,7 +319,8 @@ impl Drawing<'_, '_> {
         };
     }
 
-    /// Widens the range of stencil values to what a face might have written, to all texels or to some.
+    /// Widens the range of stencil values to include every value that a face might have written, to all
+    /// texels or to some.
     #[inline(always)]
     fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<TestResult>) {
         let old = self.stencils;

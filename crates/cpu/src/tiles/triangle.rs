@@ -16,21 +16,21 @@ pub(crate) struct Placed {
 pub(crate) struct Triangle {
     /// The vertices in the order of the primitive, on which the depth plane depends.
     pub(crate) corners: [Placed; 3],
-    /// The index of its rare properties in its part; `u32::MAX` if it has none.
+    /// The index of the triangle's rare properties in its part; `u32::MAX` if it has none.
     pub(crate) rare: u32,
     /// The depth code, if the triangle is flat.
     pub(crate) code: u32,
-    /// The index of its draw among the pass's kernels.
+    /// The index of the triangle's draw among the pass's kernels.
     pub(crate) draw: u32,
-    /// The index of its paint in its part.
+    /// The index of the triangle's paint in its part.
     pub(crate) paint: u32,
-    /// The first column, first row, last column and last row of the texels that it might cover.
+    /// The first column, first row, last column and last row of the texels that the triangle might cover.
     pub(crate) around: [i16; 4],
     pub(crate) front: bool,
     pub(crate) shape: Shape,
     /// True if the vertices are counter-clockwise on the screen.
     pub(crate) counter: bool,
-    /// True if scissor or viewport might cut it.
+    /// True if scissor or viewport might cut the triangle.
     pub(crate) cut: bool,
 }
 
@@ -41,33 +41,33 @@ const _: () = assert!(size_of::<Triangle>() == 64);
 pub(crate) struct Rare {
     /// The depth bias.
     pub(crate) bias: f64,
-    /// The vertices, if the colour is a texture's.
+    /// The vertices, if the colour comes from a texture.
     pub(crate) vertices: [u32; 3],
 }
 
 /// The kind of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// It has several depths.
+    /// A triangle whose depth varies.
     Sloped,
-    /// It has several depths, and is not larger than a tile.
+    /// A triangle whose depth varies, not larger than a tile.
     SlopedNear,
-    /// It has one depth.
+    /// A triangle of constant depth.
     Flat,
-    /// It has one depth, and is not larger than a tile.
+    /// A triangle of constant depth, not larger than a tile.
     FlatNear,
-    /// It has one depth, is inside one tile and few columns wide, and nothing cuts it.
+    /// A triangle of constant depth that is inside one tile, few columns wide, and not cut.
     Small,
 }
 
 impl Triangle {
-    /// Returns true if all of it has one depth.
+    /// Returns true if the triangle has a constant depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Flat | Shape::FlatNear | Shape::Small)
     }
 
-    /// Returns true if it is not larger than a tile.
+    /// Returns true if the triangle is not larger than a tile.
     #[inline(always)]
     pub(crate) fn is_near(&self) -> bool {
         !matches!(self.shape, Shape::Flat | Shape::Sloped)

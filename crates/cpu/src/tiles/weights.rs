@@ -130,7 +130,7 @@ impl Weights {
         for alpha in &mut alpha {
             *alpha = self.alpha[0] + self.alpha[1] * *alpha;
         }
-        // One by one, so that shifts are constants.
+        // Channel by channel, so that shifts are constants.
         let mut new = a.codes(&last, &alpha);
         for code in &mut new {
             *code <<= 24;

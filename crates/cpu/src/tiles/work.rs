@@ -8,11 +8,11 @@ use super::texture::{Coordinates, Texture};
 use super::triangle::Triangle;
 use etalon_scene::StencilFace;
 
-/// What the kernels read about a triangle in a tile.
+/// The data that kernels read about a triangle in a tile.
 pub(crate) struct Work<'a> {
     pub(crate) triangle: &'a Triangle,
     pub(crate) plan: &'a DrawPlan,
-    /// The stencil state of the triangle's facing, if it might do something.
+    /// The stencil state of the triangle's facing, if it might change something.
     pub(crate) face: Option<&'a StencilFace>,
     pub(crate) paint: &'a Paint,
     /// The depths, unless the triangle is flat or depths are not tested.

@@ -1,4 +1,4 @@
-//! Attachments: removes them from passes, from read-back, or entirely if unused.
+//! Removes attachments: from passes, from read-back, or entirely if they are unused.
 
 use crate::document::{list, parts};
 use crate::edit::{Edit, below, place};

@@ -1,4 +1,4 @@
-//! Lists: removes further frames, passes, draws, clear commands and counters.
+//! Shortens lists: removes further frames, passes, draws, clear commands and counters.
 
 use crate::document::{draws_of, list, parts, passes_of};
 use crate::edit::{Edit, below, place};
@@ -205,7 +205,7 @@ mod tests {
             "judged_as": { "/passes/0/draws/2/shader": "z" }
         });
         let edits = draws(&document, None);
-        // All, then one by one, since half of three is one.
+        // The edits remove all, then single items, since half of three is one.
         let without_second = edits[2].apply(&document).unwrap();
         let pass = &without_second["scene"]["passes"][0];
         assert_eq!(pass["draws"], json!([{ "shader": "a" }, { "shader": "c" }]));

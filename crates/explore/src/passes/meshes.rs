@@ -1,4 +1,4 @@
-//! Meshes: replaces many primitives by one, and shortens lists.
+//! Simplifies meshes: replaces many primitives by one, and shortens lists.
 
 use crate::document::{draws_of, parts};
 use crate::edit::{Edit, at, below};

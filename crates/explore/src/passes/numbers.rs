@@ -1,4 +1,4 @@
-//! Numbers: 0, 1, a half, or fewer digits.
+//! Simplifies numbers: to 0, 1, a half, or fewer digits.
 
 use super::words::walk;
 use crate::edit::{Edit, Place, Step, at, place};
@@ -101,7 +101,7 @@ fn simpler(number: f64) -> Vec<Value> {
     numbers.into_iter().map(value).collect()
 }
 
-/// Returns a place with a key.
+/// Returns a path extended by a key.
 #[cfg(test)]
 fn of(key: &str) -> Place {
     place!["scene", key]

@@ -1,4 +1,4 @@
-//! Sizes: crops pictures, preferably to the wrong texel, and removes samples.
+//! Reduces sizes: crops pictures, preferably to the wrong texel, and removes samples.
 
 use crate::document::{draws_of, list};
 use crate::edit::{Edit, Place, at, below, place};
@@ -138,8 +138,8 @@ fn numbers(value: &Value) -> Option<[u64; 4]> {
     sizes.try_into().ok()
 }
 
-/// Reduces the samples of all attachments with the most samples. Without samples, attachments are read
-/// without a resolve.
+/// Reduces the samples of all attachments with the most samples. With a single sample left, attachments are
+/// read without a resolve.
 pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let Some(attachments) = document["scene"]["attachments"].as_object() else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! States: removes keys, which resets each state to its default.
+//! Resets states to their defaults, by removing their keys.
 
 use crate::document::{draws_of, parts};
 use crate::edit::{Edit, Place, at, below, place};
@@ -7,8 +7,8 @@ use serde_json::Value;
 /// The keys that a case cannot lack, or that have their own pass.
 const KEPT: [&str; 4] = ["format", "kind", "size", "shader"];
 
-/// Removes the states of each draw: all, halves, and so on down to single ones; first the states of all
-/// draws together.
+/// Removes states of draws: first all states of all draws, then one state of all draws, then states of one
+/// draw: all, halves, and so on down to single states.
 pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let draws = draws_of(document);
     let states = |draw: &Place| -> Vec<Place> {
@@ -21,7 +21,7 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         remove: draws.iter().flat_map(&states).collect(),
         ..Edit::default()
     }];
-    // One state of all draws.
+    // One state, from all draws that have it.
     let mut keys: Vec<Place> = draws.iter().flat_map(states).collect();
     keys.sort_by(|a, b| a.last().cmp(&b.last()));
     for same in keys.chunk_by(|a, b| a.last() == b.last()) {

@@ -1,5 +1,5 @@
-//! Shaders and their textures: replaces shaders that read textures by shaders that do not, and uploaded
-//! texels by a clear value.
+//! Simplifies shaders and their textures: replaces shaders that read textures by shaders that do not, and
+//! uploaded texels by a clear value.
 
 use crate::document::draws_of;
 use crate::edit::{Edit, at, below, place};
@@ -107,7 +107,7 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Returns the uploaded values at a texel, or at the first one.
+/// Returns the uploaded values at a texel, or at the first texel.
 fn raw(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
     let texels: &Map<String, Value> = attachment["texels"].as_object()?;
     let values = texels.get("values")?.as_array()?;

@@ -1,10 +1,9 @@
-//! Words: replaces formats, functions and factors by common ones.
+//! Replaces formats, functions and factors by common ones.
 
 use crate::edit::{Edit, Place, Step, below, place};
 use serde_json::{Value, json};
 
-/// The words that replace others under a key, the simplest first. Words that are not listed are the least
-/// simple.
+/// The simple values under a key, the simplest first. Values that are not listed are the least simple.
 const SIMPLE: [(&str, &[&str]); 14] = [
     ("compare", &["always", "never", "less", "greater", "equal"]),
     ("fail_op", &["zero", "replace", "invert"]),
@@ -25,7 +24,7 @@ const SIMPLE: [(&str, &[&str]); 14] = [
 /// Formats of depth and stencil, the simplest first.
 const DEPTH: [&str; 3] = ["depth32float", "stencil8", "depth24plus-stencil8"];
 
-/// Simplifies the words of states, and booleans.
+/// Replaces named values of states by simpler ones, and `true` by `false`.
 pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     walk(
@@ -50,7 +49,7 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 .position(|s| *s == word)
                 .unwrap_or(simple.len());
             for other in &simple[..rank] {
-                // A mask is narrowed, never moved.
+                // Masks only lose bits.
                 if key != "write_mask" || word.contains(other) {
                     edits.push(Edit::replacement(place.clone(), *other));
                 }
@@ -97,7 +96,7 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-/// Calls a function with every word, number and boolean below a place.
+/// Calls a function with every string, number and boolean below a path.
 pub(super) fn walk(value: &Value, place: Place, each: &mut dyn FnMut(&Place, &Value)) {
     match value {
         Value::Object(map) => {

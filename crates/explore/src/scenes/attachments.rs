@@ -35,8 +35,8 @@ impl Maker<'_> {
         } else {
             Palette::Normalized
         };
-        // With one or two bits of alpha, all codes between would be legal for halves or thirds, and alpha
-        // as a factor would carry that into the colours.
+        // With one or two bits of alpha, values in between could legally round to different codes, and alpha
+        // as a factor would carry the difference into the colours.
         let few = |f: &TextureFormat| {
             matches!(f, TextureFormat::Rgb10a2Unorm | TextureFormat::Bgr5a1Unorm)
         };

@@ -6,7 +6,7 @@ use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
-/// States that a draw can change from the previous one, whatever both draw.
+/// States in which a draw can differ from the previous draw, whatever the two draw.
 const ALONE: [&str; 13] = [
     "cull",
     "front_face",

@@ -20,7 +20,7 @@ struct Form {
 /// The depth that a mesh's vertex colours contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum VertexDepth {
-    /// None: they are colours.
+    /// No depth: the numbers are colours.
     Nothing,
     /// Any depth.
     Red,

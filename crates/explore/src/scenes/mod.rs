@@ -56,7 +56,7 @@ struct Pass {
     depth_stencil: Option<TextureFormat>,
     samples: u32,
     read_only: bool,
-    /// The names of single-sample attachments that earlier passes drew and this one does not.
+    /// The names of single-sample attachments that earlier passes drew to and this pass does not.
     drawn: Vec<String>,
     /// The provoking vertex of all draws in the pass.
     provoking: Option<&'static str>,
@@ -90,7 +90,7 @@ struct Maker<'s> {
     palette: Palette,
     /// True if alpha is 0 or 1.
     whole_alpha: bool,
-    /// The stencil reference of most draws; with random references, none would ever be equal.
+    /// The stencil reference of most draws. Random references would almost never be equal.
     reference: u32,
     /// The uncommon traits, and whether the scene has them.
     swarm: BTreeMap<&'static str, bool>,
@@ -157,8 +157,8 @@ impl<'s> Maker<'s> {
         Some(path)
     }
 
-    /// Returns true if an uncommon state is to be set: never in two thirds of scenes, else half of the
-    /// time.
+    /// Returns true if an uncommon state is to be set: never in two thirds of the scenes, and half of the
+    /// time in the others.
     fn extra(&mut self, state: &'static str) -> bool {
         let known = self.swarm.get(state).copied();
         let on = known.unwrap_or_else(|| self.choices.once_in(3));

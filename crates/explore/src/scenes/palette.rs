@@ -5,7 +5,7 @@
 pub(super) enum Palette {
     /// Sums of powers of two whose multiples by `2^b - 1` are never close to an integer.
     Normalized,
-    /// The same, with negative values.
+    /// Like `Normalized`, with negative values.
     Signed,
     /// Values between two codes that differ only in the last bit, with 8 and 10 bits.
     Bits,

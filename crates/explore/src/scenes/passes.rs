@@ -49,8 +49,8 @@ impl Maker<'_> {
         self.choices.note("passes", number);
         let mut passes = Vec::new();
         for index in 0..number {
-            // The last pass reads what the first one drew, or draws to attachments that the first one did
-            // not.
+            // The last pass reads what the first one drew, or draws to attachments that the first pass did
+            // not draw to.
             let other = framebuffers && index % 2 == 1;
             let mut colors = color.clone();
             let mut drawn = Vec::new();
@@ -231,7 +231,7 @@ impl Maker<'_> {
         if !pass.color.is_empty() && self.extra("resolve") {
             let mut resolves = Vec::new();
             for (i, (_, format)) in pass.color.iter().enumerate() {
-                // Into an earlier pass's resolve target, or into another attachment.
+                // Resolves into an earlier pass's resolve target, or into another attachment.
                 let number = if self.choices.once_in(2) { 0 } else { index };
                 let name = format!("resolved{number}-{i}");
                 if !self.attachments.contains_key(&name) {

@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
         {
             adapter.times.insert(case.clone(), times);
         }
-        // The asserted share is not kept, because a picture does not record its number of channels.
+        // The asserted fraction is dropped, because a picture does not record its number of channels.
         adapter.take(case, Outcome::new(record.picture.verdict));
     }
     Ok(NewRun {

@@ -48,11 +48,11 @@ impl Line {
 /// A convex piece of one colour.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Left, top, right and bottom of the rectangle that clips it, on texel borders.
+    /// Left, top, right and bottom of the rectangle that clips the piece, on texel borders.
     pub(super) within: [f64; 4],
-    /// The lines that it is inside of.
+    /// The lines that bound the piece.
     pub(super) lines: Vec<Line>,
-    /// Its colour.
+    /// The piece's colour.
     pub(super) color: [f64; 4],
 }
 

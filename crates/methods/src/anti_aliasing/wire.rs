@@ -21,7 +21,7 @@ pub struct Wire {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MethodName {
-    /// One sample.
+    /// One sample per texel.
     None,
     /// The mean of two samples.
     #[serde(rename = "msaa-2")]
@@ -45,8 +45,8 @@ pub(crate) enum MethodName {
     Fxaa,
     /// Alpha from the distance to the nearest edge, blended over a neighbour that extends below the edge.
     CoverageToAlpha,
-    /// The same, but neighbours that share an edge both blend their side of it, and the ends of wires are
-    /// blended too.
+    /// Like the method above, but both neighbours of an edge blend their side of it, and the ends of wires
+    /// are blended too.
     CoverageToAlphaOverlap,
 }
 

@@ -14,10 +14,10 @@ use serde::Deserialize;
 /// The method for the reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
-    /// Only inside the stencil area of the mirror.
+    /// Draws the reflection only inside the stencil area of the mirror.
     #[serde(rename = "mirror")]
     Masked,
-    /// Everywhere, so that reflections also show outside the mirror.
+    /// Draws the reflection everywhere, so that it also shows outside the mirror.
     #[serde(rename = "mirror-unmasked")]
     Unmasked,
 }

@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Which objects have an outline of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
-    /// One outline around all objects: they share a stencil value.
+    /// One outline around all objects, which share a stencil value.
     #[serde(rename = "outline-merged")]
     Merged,
     /// An outline around each object, even in front of another object: each object has its own stencil

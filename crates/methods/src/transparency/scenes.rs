@@ -10,7 +10,7 @@ use crate::truth::{Coverage, Truth};
 /// Polygons that are sorted as a whole.
 #[derive(Clone, Debug)]
 pub(super) struct Object {
-    /// Its faces, in drawing order.
+    /// The object's faces, in drawing order.
     pub(super) polygons: Vec<Polygon>,
 }
 

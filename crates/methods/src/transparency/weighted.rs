@@ -7,8 +7,8 @@ use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, BlendState, ColorTarget, CompareFunction, Scene, Shader};
 
-/// Builds two passes for any number of layers: the weighted sums and the share of the background that
-/// remains, then the mean over it.
+/// Builds two passes for any number of layers. The first computes weighted sums and the background's
+/// visibility, the second blends the mean over the background.
 pub(super) fn weighted_blended(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));

@@ -36,9 +36,9 @@ pub(crate) enum MethodName {
     DepthWriteOff,
     /// Opaque if alpha is at least a half, otherwise discarded.
     AlphaTest,
-    /// Opaque on a share of four samples that follows alpha.
+    /// Opaque in some of four samples; their number follows alpha.
     AlphaToCoverage,
-    /// Opaque on a random share of four samples, different in each layer (Enderton and others 2010).
+    /// Opaque in random ones of four samples, different in each layer (Enderton and others 2010).
     Stochastic,
     /// One layer per peel, nearest first (Everitt 2001).
     DepthPeeling,

@@ -88,8 +88,8 @@ impl<R> fmt::Debug for Taps<'_, R> {
 pub enum List<'a, R> {
     /// The fragments are not modelled: a result computed from them can be anything.
     Unknown,
-    /// All fragments, the latest first. If a lane has fewer, the missing ones are behind all depths and have
-    /// alpha 0.
+    /// All fragments, the latest first. A lane with fewer fragments is filled up with fragments behind all
+    /// depths, with alpha 0.
     Known(&'a [Node<R>]),
 }
 

@@ -60,7 +60,7 @@ impl Measure {
         } else {
             (Self::Texels, texels)
         };
-        // What passes do to whole attachments outweighs the few texels that they draw.
+        // Clears, resolves and read-backs of whole attachments outweigh the few texels that passes draw.
         let found = passes.into_iter().find(|(_, amount)| *amount > 0);
         found.or((draws.1 > 0).then_some(draws))
     }
@@ -77,7 +77,7 @@ pub struct CellRate {
     pub time: Time,
     /// The slope between the two cases.
     pub slope: Slope,
-    /// The median time of each round: of the case with less work, then of the case with more.
+    /// The median time of each round, first for the case with less work, then for the case with more.
     pub medians: [Vec<f64>; 2],
 }
 

@@ -37,7 +37,7 @@ pub struct BenchHeader {
     /// A description of the fixed work on the processor that is timed around each round. It changes when
     /// the work does. Benches with different rulers cannot be corrected by them.
     pub ruler: String,
-    /// The settings that it was measured with.
+    /// The settings of the bench.
     #[serde(default)]
     pub settings: BenchSettings,
     /// The adapters that were timed.
@@ -66,7 +66,7 @@ pub struct BenchSettings {
     /// absent, all rounds are taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within: Option<f64>,
-    /// Seconds that the rounds of an adapter may take, all together.
+    /// The total number of seconds that the rounds of an adapter may take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
 }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::slice;
 
-/// Any line of `bench.jsonl` but the first.
+/// Any line of `bench.jsonl` except the first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BenchLine {
@@ -31,12 +31,12 @@ pub struct Picture {
     pub adapter: String,
     /// The verdict; see [`Picture::may_be_timed`].
     pub verdict: Verdict,
-    /// The share of asserted channels among all channels of all samples, 0 to 1.
+    /// The fraction of asserted channels among all channels of all samples, 0 to 1.
     pub asserted: f64,
     /// The missing requirement, the error, or the first wrong texel.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
-    /// The work of a frame, of cells of the performance matrix.
+    /// The work of a frame, for cells of the performance matrix.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
 }
@@ -62,11 +62,11 @@ pub struct Round {
     pub adapter: String,
     /// The number of the round, counted from 0 without gaps over the rounds of the case on this adapter.
     pub round: u32,
-    /// The start of the round, since that of the bench.
+    /// The time from the start of the bench to the start of the round.
     pub at: f64,
     /// The ruler's times right before and right after the round.
     pub ruler: [f64; 2],
-    /// Preparing the scene: all that a driver does once, such as creating pipelines.
+    /// The time to prepare the scene: everything that a driver does once, such as creating pipelines.
     pub prepare: f64,
     /// The time of the first frame after preparing, until the device was done; part of the warm-up.
     pub first: f64,
@@ -83,13 +83,13 @@ pub struct Round {
     /// reports it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clock: Option<[f64; 2]>,
-    /// Reading the frame back, if that was timed.
+    /// The times of reading the frame back, if they were measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub read_back: Vec<f64>,
 }
 
 impl Round {
-    /// Returns the samples of one time in the order of measuring; empty if it was not measured.
+    /// Returns the samples of one kind of time in the order of measuring; empty if it was not measured.
     pub fn samples(&self, time: Time) -> &[f64] {
         match time {
             Time::Wall => &self.wall,
@@ -125,9 +125,9 @@ pub struct Ended {
 state_enum! {
     /// The reason why a case needs no more rounds.
     Enough {
-        /// Its interval is narrow enough.
+        /// The interval of the pair's value is narrow enough.
         Within = "within",
-        /// The adapter's time is spent.
+        /// The bench's time for the adapter has run out.
         Limit = "limit",
     }
 }

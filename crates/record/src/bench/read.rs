@@ -110,7 +110,7 @@ impl Bench {
 struct Assembly {
     header: BenchHeader,
     records: Vec<BenchRecord>,
-    /// Case and adapter to the record.
+    /// The index of each record by case and adapter.
     places: HashMap<(String, String), usize>,
 }
 

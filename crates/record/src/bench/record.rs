@@ -6,13 +6,13 @@ use super::time::Time;
 /// The picture and the rounds of one case on one adapter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchRecord {
-    /// Its picture with the verdict.
+    /// The case's picture on the adapter, with the verdict.
     pub picture: Picture,
-    /// Its rounds, by number; empty if the picture may not be timed.
+    /// The rounds, by number; empty if the picture may not be timed.
     pub rounds: Vec<Round>,
-    /// Why it has fewer rounds than others, if an error ended them.
+    /// Why the case has fewer rounds than others, if an error ended them.
     pub ended: Option<Ended>,
-    /// Why it needs no more rounds than it has.
+    /// The reason why the case needs no more rounds, if there is one.
     pub enough: Option<Enough>,
 }
 
@@ -22,13 +22,14 @@ impl BenchRecord {
         self.picture.may_be_timed() && self.ended.is_none() && self.enough.is_none()
     }
 
-    /// Returns the samples of one time, round by round; skips rounds without any.
+    /// Returns the samples of one kind of time, round by round. Rounds without such samples are skipped.
     pub fn samples(&self, time: Time) -> Vec<&[f64]> {
         let samples = self.rounds.iter().map(|r| r.samples(time));
         samples.filter(|s| !s.is_empty()).collect()
     }
 
-    /// Returns the ruler's time of each round that has samples of this time, as [`BenchRecord::samples`].
+    /// Returns the ruler's time of each round that has samples of this time, in the order of
+    /// [`BenchRecord::samples`].
     pub fn rulers(&self, time: Time) -> Vec<f64> {
         let timed = |r: &&Round| !r.samples(time).is_empty();
         self.rounds

@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// The times of a round.
     Time: array {
-        /// A frame until the device was done.
+        /// The time of a frame until the device was done.
         Wall = "wall",
-        /// A frame until the last call that submits work returned.
+        /// The time of a frame until the last call that submits work returned.
         Cpu = "cpu",
-        /// A frame between GPU timestamps.
+        /// The time of a frame between GPU timestamps.
         Gpu = "gpu",
-        /// Reading a frame back.
+        /// The time of reading a frame back.
         ReadBack = "read-back",
-        /// Preparing the scene.
+        /// The time of preparing the scene.
         Prepare = "prepare",
-        /// The first frame after preparing.
+        /// The time of the first frame after preparing.
         First = "first",
     }
 }

@@ -24,7 +24,7 @@ const MESHES: [&str; 10] = [
     r#""mesh":{"kind":"vertices","positions":[[0.1,0.1,0.2]]},"topology":"point-list","shader":"uniform_color""#,
     r#""mesh":{"kind":"full","z":0.5},"shader":"texel_discard","textures":["texture"]"#,
 ];
-/// States that reject fragments, or can.
+/// States that reject fragments, or can reject them.
 const STATES: [&str; 18] = [
     r#""scissor":[1,1,2,2]"#,
     r#""scissor":[0,0,0,0]"#,
@@ -126,7 +126,7 @@ proptest! {
                     "primitive {primitive} of draw {d} at {at:?} is not explained:\n{notes:#?}"
                 );
             }
-            // A draw whose fragments are all rejected does nothing: the same values are legal without it.
+            // A draw whose fragments are all rejected changes nothing: the same values are legal without it.
             if events().all(|e| matches!(e.effect, Effect::Rejects(_) | Effect::Keeps(_))) {
                 let mut without = scene.clone();
                 without.passes[0].draws.remove(d);

@@ -6,8 +6,8 @@ use etalon_scene::Invariance;
 
 impl Rules {
     /// Returns the band of a difference between two pictures that differ only in this change: Fail if the
-    /// specification requires them to be equal, Imprecise if it suggests it or is silent while the others
-    /// require it, otherwise `None`.
+    /// specification requires them to be equal, Imprecise if it only suggests equality, or is silent while
+    /// the other specifications require it; otherwise `None`.
     pub fn invariance(limits: &Limits, change: Invariance) -> Permission<Option<Band>> {
         use Invariance as By;
         match (limits.api, change) {

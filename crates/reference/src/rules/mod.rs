@@ -1,9 +1,9 @@
 //! The permissions of each specification: data with citations, one file per API, so that a reader can compare
 //! each with the specification.
 //!
-//! If a specification is silent, the union of the other APIs' permissions applies: never nothing, never the
-//! tightest. The yardstick is not a permission but the quality band: 32-bit float arithmetic on exact inputs,
-//! one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits, the top-left rule.
+//! If a specification is silent, the union of the other APIs' permissions applies. The yardstick is not a
+//! permission but the quality band: 32-bit float arithmetic on exact inputs, one conversion within 0.6 codes
+//! at the store, the adapter's own sub-pixel bits, the top-left rule.
 
 mod invariance;
 mod opengl;
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(new.signed_clamp.value, SignedClamp::Signed);
         assert_eq!(old.srgb_logic.value, SrgbLogic::Applies);
         assert_eq!(new.srgb_logic.value, SrgbLogic::PassesThrough);
-        // Version 3.3 was corrected, so neither reading can prove the other wrong.
+        // Version 3.3 was corrected later, so neither reading is proven wrong.
         let proven = old.bound_by(Grade::Proven);
         assert_eq!(proven.signed_clamp.value, SignedClamp::Either);
         assert_eq!(proven.srgb_logic.value, SrgbLogic::Either);

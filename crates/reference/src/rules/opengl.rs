@@ -36,8 +36,8 @@ impl Text {
     }
 }
 
-/// Returns a rule on the runs of shaders: 4.6 contradicts itself where 4.5 does not. Older contexts get
-/// storage from an extension whose specification matches 4.5.
+/// Returns a rule on the runs of shaders. On this, 4.6 contradicts itself, but 4.5 does not. Older contexts
+/// get storage from an extension whose specification matches 4.5.
 fn run_rule(text: Text, v45: &'static str, v46: &'static str) -> Permission<bool> {
     match text {
         Text::V46 => narrowed(true, false, Grade::Disputed, v46),

@@ -3,9 +3,8 @@
 use etalon_frame::{ChannelEncoding, Grade};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for:
-/// results computed under some rules can then be reused under all rules that agree on the permissions asked
-/// for.
+/// A permission with its citation and the evidence for what it forbids. It records whether it was asked for,
+/// so that results can be reused under all rules that agree on the permissions that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Permission<T> {
     pub(super) value: T,
@@ -78,7 +77,7 @@ impl PartialEq for Asked {
     }
 }
 
-/// Returns a permission that a must of the specification bounds.
+/// Returns a permission that is bounded by a "must" of the specification.
 pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permission<T> {
     Permission {
         value,
@@ -119,7 +118,7 @@ pub enum Snap {
 pub enum SharedEdge {
     /// Exactly one of two triangles whose edges have identical end points covers it.
     ExactlyOne,
-    /// Unspecified: each triangle decides separately.
+    /// Unspecified: either triangle, both or neither may cover the sample.
     Independent,
     /// The triangle for which the edge is a top or left edge covers it.
     TopLeft,
@@ -140,16 +139,16 @@ pub enum BlendPrecision {
     /// Every operand and result may be rounded to one of the destination's neighbouring codes, to a neighbouring
     /// float with as many significand bits, or to a neighbouring binary fraction with as many bits.
     DestinationCodes,
-    /// In 32-bit floating-point.
+    /// Blending is computed in 32-bit floating-point.
     Float32,
 }
 
 /// The values that a depth test compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthOrder {
-    /// The incoming value before or after its conversion to the attachment's encoding.
+    /// The incoming value is compared before or after its conversion to the attachment's encoding.
     Either,
-    /// Codes with codes.
+    /// The converted codes are compared.
     ConvertedFirst,
 }
 
@@ -164,7 +163,7 @@ pub struct BiasUnit {
     pub unorm: &'static [(f64, f64)],
     /// For float depth, by the exponent of the primitive's greatest depth.
     pub float: &'static [(f64, f64)],
-    /// The assumed part of the range; `None` for all of it.
+    /// The assumed part of the range; `None` for the whole range.
     pub assumed: Option<(f64, f64)>,
 }
 
@@ -189,9 +188,10 @@ impl BiasUnit {
 /// Conversion of a finite value to an unsigned float of 11 or 10 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmallFloats {
-    /// To either neighbour; past the largest value, to it or to infinity.
+    /// Rounds to either neighbour. Values above the largest become the largest value or infinity.
     EitherNeighbour,
-    /// To the nearest, or always towards zero; past the largest value, to it. Subnormal values are kept.
+    /// Rounds to nearest, or always towards zero. Values above the largest become the largest value.
+    /// Subnormal values are kept.
     NearestOrTowardsZero,
 }
 
@@ -242,14 +242,14 @@ pub enum SrgbLogic {
     PassesThrough,
     /// The operation works on the encoded codes.
     Applies,
-    /// Either.
+    /// Either behaviour.
     Either,
 }
 
 /// Alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaToCoverage {
-    /// Alpha 0 gives no sample, alpha 1 all samples, anything in between any samples.
+    /// Alpha 0 gives no samples, alpha 1 all samples, and any alpha in between any samples.
     Ends,
     /// Any alpha gives any samples.
     Any,
@@ -265,14 +265,14 @@ pub enum DepthRange {
     Unit,
     /// The depth clamped to the viewport's range or to 0 to 1.
     Either,
-    /// A shader's depth is clamped to the viewport's range; a biased one to that or to 0 to 1.
+    /// A shader's depth is clamped to the viewport's range, a biased depth to that range or to 0 to 1.
     ViewportIfWritten,
 }
 
 /// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
-    /// Anything between the least and the greatest sample; for integers, one of the samples.
+    /// Any value between the least and the greatest sample; for integers, one of the samples.
     Between,
     /// The average, computed in halvings that may each be rounded to a neighbouring code; for sRGB, of the
     /// codes or of the linear values; for integers, the first sample.
@@ -284,7 +284,8 @@ pub enum Resolve {
 /// The terms from which the viewport computes window depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthTerms {
-    /// Depth from 0 to 1 times the range, plus the near plane's depth: one term if that is 0.
+    /// Depth from 0 to 1 times the range, plus the near plane's depth. If the latter is 0, there is only one
+    /// term.
     NearPlane,
     /// Depth from -1 to 1 times half the range, plus the middle of the range.
     Middle,
@@ -293,11 +294,11 @@ pub enum DepthTerms {
 /// The effect of a shader's sample mask on a texel with one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskOfOne {
-    /// Its first bit decides.
+    /// The first bit of the mask decides.
     Acts,
     /// No effect.
     Ignored,
-    /// Either.
+    /// Either behaviour.
     Either,
 }
 
@@ -305,9 +306,9 @@ pub enum MaskOfOne {
 /// discarded by the shader or by alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EarlyUpdates {
-    /// They happen.
+    /// The updates happen.
     Happen,
-    /// They happen or not.
+    /// The updates may or may not happen.
     Either,
     /// Depth and stencil are each updated or not.
     Each,
@@ -327,7 +328,7 @@ pub enum SamplesCounted {
 pub enum SameDepth {
     /// Redraws whose shaders write the fragment's own depth.
     Written,
-    /// All redraws with the fragment's own depth, written or not.
+    /// All redraws that keep the fragment's own depth, whether their shaders write it or not.
     All,
 }
 
@@ -343,21 +344,21 @@ pub enum FragCoord {
 /// The sample mask that a shader reads, out of the samples that a primitive covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputMask {
-    /// With sample shading the samples of the run, otherwise all.
+    /// With sample shading, the samples of the run; otherwise all samples.
     OfRun,
     /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
     /// can have the sample and any others.
     OfAnyRun,
-    /// As `OfAnyRun`; with a minimum share of sample shading, also the sample and any others.
+    /// Like `OfAnyRun`; with sample shading, also the sample together with any others.
     OfRunIfAsked,
-    /// All samples, or the sample alone.
+    /// All samples, or only the run's own sample.
     AllOrOwn,
 }
 
 /// Declares the permissions of [`Rules`], so that code that narrows or lists them covers all.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
-        /// One specification's permissions, or the yardstick.
+        /// The permissions of a specification, or of the yardstick.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
@@ -420,15 +421,15 @@ rules! {
     shader_error: f64,
     /// Relative error of reading a normalized code as a float; 0 and 1 are exact.
     decode_error: f64,
-    /// True if the restart index of a strip is detected before the base vertex is added; otherwise before or
-    /// after.
+    /// True if the restart index of a strip is detected before the base vertex is added; otherwise it may be
+    /// detected before or after.
     restarts_before_base_vertex: bool,
     /// Vertex snapping.
     snap: Snap,
     /// Coverage of samples on edges.
     shared_edge: SharedEdge,
-    /// True if coverage is tested at the sample positions that the adapter reports; otherwise anywhere in the
-    /// texel.
+    /// True if coverage is tested at the sample positions that the adapter reports; otherwise it may be
+    /// tested anywhere in the texel.
     covers_at_positions: bool,
     /// Rounding of stores and of clear values.
     store: Rounding,
@@ -456,9 +457,11 @@ rules! {
     depth_order: DepthOrder,
     /// The unit of a constant depth bias.
     depth_bias_unit: BiasUnit,
-    /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger growth.
+    /// True if the slope of a biased polygon may be the root of the squares; otherwise it is the larger of
+    /// the two.
     slope_root: bool,
-    /// True if biased depths are clamped at fragments; otherwise at fragments or at vertices.
+    /// True if biased depths are clamped at fragments; otherwise they may be clamped at fragments or at
+    /// vertices.
     bias_clamps_fragments: bool,
     /// The terms of window depth.
     depth_terms: DepthTerms,
@@ -480,8 +483,8 @@ rules! {
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
-    /// The number of fragments that a line may have less than the diamond-exit rule gives it; `None` if no
-    /// specification counts them.
+    /// The number of fragments that a line may lack, compared with the diamond-exit rule; `None` if no
+    /// specification counts fragments.
     lines_lack: Option<usize>,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
@@ -500,15 +503,16 @@ rules! {
     early_ignores_written: bool,
     /// The effect of a shader's sample mask with a single sample per texel.
     mask_of_one: MaskOfOne,
-    /// True if fragments without a fragment shader go on as they were rasterized; otherwise they may be lost
-    /// or have any depth.
+    /// True if fragments without a fragment shader pass unchanged; otherwise they may be lost or have any
+    /// depth.
     goes_on_unshaded: bool,
     /// The sample mask that a shader reads.
     input_mask: InputMask,
-    /// True if that mask lacks the samples that the draw's sample mask and sample coverage remove; otherwise
-    /// it may have them.
+    /// True if the mask that a shader reads lacks the samples that the draw's sample mask and sample coverage
+    /// remove; otherwise it may have them.
     input_mask_lacks_masked: bool,
-    /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
+    /// True if the sample mask excludes samples before forced early tests; otherwise it may do so before or
+    /// after.
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.
     early_counts: EarlyUpdates,
@@ -523,10 +527,10 @@ rules! {
     filter_step: f64,
     /// True if each step of filtering a normalized format may be rounded to a neighbouring code.
     filters_to_codes: bool,
-    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
-    /// anything.
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise it may be
+    /// stored as anything.
     half_overflows: bool,
-    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats where [`Rules::small_floats`]
+    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats if [`Rules::small_floats`]
     /// leaves them open, may be stored as zero.
     flushes_small_floats: bool,
     /// Conversion to floats of 11 and 10 bits.
@@ -534,25 +538,26 @@ rules! {
     /// True if a shader that counts in storage runs for a fragment that never contributes to the attachments;
     /// otherwise it may not run.
     runs_for_discarded: bool,
-    /// True if it runs for a fragment that a later one overwrites; otherwise it may not run.
+    /// True if such a shader runs for a fragment that a later one overwrites; otherwise it may not run.
     runs_for_overwritten: bool,
-    /// True if it does not run for a fragment that forced early tests reject; otherwise it may run.
+    /// True if such a shader does not run for a fragment that forced early tests reject; otherwise it may
+    /// run.
     skips_rejected: bool,
-    /// True if it runs at most once per fragment, or per covered sample if there are several; otherwise any
-    /// number of times.
+    /// True if such a shader runs at most once per fragment, or per covered sample if there are several;
+    /// otherwise it may run any number of times.
     runs_once: bool,
-    /// True if the minimum share of sample shading sets the least number of runs; otherwise one run may serve
-    /// all samples.
+    /// True if the sample shading fraction requires a minimum number of shader runs; otherwise one run may
+    /// serve all samples.
     runs_by_share: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
     /// Sample coverage, with the permissions of alpha to coverage. The same value always covers the same
-    /// samples, and its inverse the others.
+    /// samples, and the inverted value covers the others.
     sample_coverage: AlphaToCoverage,
     /// The fragment coordinates that a shader reads with several samples.
     frag_coord: FragCoord,
-    /// True if with a sample shading share of 1 each sample's inputs are those at its position; otherwise at
-    /// any point of the texel.
+    /// True if, with a sample shading fraction of 1, each sample's inputs are evaluated at its position;
+    /// otherwise they may be evaluated at any point of the texel.
     inputs_at_samples: bool,
 }
 

@@ -1,8 +1,8 @@
 //! What each version of an API requires of every implementation: formats, limits and features, as rows
 //! with their citations.
 //!
-//! Only requirements that a driver can deny are listed. A row for what a backend takes for granted from the
-//! version could never fail.
+//! Only requirements that a driver can deny are listed. A row for a requirement that a backend assumes from
+//! the version could never fail.
 
 use etalon_frame::{Api, ApiVersion, Feature, Limits, Requirement, TextureFormat};
 
@@ -15,12 +15,12 @@ pub struct Required {
     pub since: ApiVersion,
     /// The requirement.
     pub requirement: Requirement,
-    /// The place in the specification.
+    /// The section of the specification.
     pub citation: &'static str,
 }
 
 /// Returns the first of the requirements that the limits deny although the adapter's API and version require
-/// it, and the row that does; `None` if the adapter may lack everything it lacks.
+/// it, and the row that does; `None` if the adapter is allowed to lack everything that it lacks.
 pub fn denied(limits: &Limits, requirements: &[Requirement]) -> Option<(Requirement, Required)> {
     let is_exempt = |needed| limits.exempt.iter().any(|exempt| covers(*exempt, needed));
     let lacks =

@@ -20,8 +20,8 @@ fn text(limits: &Limits) -> &'static str {
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    // Promises of maintenance5 and Vulkan 1.4, of specifications up to 1.3.216, and of maintenance2 and
-    // Vulkan 1.1.
+    // Whether the promises of these apply: maintenance5 and Vulkan 1.4; specifications up to 1.3.216;
+    // maintenance2 and Vulkan 1.1.
     let coverage_last = limits.properties.contains(&Property::CoverageAfterCounting);
     let shades_last = limits.properties.contains(&Property::ShadesAfterCounting);
     let mask_first = limits.properties.contains(&Property::MaskBeforeCounting);

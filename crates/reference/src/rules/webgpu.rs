@@ -1,4 +1,5 @@
-//! WebGPU's permissions, by the draft of 2026-11. Where it is silent, the permissions of the underlying APIs.
+//! WebGPU's permissions, by the draft of 2026-11. If the draft is silent, the permissions of the underlying
+//! APIs apply.
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
@@ -96,12 +97,13 @@ pub(super) fn rules() -> Rules {
             BiasUnit {
                 unorm16: &[(0.999, 1.001)],
                 unorm: &[(0.999, 2.001)],
-                // As Vulkan, Direct3D and Metal define it, or by the letter: 2^(exponent - r) with r the
-                // least positive float, which is 2^exponent.
+                // Either as Vulkan, Direct3D and Metal define it, or as WebGPU literally says: 2^(exponent -
+                // r) with r the least positive float, which is 2^exponent.
                 float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
                 assumed: None,
             },
-            // By musts alone, depth24plus can be a float, and the step of a float can be any value named.
+            // By the specification's "must" clauses alone, depth24plus can be a float, and the step of a
+            // float can be any of these values.
             BiasUnit {
                 unorm16: &[(0.999, 1.001)],
                 unorm: &[(0.499, 16_777_216.0)],

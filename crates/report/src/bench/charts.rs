@@ -8,11 +8,11 @@ use etalon_record::Bench;
 use etalon_stats::quantile;
 use maud::{Markup, html};
 
-/// The number of places along the time axis at which the ruler is shown.
+/// The number of positions along the time axis at which the ruler is shown.
 const PLACES: usize = 300;
 
 /// Returns the chart of the ruler's time over the bench, relative to its median, or `None` without a round. A
-/// line joins the medians at each place; a band joins the smallest and largest times.
+/// line joins the medians at each position; a band joins the smallest and largest times.
 pub(super) fn drift(bench: &Bench) -> Option<Markup> {
     let rounds = bench.records.iter().flat_map(|r| &r.rounds);
     let mut points: Vec<(f64, f64)> = rounds.map(|r| (r.at, r.ruler_time())).collect();
@@ -91,7 +91,7 @@ impl Times {
         Scale::log_between(self.low, self.high).at(time) * STRIP_WIDTH
     }
 
-    /// Returns both ends in words.
+    /// Returns a text for both ends of the range.
     pub(super) fn caption(self) -> String {
         format!(
             "{} to {}, logarithmic",

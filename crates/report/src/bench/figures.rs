@@ -19,7 +19,8 @@ pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
 /// The figures of one case.
 pub(crate) struct CaseFigures<'a> {
     pub(crate) case: &'a str,
-    /// The adapters with times: software, then hardware; each fastest first.
+    /// The adapters with times: software adapters, then hardware adapters, both from the fastest to the
+    /// slowest.
     pub(crate) timed: [Vec<Timed<'a>>; 2],
     /// The adapters without times: the picture is wrong, could not be drawn, or has no round yet.
     pub(crate) untimed: Vec<&'a BenchRecord>,
@@ -32,13 +33,13 @@ impl<'a> CaseFigures<'a> {
     }
 }
 
-/// One case on one adapter.
+/// A case on an adapter.
 pub(crate) struct Timed<'a> {
     pub(crate) record: &'a BenchRecord,
     /// The rank among adapters of its kind, from 1. Adapters without a proven difference share a rank.
     pub(crate) rank: usize,
     pub(crate) wall: Summary,
-    /// Other times that were measured.
+    /// The medians of the other measured times.
     pub(crate) others: BTreeMap<Time, Summary>,
     samples: Samples,
 }
@@ -100,7 +101,7 @@ pub(crate) fn end(record: &BenchRecord) -> (Verdict, &str) {
 
 /// Returns the samples of one time, with their ruler, or `None` if it was not measured.
 pub(crate) fn samples(record: &BenchRecord, time: Time) -> Option<Samples> {
-    // The reader refuses records whose times are not valid samples.
+    // Reading a bench rejects records whose times are not valid samples.
     let samples = Samples::new(&record.samples(time)).ok()?;
     samples.with_ruler(&record.rulers(time)).ok()
 }
@@ -128,7 +129,7 @@ pub(crate) fn incomplete(bench: &Bench) -> Markup {
     }
 }
 
-/// Returns what ends a bench, as facts of its pages.
+/// Returns the limits that end a bench, as facts for its pages.
 pub(crate) fn limits(settings: &BenchSettings) -> Markup {
     html! {
         @if let Some(share) = settings.within { dt { "Enough" } dd { "intervals within " (percent(share, 1)) } }

@@ -189,7 +189,7 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
     table.text(spread, |row| strip(row, scale)).page(rows)
 }
 
-/// Returns the share of the picture that was asserted, in words.
+/// Returns a text for the fraction of the picture that was asserted.
 fn share(record: &BenchRecord) -> String {
     format!("{} asserted", percent(record.picture.asserted, 1))
 }

@@ -8,9 +8,9 @@ use crate::words::plain;
 use etalon_record::{Bench, Time, cell};
 use std::iter::repeat;
 
-/// Returns a table for each kind of adapter with a row per case and adapter, fastest first, then the cases
-/// without times and the reasons. Cases of the performance matrix are excluded. The text always ends in a
-/// newline.
+/// Returns a table for each kind of adapter, with a row per case and adapter, fastest first. The cases
+/// without times follow, with the reasons. Cases of the performance matrix are excluded. The text always ends
+/// in a newline.
 pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     let figures = figures(bench);
     let mut text = String::new();

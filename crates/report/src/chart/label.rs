@@ -5,14 +5,14 @@ use super::plot::{BOTTOM, LEFT, RIGHT, TOP};
 /// The distance between the samples of a line, in chart units.
 const STEP: f64 = 4.0;
 
-/// Places labels so that each covers no point, line or other label. A label without such a place is left out:
-/// the legend, hover text and table show it too.
+/// Places labels so that each covers no point, line or other label. A label without such a position is left
+/// out; the legend, hover text and table also show it.
 pub(crate) struct Labels {
     taken: Vec<[f64; 4]>,
 }
 
 impl Labels {
-    /// Prepares labels for a chart with points at these places.
+    /// Prepares labels for a chart with points at these positions.
     pub(crate) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
         Self {
@@ -33,7 +33,7 @@ impl Labels {
         }
     }
 
-    /// Returns the place of a point's label: its left end and its baseline.
+    /// Returns the position of a point's label: its left end and its baseline.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let width: f64 = text.chars().map(advance).sum();
         let places = [
@@ -93,7 +93,7 @@ mod tests {
         let free = Labels::new([(200.0, 150.0)]).place("method", (200.0, 150.0));
         let (left, base) = free.unwrap();
         let mut labels = Labels::new([(200.0, 150.0)]);
-        // A step of a front runs right through the label's usual place.
+        // A step of a front runs through the label's default position.
         labels.avoid(&[(200.0, base - 4.0), (300.0, base - 4.0), (300.0, 40.0)]);
         let (x, y) = labels.place("method", (200.0, 150.0)).unwrap();
         assert_ne!((x, y), (left, base));

@@ -3,7 +3,8 @@
 use super::plot::n;
 use maud::{Markup, html};
 
-/// The number of colours, shapes and line patterns. Each alone distinguishes this number of methods.
+/// The number of colours, shapes and line patterns. Colour alone, shape alone or pattern alone distinguishes
+/// this number of methods.
 pub(crate) const STYLES: usize = 14;
 
 /// Outlines around the origin, of about the same visual weight, one for each method of a chart. Colours alone

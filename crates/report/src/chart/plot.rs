@@ -70,7 +70,7 @@ impl Plot {
     }
 }
 
-/// Returns a line through these places.
+/// Returns a line through these points.
 pub(crate) fn polyline(places: &[(f64, f64)]) -> String {
     let place = |(i, (x, y)): (usize, &(f64, f64))| {
         let pen = if i == 0 { 'M' } else { 'L' };

@@ -1,11 +1,11 @@
-//! Scales: from a value to its place on an axis, and the ticks of the axis.
+//! Scales: from a value to its position on an axis, and the ticks of the axis.
 
-/// A map from values to places between 0 and 1.
+/// A map from values to positions between 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
-    /// Between two values.
+    /// Linear, between two values.
     Linear(f64, f64),
-    /// Between the decimal logarithms of two values.
+    /// Logarithmic, between the decimal logarithms of two values.
     Log(f64, f64),
 }
 

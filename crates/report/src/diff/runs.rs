@@ -97,7 +97,7 @@ pub fn diff(
     Ok(found)
 }
 
-/// The sort key: worse, better, other; the most serious first; then by case file and case.
+/// The sort key: first the direction (worse, better, other), then the severity, then case file and case.
 fn order(change: &Change) -> (Direction, Reverse<u8>, &str, &str, &[String; 2]) {
     let severity = match change.direction {
         Direction::Better => change.verdict[0],
@@ -151,13 +151,13 @@ fn of_pair(
     found.pairs.push(pair);
 }
 
-/// The cases that the second run should draw.
+/// Which cases the second run should draw.
 enum Selection {
     /// The cases of the first run.
     Same,
     /// The cases of a list and a shard.
     Listed(HashSet<String>, Option<Shard>),
-    /// The selections differ, and the second run does not list its cases.
+    /// Unknown, because the selections differ and the second run does not list its cases.
     Unknown,
 }
 

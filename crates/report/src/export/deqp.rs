@@ -31,7 +31,7 @@ use std::path::Path;
 /// The folder of the lists, below the run folder.
 pub(crate) const FOLDER: &str = "results";
 
-/// One list: its file name and its text.
+/// A list: its file name and its text.
 pub(crate) struct List {
     pub(crate) name: String,
     pub(crate) text: String,
@@ -128,8 +128,8 @@ fn status(record: &Record) -> String {
     }
 }
 
-/// Returns the ids that the run selected, if it lacks records and the folder keeps the list. Else the list is
-/// empty.
+/// Returns the ids that the run selected, if the run lacks records and its folder has the list. Otherwise
+/// returns none.
 fn selected(folder: &Path, run: &Run) -> Vec<String> {
     if run.missing() == 0 {
         return Vec::new();

@@ -16,9 +16,9 @@ use etalon_frame::Aspect;
 use etalon_record::{Assertion, Record, Run, Verdict};
 use std::collections::BTreeMap;
 
-/// The file has fewer bytes than this.
+/// The upper limit of the file's size in bytes.
 pub(crate) const LIMIT: usize = 1_000_000;
-/// The maximum number of records that a list names; a longer one is for a page that can be searched.
+/// The maximum number of records that a list names; longer lists belong on a page that can be searched.
 const LISTED: usize = 500;
 
 /// A text that grows up to a limit.
@@ -53,7 +53,7 @@ impl Text {
         self.line("");
     }
 
-    /// Adds a section with a line per item; nothing if there are no items.
+    /// Adds a section with a line per item, unless there are no items.
     fn list<T>(&mut self, title: &str, items: &[T], line: impl Fn(&T) -> String) {
         if !items.is_empty() {
             self.line(&format!("## {title}\n"));
@@ -70,7 +70,7 @@ impl Text {
             .take_while(|item| self.line(&line(item)));
         let left = items.len() - shown.count();
         if left > 0 {
-            // The room after the sections is reserved for this line.
+            // Room for this line was reserved.
             self.text += &format!("\n{left} more left out of this summary.\n");
         }
     }
@@ -172,7 +172,7 @@ fn told(text: &mut Text, news: &News) {
     text.line("");
 }
 
-/// A row per adapter, a column per verdict that occurs.
+/// Returns a table with a row per adapter and a column per verdict that occurs.
 fn adapters(text: &mut Text, run: &Run) {
     let mut records_of: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
     for record in &run.records {
@@ -302,7 +302,7 @@ fn escaped(text: &str, longest: usize) -> String {
     result
 }
 
-/// A name or a command as code, which no filter touches; as escaped text where code could not hold it.
+/// A name or a command as code, which no filter touches; as escaped text if code cannot hold it.
 fn code(text: &str, longest: usize) -> String {
     let text = plain(text, longest);
     let held = !text.contains(['`', '|', '\\']) && !text.trim().is_empty() && text.trim() == text;

@@ -7,7 +7,7 @@ use etalon_record::{Record, Run, Verdict};
 /// The conclusion that continuous integration draws from a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Conclusion {
-    /// Right by what the API's specification allows.
+    /// The frame is right by the API's specification.
     Passed,
     /// A selftest that was due to fail, and failed.
     Due,
@@ -15,7 +15,7 @@ pub(crate) enum Conclusion {
     Excused,
     /// Drawn but not judged.
     Measured,
-    /// Not drawn.
+    /// The case was not drawn.
     Skipped,
     /// Unexpected: a wrong frame, or a selftest that did not fail.
     Failed,
@@ -59,7 +59,7 @@ pub(crate) fn seconds(record: &Record) -> f64 {
 /// green.
 pub(crate) fn incomplete(run: &Run) -> Option<String> {
     let missing = run.missing();
-    // A shard can be without cases if the other shards have them all.
+    // A shard can be empty if the other shards have all cases.
     let empty_shard = run.header.settings.shard.is_some() && run.header.cases == 0;
     if run.records.is_empty() && !empty_shard {
         Some("no case was run".to_owned())

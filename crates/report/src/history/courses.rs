@@ -1,4 +1,4 @@
-//! The course of each case on one timeline: spans of equal looks, runs without a record, and events.
+//! The history of each case on one timeline: spans of equal looks, runs without a record, and events.
 
 use super::looks::Looks;
 use super::places::Line;
@@ -7,24 +7,24 @@ use etalon_history::{History, HistoryError};
 use etalon_stats::{Class, Happening, happenings};
 use std::collections::HashMap;
 
-/// The course of one case on one timeline. Runs are indices into the timeline.
+/// The history of one case on one timeline. Runs are indices into the timeline.
 #[derive(Default)]
 pub(super) struct Course {
-    /// The first run that has a record.
+    /// The first run with a record of the case.
     pub(super) first: u32,
-    /// The last run that has a record.
+    /// The last run with a record of the case.
     pub(super) last: u32,
-    /// The first run of each span and its look.
+    /// The first run of each span, and the span's look.
     pub(super) spans: Vec<(u32, u32)>,
-    /// The runs in between without a record: a number of a list in [`Gaps`], 0 for none.
+    /// The number of the list in [`Gaps`] with the runs in between that have no record; 0 for none.
     pub(super) gaps: u32,
-    /// True if all whole runs have a record.
+    /// True if all complete runs have a record.
     pub(super) is_common: bool,
     pub(super) events: Vec<Happening<u32>>,
 }
 
 impl Course {
-    /// Returns the look in a run that has a record.
+    /// Returns the look in a run with a record of the case.
     pub(super) fn look(&self, run: u32) -> u32 {
         let next = self.spans.partition_point(|(from, _)| *from <= run);
         self.spans[next.saturating_sub(1)].1
@@ -70,9 +70,9 @@ impl Gaps {
     }
 }
 
-/// All courses of a timeline.
+/// The histories of all cases on a timeline.
 pub(super) struct Courses {
-    /// The course of each case, by the case's number minus one; `None` without a record.
+    /// The history of each case, by the case's number minus one; `None` without a record.
     pub(super) of: Vec<Option<Course>>,
     pub(super) gaps: Gaps,
 }
@@ -117,7 +117,7 @@ impl Courses {
                 }
             }
         }
-        // For each list of gaps, whether a complete run is in it.
+        // For each list of gaps, whether the list contains a complete run.
         let mut holed: HashMap<u32, bool> = HashMap::new();
         let whole = |run: &u32| line.runs[*run as usize].whole;
         let runs = line.runs.len() as u32;

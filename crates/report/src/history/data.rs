@@ -48,7 +48,7 @@ impl Files {
     }
 }
 
-/// Returns all runs, timelines, drivers, machines and looks.
+/// Returns the runs, timelines, drivers, machines and looks as JSON.
 pub(super) fn runs(model: &Model<'_>) -> Value {
     let places = model.places;
     let (mut drivers, mut machines) = (Interner::default(), Interner::default());
@@ -122,7 +122,7 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     all.collect()
 }
 
-/// Files of courses. Most cases of a file have the same course, and share its text.
+/// Files of case histories. Most cases of a file have the same history, and share its text.
 #[derive(Default)]
 pub(super) struct CaseFiles {
     /// For each file except the first, the index of its first case among all cases.
@@ -136,14 +136,14 @@ pub(super) struct CaseFiles {
 struct CaseFile {
     courses: Interner<String>,
     of: Vec<usize>,
-    /// Entries of cases with times or triage: the case's place within the file, the file of its times or -1,
+    /// Entries of cases with times or triage: the case's index within the file, the file of its times or -1,
     /// and the triage entries.
     more: Vec<Value>,
     bytes: usize,
 }
 
 impl CaseFiles {
-    /// Adds the case at this place: its course on all timelines, the file of its times, and its triage
+    /// Adds the case with this index: its history on all timelines, the file of its times, and its triage
     /// entries.
     pub(super) fn push(
         &mut self,
@@ -319,8 +319,8 @@ fn number(value: f64) -> Value {
     }
 }
 
-/// Returns the events of each run, by the run's place: timeline, kind, and cases as places in the list of all
-/// cases.
+/// Returns the events of each run, by the run's index: timeline, kind, and cases as indices into the list of
+/// all cases.
 pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
     let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
     for (line, timeline) in model.timelines.iter().enumerate() {

@@ -60,7 +60,7 @@ impl Looks {
         }
     }
 
-    /// Returns true if the case was left out for a reason of the run and not of the driver.
+    /// Returns true if the case was left out because of the run, not because of the driver.
     pub(super) fn is_undecided(&self, look: u32) -> bool {
         self.class(look) == Class::Missing && self.outcome(look).verdict != Verdict::NotSupported
     }

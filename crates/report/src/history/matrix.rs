@@ -1,4 +1,4 @@
-//! The share of good cases by area and version, one table per timeline.
+//! The percentage of good cases by area and version, one table per timeline.
 
 use super::families::Families;
 use super::model::{Model, Timeline};
@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 /// The maximum number of columns of a table on the start page.
 const COLUMNS: usize = 8;
 
-/// Returns the runs that represent the versions: the last whole run of each version, or all whole runs if the
-/// driver never changed.
+/// Returns the runs that represent the versions: the last complete run of each version, or all complete runs
+/// if the driver never changed.
 fn columns(line: &Line<'_>) -> Vec<usize> {
     let whole: Vec<usize> = (0..line.runs.len())
         .filter(|run| line.runs[*run].whole)
@@ -118,15 +118,15 @@ fn cell(both: &Both, before: Option<Score>) -> Cell {
         .with("style", shade(both.common))
 }
 
-/// Returns a shade between the colours of bad and good cases, over shares from 90 % to 100 %.
+/// Returns a shade between the colours of bad and good cases, for 90 % to 100 % good cases.
 fn shade(score: Score) -> Option<String> {
     let share = score.share()?;
     let good = ((share - 0.9) * 1000.0).round().clamp(0.0, 100.0);
     Some(format!("--s:{good}%"))
 }
 
-/// Returns the scores of all whole runs for the script, newest first: the run's place in the timeline, then
-/// for each area the good cases and all cases of the common set, and the good cases and all cases of the run.
+/// Returns the scores of all complete runs for the script, newest first: the run's index in the timeline,
+/// then four numbers for each area: good cases and all cases, first of the common set and then of the run.
 pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
     let whole = (0..timeline.line.runs.len())
         .rev()

@@ -21,12 +21,12 @@ pub(super) struct Model<'a> {
     pub(super) states: TriageStates,
 }
 
-/// A timeline with its courses and scores.
+/// A timeline, with the histories and scores of its cases.
 pub(super) struct Timeline<'a> {
     pub(super) line: &'a Line<'a>,
     pub(super) courses: Courses,
     pub(super) scores: Scores,
-    /// The last run, as a place in the timeline.
+    /// The index of the timeline's last run.
     pub(super) last: usize,
 }
 

@@ -1,4 +1,5 @@
-//! The changes since the last run: each adapter compared with its run before, worst first.
+//! The changes since the last run: each adapter is compared with its previous run; the worst changes come
+//! first.
 
 use super::model::Model;
 use super::times::{Series, Timed};
@@ -21,11 +22,11 @@ pub(super) enum Kind {
     Set,
     Fixed,
     Times,
-    /// Triage says that it does not matter or is known.
+    /// Triage says that the change is known or does not matter.
     Known,
 }
 
-/// The kinds, each with the class that colours its lines, and the most lines it gets if other kinds need
+/// The kinds, each with the class that colours its lines and the maximum number of lines if other kinds need
 /// room.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Broken, "f", 10),
@@ -136,7 +137,7 @@ impl News {
         Self { items, counts }
     }
 
-    /// Returns the lines for a screen: each kind gets its share, and the worst kinds get the room that is
+    /// Returns the lines for a screen: each kind gets an equal part, and the worst kinds get the room that is
     /// left.
     pub(super) fn screen(&self) -> Vec<&Item> {
         let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);

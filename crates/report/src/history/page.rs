@@ -138,7 +138,7 @@ fn last_change(line: &Timeline<'_>) -> Option<usize> {
     events.map(|event| event.at as usize).max()
 }
 
-/// Returns a curve per family and adapter. Families that never moved are folded away.
+/// Returns a curve per family and adapter. Families whose score never changed are folded away.
 fn families(model: &Model<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..model.families.names.len())
         .map(|family| {

@@ -10,9 +10,9 @@ const AROUND: usize = 40;
 
 /// The runs of a history, and its timelines.
 pub(super) struct Places<'a> {
-    /// By time, without runs that were resumed later.
+    /// The runs by time, without runs that were resumed later.
     pub(super) runs: Vec<&'a RunInfo>,
-    /// By name.
+    /// The timelines by name.
     pub(super) timelines: Vec<Line<'a>>,
     of: HashMap<RunId, usize>,
 }
@@ -20,13 +20,13 @@ pub(super) struct Places<'a> {
 /// A timeline: an adapter over its runs.
 pub(super) struct Line<'a> {
     pub(super) name: Rc<str>,
-    /// Oldest first; at least one.
+    /// The runs, oldest first; at least one.
     pub(super) runs: Vec<LineRun<'a>>,
 }
 
 /// An adapter in one run.
 pub(super) struct LineRun<'a> {
-    /// The place of the run.
+    /// The index of the run.
     pub(super) place: usize,
     pub(super) part: &'a AdapterRun,
     /// True if the run covers the whole suite and came to its end, so that a case without a record is
@@ -75,7 +75,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Returns the place of a run; `None` if the run was resumed later.
+    /// Returns the index of a run; `None` if the run was resumed later.
     pub(super) fn of(&self, run: RunId) -> Option<usize> {
         self.of.get(&run).copied()
     }
@@ -87,9 +87,9 @@ impl<'a> Places<'a> {
 }
 
 impl Line<'_> {
-    /// Marks the whole runs: completed runs that have at least nine tenths of the records of the
-    /// longest run nearby. If no run qualifies, all count as whole. The history does not record which cases a
-    /// run should have drawn.
+    /// Marks the complete runs: runs that ended and that have at least nine tenths of the records of the
+    /// longest run nearby. If no run qualifies, all count as complete. The history does not record which
+    /// cases a run should have drawn.
     fn mark_whole(&mut self, runs: &[&RunInfo]) {
         let records: Vec<u64> = self
             .runs

@@ -1,4 +1,4 @@
-//! Scores of families over the runs of a timeline: over the cases that all whole runs have, and over all
+//! Scores of families over the runs of a timeline: over the cases that all complete runs have, and over all
 //! cases of each run.
 
 use super::courses::Courses;
@@ -9,9 +9,9 @@ use etalon_stats::{Class, Score};
 
 /// The scores of a timeline, by family, then by run.
 pub(super) struct Scores {
-    /// Over the cases with a verdict in all whole runs.
+    /// Scores over the cases with a verdict in all complete runs.
     common: Vec<Vec<Score>>,
-    /// Over all cases of each run.
+    /// Scores over all cases of each run.
     own: Vec<Vec<Score>>,
 }
 
@@ -29,7 +29,7 @@ impl Scores {
         count(&mut self.own[family as usize][run], class);
     }
 
-    /// Finds the cases that all whole runs have, and counts them.
+    /// Counts the cases that all complete runs have.
     pub(super) fn compare(
         &mut self,
         courses: &Courses,
@@ -56,7 +56,7 @@ impl Scores {
         }
     }
 
-    /// Returns the score of a family in a run over the cases that all whole runs have.
+    /// Returns the score of a family in a run over the cases that all complete runs have.
     pub(super) fn common(&self, family: usize, run: usize) -> Score {
         self.common[family][run]
     }

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 const WIDTH: usize = 120;
 const HEIGHT: f64 = 18.0;
-/// The maximum number of points of a curve. A point shows the worst of the runs it stands for.
+/// The maximum number of points of a curve. A point that stands for several runs shows the worst.
 const POINTS: usize = 60;
 
 /// Returns true if the score differs between runs.
@@ -15,7 +15,8 @@ pub(super) fn moves(scores: &[Score]) -> bool {
     scores.windows(2).any(|pair| pair[0].good != pair[1].good)
 }
 
-/// Returns the curve of scores with the same denominator, oldest first, from the lowest to the highest.
+/// Returns the curve of scores with the same denominator, oldest first. Its height spans the lowest to the
+/// highest score.
 pub(super) fn sparkline(scores: &[Score]) -> Markup {
     let good = |score: &Score| score.good;
     let (low, high) = (
@@ -38,7 +39,8 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
         let (x, y) = (n(i as f64 * step), n(y(*good)));
         match before {
             None => path.push_str(&format!("M{x} {y}")),
-            // A step, because a score is valid until the next run. A level needs no point.
+            // The curve has steps, because a score is valid until the next run. A constant score needs no
+            // further point.
             Some(last) if last == *good => {}
             Some(_) => path.push_str(&format!("H{x}V{y}")),
         }

@@ -10,7 +10,7 @@ use etalon_stats::{ChangePoint, Changes, Point, change_points};
 
 /// The times that are shown as series.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
-/// The number of last runs in which a change can count as found with the last run.
+/// The number of most recent runs in which a change can count as newly found.
 const RECENT: usize = 40;
 
 /// The times of one case on one adapter, one machine and one ruler.
@@ -25,10 +25,10 @@ pub(super) struct Series {
     pub(super) times: Vec<Timed>,
 }
 
-/// One time of a series.
+/// One kind of time of a series.
 pub(super) struct Timed {
     pub(super) time: Time,
-    /// The places of the runs.
+    /// The indices of the runs.
     pub(super) runs: Vec<usize>,
     pub(super) points: Vec<Point>,
     pub(super) changes: Changes,
@@ -83,15 +83,15 @@ pub(super) fn read(
     Ok(all)
 }
 
-/// One time of a series.
+/// One kind of time of a series.
 struct Measured<'a> {
     /// The index of the series.
     series: usize,
     time: Time,
-    /// The places of the runs.
+    /// The indices of the runs.
     runs: Vec<usize>,
     points: Vec<Point>,
-    /// Triage of its steps, by the place of the run.
+    /// Triage of the series' steps, by the index of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
 
@@ -124,7 +124,7 @@ impl Measured<'_> {
     }
 }
 
-/// Returns the entries about the steps of a series: the time, the place of the run, and the entry.
+/// Returns the triage entries about the steps of a series, each with its time and the index of its run.
 fn said<'a>(
     history: &History,
     key: &SeriesKey,

@@ -7,7 +7,8 @@ use etalon_record::CellRate;
 const HEAD: &str =
     "adapter,cell,unit,rate,low,high,of_base,of_clear,work,time,rounds,state,message";
 
-/// Returns the lines, with the names of the columns first. Rates are in the unit; shares are fractions of 1.
+/// Returns the lines, with the names of the columns first. Rates are in the row's unit; relative rates are
+/// fractions of 1.
 pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
     let mut text = format!("{HEAD}\r\n");
     for adapter in &matrix.adapters {
@@ -49,7 +50,7 @@ fn figures(times: Option<&CellRate>) -> [String; 7] {
     ]
 }
 
-/// Returns the state of a cell in a word, and a message.
+/// Returns the name of a cell's state, and a message.
 pub(super) fn state(outcome: &CellOutcome) -> (String, String) {
     match outcome {
         CellOutcome::Rate(_) => ("measured".to_owned(), String::new()),

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// The cells of a bench.
 pub(crate) struct Matrix<'a> {
     pub(crate) bench: &'a Bench,
-    /// In the order of the bench.
+    /// The cells in the order of the bench.
     pub(crate) cells: Vec<Cell>,
     /// The adapters that have a cell, in the order of the bench.
     pub(crate) adapters: Vec<&'a str>,
@@ -16,34 +16,34 @@ pub(crate) struct Matrix<'a> {
 
 /// A cell on all adapters.
 pub(crate) struct Cell {
-    /// The id of its cases without the number of layers.
+    /// The id of the cell's cases without the number of layers.
     pub(crate) name: String,
-    /// The name of its case file.
+    /// The name of the cell's case file.
     pub(crate) group: String,
     /// Axes and their values, except the size.
     pub(crate) axes: BTreeMap<String, String>,
-    /// The size of its attachments.
+    /// The size of the cell's attachments.
     pub(crate) size: String,
-    /// By adapter.
+    /// The entry of each adapter.
     pub(crate) results: BTreeMap<String, Entry>,
 }
 
 /// A cell on one adapter.
 pub(crate) struct Entry {
     pub(crate) outcome: CellOutcome,
-    /// Its rate as a share of the base cell's, if both count texels.
+    /// The cell's rate divided by the base cell's, if both count texels.
     pub(crate) of_base: Option<f64>,
-    /// Its rate as a share of the rate of clearing.
+    /// The cell's rate divided by the rate of clearing.
     pub(crate) of_clear: Option<f64>,
 }
 
 /// The rate of a cell on an adapter, or the reason why it has none.
 pub(crate) enum CellOutcome {
-    /// It was measured.
+    /// The cell was measured.
     Rate(CellRate),
     /// The work takes less time than the scatter of single times.
     Below(CellRate),
-    /// One of its pictures must not be timed.
+    /// One of the cell's pictures must not be timed.
     Untimed(Verdict, String),
     /// No round timed both cases, or only one of the cases was drawn.
     Incomplete,
@@ -170,7 +170,7 @@ impl Cell {
     }
 }
 
-/// Computes each rate's share of the base cell's and of clearing.
+/// Divides each rate by the base cell's rate and by the rate of clearing.
 fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
     let sizes = distinct(cells.iter().map(|c| c.size.as_str()));
     let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();

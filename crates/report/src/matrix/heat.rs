@@ -1,4 +1,4 @@
-//! The layout of heat maps: the cells of each and their places.
+//! The layout of heat maps: the cells of each heat map and their positions.
 
 use super::data::Cell;
 use crate::lists::distinct;

@@ -1,6 +1,6 @@
 //! `matrix.html`: heat maps of the performance matrix.
 //!
-//! Every adapter has tables of the same shape, so a script can compare two of them place by place. Without
+//! Every adapter has tables of the same shape, so a script can compare two of them cell by cell. Without
 //! scripts the page lacks only this comparison.
 
 use super::csv::state;
@@ -201,8 +201,8 @@ fn words(cell: &Cell, entry: &Entry) -> String {
     }
 }
 
-/// Returns the background of a share of the base cell: strongest from twice its rate on, none up to a
-/// thirty-second.
+/// Returns the background for a rate relative to the base cell's: strongest from twice the rate up, none
+/// below a thirty-second.
 fn shade(share: f64) -> String {
     let place = ((share.log2() + 5.0) / 6.0).clamp(0.0, 1.0);
     format!("--h:{:.0}%", place * 60.0)

@@ -64,7 +64,7 @@ fn figures(entry: &Entry) -> String {
     text
 }
 
-/// Returns the half width of an interval as a share of the rate: the distance of its farther end.
+/// Returns the half width of an interval relative to the rate: the distance to the farther end.
 pub(super) fn half_width(interval: Option<[f64; 2]>, rate: f64) -> Option<f64> {
     let ends = interval?.map(|end| (end / rate - 1.0).abs());
     Some(ends[0].max(ends[1]))

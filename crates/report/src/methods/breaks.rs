@@ -10,15 +10,15 @@ const LEAST: f64 = 1e-6;
 /// The behaviour of an error along a parameter, relative to [`LIMIT`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Break {
-    /// At or below it everywhere.
+    /// The error is at or below the limit everywhere.
     Never,
-    /// Above it everywhere.
+    /// The error is above the limit everywhere.
     Always,
-    /// It crosses the limit; the crossings are in order of the parameter.
+    /// The error crosses the limit; the crossings are in order of the parameter.
     Crossings(Vec<Crossing>),
 }
 
-/// A place where the error crosses [`LIMIT`].
+/// A point at which the error crosses [`LIMIT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
     /// The parameter's value, interpolated between the logarithms of the errors on both sides.
@@ -130,12 +130,12 @@ mod tests {
             panic!()
         };
         assert!((value - 3.0).abs() < 1e-12 && !leaves);
-        // By factors: the middle of 1 and 100 is 10.
+        // On a logarithmic axis, the middle of 1 and 100 is 10.
         let [(value, _)] = crossings(&[(1.0, 0.1), (100.0, 0.001)], true)[..] else {
             panic!()
         };
         assert!((value - 10.0).abs() < 1e-9);
-        // An error of zero is a millionth.
+        // An error of zero counts as a millionth.
         let [(value, _)] = crossings(&[(0.0, 0.0), (1.0, 1.0)], false)[..] else {
             panic!()
         };
@@ -157,7 +157,7 @@ mod tests {
         let always = find(&[(0.0, 0.02), (1.0, 0.5)], false);
         assert_eq!(always, Some(Break::Always));
         assert_eq!(find(&[(0.0, 1.0)], false), None);
-        // From the limit itself it leaves at once.
+        // A curve that starts at the limit crosses there.
         assert_eq!(crossings(&[(3.0, 0.01), (4.0, 0.5)], false), [(3.0, true)]);
     }
 

@@ -13,7 +13,7 @@ use etalon_methods::claims;
 use maud::{Markup, html};
 use outcome::{Figure, Holds, Reproduction};
 
-/// All claims, and in the second list those without a measurement in the run.
+/// Returns all checked claims, and the claims without a measurement in the run.
 fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
     claims()
         .map(|c| check(c, methods))

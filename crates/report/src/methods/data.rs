@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Methods<'a> {
     /// Adapters that drew a method, in the header's order.
     pub(crate) adapters: Vec<Adapter<'a>>,
-    /// By name.
+    /// The questions by name.
     pub(crate) questions: Vec<Question<'a>>,
 }
 
@@ -63,7 +63,7 @@ pub(crate) struct SceneSeries<'a> {
     pub(crate) question: &'a str,
     /// The last part of the case file's name: the scene's name, with a suffix or without.
     pub(crate) name: &'a str,
-    /// In the order of methods and variants.
+    /// The series in the order of methods and variants.
     pub(crate) series: Vec<Series<'a>>,
 }
 
@@ -75,11 +75,11 @@ pub(crate) struct Series<'a> {
     pub(crate) variant: String,
     /// The parameter's name.
     pub(crate) parameter: Option<&'a str>,
-    /// In the order of the parameter's values, then of adapters.
+    /// The points in the order of the parameter's values, then of adapters.
     pub(crate) points: Vec<Point<'a>>,
 }
 
-/// One record.
+/// A record as a point of a series.
 pub(crate) struct Point<'a> {
     /// The index in [`Methods::adapters`].
     pub(crate) adapter: usize,
@@ -93,7 +93,7 @@ pub(crate) struct Point<'a> {
 /// equal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Setting<'a> {
-    /// As [`Series::variant`].
+    /// See [`Series::variant`].
     pub(crate) variant: String,
     /// The parameter and its value.
     pub(crate) parameter: Option<(&'a str, f64)>,
@@ -176,7 +176,7 @@ impl Point<'_> {
 }
 
 impl<'a> Series<'a> {
-    /// Returns the setting of one of its points.
+    /// Returns the setting of one of the series' points.
     pub(crate) fn setting(&self, point: &Point<'a>) -> Setting<'a> {
         Setting {
             variant: self.variant.clone(),
@@ -422,7 +422,7 @@ fn scene<'a>(
                 let (a, b) = (place(a), place(b));
                 a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
             });
-            // A run has one record per case and adapter. If a damaged one has two, the first counts.
+            // A run has one record per case and adapter. If a damaged run has two, the first record counts.
             points.dedup_by(|a, b| place(a) == place(b));
             Series {
                 method,
@@ -498,7 +498,7 @@ mod tests {
     fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
         let setting_of =
             |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
-        // A covering array: each method has its own value, and two share 4.
+        // A covering array: each method has its own value, except two methods with 4.
         let run = run(&[
             setting_of("a", 1.0),
             setting_of("b", 2.0),

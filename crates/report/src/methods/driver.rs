@@ -16,9 +16,10 @@ use std::collections::BTreeMap;
 struct Figures<'a> {
     /// The accuracy of legal frames.
     legal: Option<Accuracy>,
-    /// The case with the largest of these distances.
+    /// The case with the largest distance.
     farthest: &'a str,
-    /// The accuracy of wrong frames; kept apart, since their large distances would hide all others.
+    /// The accuracy of wrong frames. They are kept apart, because their large distances would hide all
+    /// others.
     wrong: Option<Accuracy>,
 }
 
@@ -188,13 +189,13 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     table.page(lines)
 }
 
-/// Returns codes as a share of an encoding's range; `None` if the encoding is not known.
+/// Returns a distance in codes as a fraction of the encoding's range; `None` if the encoding is not known.
 fn of_range(codes: f64, encoding: Option<ChannelEncoding>) -> Option<f64> {
     let part = codes / encoding?.range();
     part.is_finite().then_some(part)
 }
 
-/// Returns a share of a range in words, `over 100 %` if it is more than all of it.
+/// Returns the text of a fraction of a range; `over 100 %` above 1.
 fn part(value: f64) -> String {
     if value > 1.0 {
         "over 100\u{a0}%".to_owned()
@@ -221,7 +222,7 @@ fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
     Cell::from(shown).with("title", title)
 }
 
-/// The mean and the largest distance over all encodings, as shares of their ranges.
+/// The mean and the largest distance over all encodings, as fractions of their ranges.
 #[derive(Clone, Copy, Default)]
 struct Shares {
     channels: f64,
@@ -229,7 +230,7 @@ struct Shares {
     max: f64,
 }
 
-/// Returns the shares of each area and adapter. Areas without a known encoding have none.
+/// Returns the fractions of each area and adapter; none for areas without a known encoding.
 fn shares<'a>(
     rows: &Rows<'a>,
     aspect: Aspect,

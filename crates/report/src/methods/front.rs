@@ -25,7 +25,7 @@ mod tests {
     fn nothing_beats_what_is_on_the_front() {
         assert_eq!(front(&[]), [0; 0]);
         assert_eq!(front(&[(1.0, 1.0)]), [0]);
-        // The second is beaten by the third, the last equals the first.
+        // The third point beats the second, and the last equals the first.
         let points = [(3.0, 0.0), (2.0, 2.0), (2.0, 1.0), (1.0, 5.0), (3.0, 0.0)];
         assert_eq!(front(&points), [3, 2, 0]);
         // As slow, but worse.

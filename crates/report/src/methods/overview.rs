@@ -1,4 +1,5 @@
-//! The first screen of the page of methods: a small chart and a sentence for each question, and what a budget leaves.
+//! The first screen of the page of methods: a small chart and a sentence for each question, and the methods
+//! that fit a budget.
 
 use super::data::{Methods, Point, Question, Shown};
 use super::front::front;
@@ -14,7 +15,7 @@ use serde_json::json;
 const SIZE: [f64; 2] = [232.0, 120.0];
 /// The room for marks around it.
 const MARGIN: f64 = 9.0;
-/// A frame time in seconds that leaves most of a frame to others.
+/// A frame time in seconds that leaves most of a frame to other work.
 const SHORT: f64 = 0.001;
 
 /// A method's time and error on an adapter, at the setting that represents its scene.
@@ -57,14 +58,14 @@ fn limit(id: &str, name: &str) -> Markup {
     }
 }
 
-/// The most adapters of a question that a terminal lists.
+/// The maximum number of adapters that a terminal lists for a question.
 const ADAPTERS: usize = 4;
 
-/// A question's scenes, and their methods as they were timed.
+/// A question's scenes, and the timed methods of each.
 struct Answer<'s, 'a> {
     question: &'s Question<'a>,
     scenes: Vec<&'s Shown<'s, 'a>>,
-    /// By scene.
+    /// The timed methods, by scene.
     timed: Vec<Vec<Timed<'a>>>,
 }
 
@@ -81,7 +82,7 @@ impl<'s, 'a> Answer<'s, 'a> {
         }
     }
 
-    /// The scene that most methods were timed in, with them; `None` if no method was timed.
+    /// The scene in which the most methods were timed, with these methods; `None` if no method was timed.
     fn fullest(&self) -> Option<(&'s Shown<'s, 'a>, &[Timed<'a>])> {
         let timed = self.timed.iter().enumerate();
         let fullest = timed.max_by_key(|(place, all)| (all.len(), std::cmp::Reverse(*place)));
@@ -171,7 +172,7 @@ fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
         .collect()
 }
 
-/// The chart of a scene on an adapter, on axes that hold all of them.
+/// The chart of a scene on an adapter. Its axes fit all adapters.
 fn chart(
     question: &Question<'_>,
     shown: &Shown<'_, '_>,
@@ -223,7 +224,8 @@ fn chart(
     }
 }
 
-/// Returns the recommended methods: the best within a short time, and the best of all.
+/// Returns the recommended methods: the most accurate one within a short time, and the most accurate one
+/// overall.
 fn answer(all: &[Timed<'_>], adapter: usize) -> String {
     let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();

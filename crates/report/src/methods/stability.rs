@@ -51,7 +51,7 @@ fn scale(series: &[&Series<'_>]) -> Scale {
     Scale::fitting(&values)
 }
 
-/// Every method's break in a scene, in order; adapters that break alike together.
+/// Every method's break in a scene, in order. Adapters with equal breaks are grouped.
 pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
     let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
@@ -255,7 +255,7 @@ fn panel(
         Some(Break::Crossings(crossings)) => crossings,
         _ => Vec::new(),
     };
-    // Breaks before names, because the legend has the names too.
+    // Breaks get labels before methods do, because the legend has the methods' names too.
     let rings: Vec<Vec<_>> = series
         .iter()
         .map(|s| {

@@ -9,14 +9,14 @@ use crate::table::{Cell, Table};
 use crate::words::plain;
 use maud::{Markup, html};
 
-/// The most lines of each part on a terminal.
+/// The maximum number of lines of each part on a terminal.
 const LISTED: usize = 60;
-/// The most characters of a line on a terminal.
+/// The maximum number of characters of a line on a terminal.
 const LONGEST: usize = 300;
 
 /// The best methods of a scene on adapters of a kind, all at one setting.
 struct Best<'a> {
-    /// The place of the scene in the page of methods.
+    /// The scene's index in the page of methods.
     anchor: String,
     scene: String,
     setting: Setting<'a>,

@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// The label by which runs follow each other.
+/// The label that runs must share to be compared.
 const BRANCH: &str = "branch";
 
 /// The run to compare with the runs of a history.
@@ -28,7 +28,7 @@ impl<'r> Now<'r> {
         }
     }
 
-    /// True if the history's run is this one, also as it was before it was resumed.
+    /// True if the history's run is this run, or an earlier state of it, before it was resumed.
     fn is(&self, info: &RunInfo) -> bool {
         let header = &self.run.header;
         format_time(info.started) == header.started
@@ -161,7 +161,7 @@ fn last<'h>(
     Ok(None)
 }
 
-/// The run before in words.
+/// Returns a text for the previous run.
 fn told(info: &RunInfo, part: &AdapterRun) -> String {
     let commit = info.commit.as_deref().map_or(String::new(), |commit| {
         format!(", suite {}", commit.chars().take(12).collect::<String>())
@@ -174,12 +174,13 @@ fn told(info: &RunInfo, part: &AdapterRun) -> String {
     )
 }
 
-/// Returns the entry for which a bad verdict does not count, if there is one.
+/// Returns the triage entry that keeps a bad verdict from counting, if any.
 ///
-/// An ignored case stays settled until triage changes it. A real one stays settled until a later run draws the case
-/// right; if it breaks again, that is another change. Both settle wrong pictures. They settle another bad verdict only
-/// if the history has it for this case too, so a Fail that is now a Crash is news. The history's record of this run
-/// counts if the entry is newer than the run's start. Later runs do not count.
+/// An ignored case stays settled until triage changes it. A case that triage called real stays settled until
+/// a later run draws it right. If it breaks again after that, that is another change. Both settle wrong
+/// pictures. They settle another bad verdict only if the history has it for this case too, so a Fail that is
+/// now a Crash is news. The history's record of this run counts if the entry is newer than the run's start.
+/// Later runs do not count.
 fn settled<'s>(
     history: &History,
     states: &'s TriageStates,

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 /// many adapters as it has records.
 const MAX_COLUMNS: usize = 1000;
 const LAST_COLUMN: usize = MAX_COLUMNS - 1;
-/// The name of that column.
+/// The name of the column for all other adapters.
 const OTHERS: &str = "(more adapters)";
 
 /// A run, sorted. Records are named by their position in the run.
@@ -65,7 +65,7 @@ impl<'a> Grid<'a> {
                 .entry(&record.case)
                 .or_insert_with(|| vec![None; adapters.len()]);
             let place = &mut row[column[record.adapter.as_str()]];
-            // A run has one record per case and adapter; should it have two, the worse one counts.
+            // A run has one record per case and adapter; if a damaged run has two, the worse record counts.
             let rank = |i: usize| {
                 let r: &Record = &run.records[i];
                 (r.unexpected(), r.verdict.severity())

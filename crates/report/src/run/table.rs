@@ -17,7 +17,7 @@ const LISTED: usize = 20;
 /// The maximum number of reasons for cases that were not drawn.
 const REASONS: usize = 10;
 
-/// Verdicts of cases without a frame to judge; one column together.
+/// Verdicts of cases without a frame to judge. They share one column.
 const BROKEN: [Verdict; 7] = [
     Verdict::Blocked,
     Verdict::Flaky,

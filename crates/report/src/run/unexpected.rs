@@ -4,8 +4,8 @@ use crate::lists;
 use etalon_record::{Record, Run};
 use std::cmp::Reverse;
 
-/// Returns the unexpected records, the most serious first. One of each case file, adapter and verdict comes
-/// before the second of any, so that a short list shows more than one bug of one driver.
+/// Returns the unexpected records, the most serious first. The first record of every case file, adapter and
+/// verdict comes before any second one, so that a short list shows more than one driver bug.
 pub(crate) fn unexpected_records(run: &Run) -> Vec<&Record> {
     let mut bad: Vec<&Record> = run.records.iter().filter(|r| r.unexpected()).collect();
     bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));

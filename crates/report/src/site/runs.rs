@@ -18,13 +18,13 @@ const FOLDERS: [&str; 2] = [CATALOGUE, deqp::FOLDER];
 
 /// One recorded folder.
 pub(crate) struct Recorded {
-    /// Its name in the site.
+    /// The folder's name in the site.
     pub(crate) name: String,
     /// The folder itself.
     pub(crate) folder: PathBuf,
     /// The copied files, by path below the folder.
     pub(crate) files: BTreeSet<PathBuf>,
-    /// Its description.
+    /// The folder's description.
     pub(crate) facts: Facts,
 }
 

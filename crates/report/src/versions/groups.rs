@@ -4,7 +4,7 @@ use crate::words::plain;
 use etalon_record::{CaseVersions, Standing, Versions};
 use std::collections::BTreeMap;
 
-/// The course of a case over the releases.
+/// How a case's result changes over the releases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Course {
     /// Bad in some releases.
@@ -13,11 +13,11 @@ pub(super) enum Course {
     Flaky,
     /// Never bad or flaky, and good in some release.
     Good,
-    /// Unknown in all releases: nothing was drawn or asserted.
+    /// The result is unknown in all releases: nothing was drawn or asserted.
     Unknown,
 }
 
-/// Cases with one finding and one course.
+/// Cases with the same finding that change in the same way.
 pub(super) struct Group<'a> {
     pub(super) course: Course,
     /// The finding; `None` if no finding mentions the cases.

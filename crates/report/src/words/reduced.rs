@@ -6,11 +6,11 @@ use etalon_record::Record;
 
 /// A reduced case and its symptom.
 pub struct ReducedCase<'a> {
-    /// Its record.
+    /// The reduced case's record.
     pub record: &'a Record,
-    /// Its symptom.
+    /// The reduced case's symptom.
     pub symptom: &'a Symptom,
-    /// Its states that are not the default.
+    /// The states that are not the default.
     pub states: Vec<String>,
 }
 

@@ -60,7 +60,7 @@ pub(crate) fn allowed(m: &ChannelMismatch, text: fn(ChannelEncoding, u32) -> Str
     }
 }
 
-/// Returns the place of a texel: `texel (3, 4)`, with its sample if there are several.
+/// Returns the name of a texel: `texel (3, 4)`, with its sample if there are several.
 pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
     let place_name = format!("texel ({}, {})", texel.x, texel.y);
     if multisampled {

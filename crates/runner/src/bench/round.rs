@@ -1,4 +1,4 @@
-//! One round of frame times of one case on one worker.
+//! A round of frame times of a case on one worker.
 
 use crate::drawing::wrong_answer;
 use crate::loss::Failure;
@@ -42,8 +42,8 @@ impl WorkerProcess {
     /// answer.
     ///
     /// The warm-up ends when the median of the last five frames is within 5 % of the median of the five
-    /// before, after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at
-    /// the first frame, and some compile again at the second, so two frames are never timed.
+    /// before, after 60 frames, or when it has taken as long as the timed frames are allowed to take. Drivers
+    /// compile at the first frame, and some compile again at the second, so two frames are never timed.
     pub(crate) fn round(
         &mut self,
         scene: &Scene,

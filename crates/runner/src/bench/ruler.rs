@@ -38,7 +38,7 @@ fn work(values: &mut [f32], steps: &[f32]) {
         for (value, step) in values.iter_mut().zip(steps) {
             *value = *value * 0.5 + step;
         }
-        // Keeps every pass: without this, the compiler could exchange the passes with the inner loop.
+        // Keeps the compiler from exchanging the loop over passes with the inner loop.
         black_box(&mut *values);
     }
 }

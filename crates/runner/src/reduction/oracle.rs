@@ -21,15 +21,15 @@ pub enum Unconfirmed {
     /// No new process could be started.
     #[error("could not be drawn in a new process: {0}")]
     Start(#[from] StartError),
-    /// It fails by the second symptom instead of the first.
+    /// The case fails with the second symptom instead of the first.
     #[error("is unsteady: it failed by {0}, and drawn alone in a new process it fails by {1}")]
     Unsteady(Box<Symptom>, Box<Symptom>),
-    /// It does not fail when it is drawn alone.
+    /// The case does not fail when it is drawn alone.
     #[error("fails only after others in the same process: drawn alone it is {0}")]
     FailsAfterOthers(Verdict),
 }
 
-/// Draws a case in a new process, where it must fail with this symptom.
+/// Draws a case in a new process and checks that it fails there with this symptom.
 ///
 /// # Errors
 /// If the process does not start, or the case fails in another way or not at all.
@@ -59,8 +59,8 @@ impl Unconfirmed {
     }
 }
 
-/// An oracle that draws candidates on a driver: a candidate must fail like the case before it. If the case
-/// ends its worker, the candidate must end it in the same way.
+/// An oracle that draws candidates on a driver. A candidate must fail like the smallest case so far. If the
+/// case ends its worker, the candidate must end it in the same way.
 pub(super) struct DriverOracle<'a> {
     pub(super) trials: Trials,
     /// The symptom of the smallest case so far, and its record.
@@ -69,8 +69,9 @@ pub(super) struct DriverOracle<'a> {
     pub(super) error: Option<StartError>,
     /// True once the search is being stopped.
     stop: Option<&'a AtomicBool>,
-    /// If set, each failing candidate is drawn again alone, in a process that this starts, and must fail
-    /// there too. Needed if a failure leaves the driver in a state that makes the next case fail.
+    /// If set, each failing candidate is drawn again alone, in a process that this command starts, and must
+    /// fail there too. This is needed if a failure leaves the driver in a state that makes the next case
+    /// fail.
     pub(super) alone: Option<Launch>,
 }
 
@@ -98,7 +99,7 @@ impl<'a> DriverOracle<'a> {
         }
     }
 
-    /// Reduces the case with at most `draws` drawings.
+    /// Reduces the case, drawing scenes at most `draws` times.
     pub(super) fn reduce(
         &mut self,
         failing: Candidate,

@@ -18,18 +18,18 @@ use std::time::Duration;
 const MOST_KEYS: usize = 600;
 
 /// The largest number of draws of a reduction. 95 % of reductions need fewer than 260; most of the others
-/// depend on earlier drawings.
+/// depend on what was drawn earlier.
 const DRAWS: usize = 400;
 
 /// A failing scene after its reduction.
 pub struct Looked {
-    /// The reduced scene; the whole one if it was not reduced.
+    /// The reduced scene, or the whole scene if it was not reduced.
     pub scene: Candidate,
     /// The record of that scene.
     pub record: Record,
-    /// How it fails.
+    /// How the reduced scene fails.
     pub symptom: Symptom,
-    /// The key of its group.
+    /// The key of the scene's group.
     pub key: Key,
 }
 
@@ -142,7 +142,7 @@ impl<'a> Driver for Reducer<'a> {
     }
 
     fn draw(&mut self, document: &Value) -> Result<Option<(Candidate, Record)>, ReductionError> {
-        // Reading fewer attachments can make a case invalid.
+        // A case can become invalid if fewer attachments are read.
         let Ok(case) = build("found/known", document) else {
             return Ok(None);
         };

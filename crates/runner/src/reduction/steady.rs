@@ -8,15 +8,15 @@ use etalon_diagnose::Symptom;
 use etalon_record::{Record, Verdict};
 use std::time::Duration;
 
-/// The number of processes that draw a case at the start, and the number of drawings in each. A failure that
-/// depends on either is not steady.
+/// The number of processes that draw a case at the start, and how often each draws it. A failure that depends
+/// on either is not steady.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
 /// The number of processes for a case that hangs; each costs the full time limit.
 const HUNG: usize = 2;
 
-/// Draws a case several times in each of several processes; only once in a process that it ends. Returns a
-/// worker, the first record and its symptom if the case fails in the same way every time.
+/// Draws a case several times in each of several processes, or once per process if the case ends its process.
+/// Returns a worker, the first record and its symptom if the case fails in the same way every time.
 pub(super) fn steady(
     id: &str,
     case: &Case,

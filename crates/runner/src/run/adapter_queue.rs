@@ -46,7 +46,7 @@ pub(super) struct AdapterQueue {
 /// The round trips that are drawn before all other cases.
 #[derive(Clone, Debug, Default)]
 pub(super) struct First {
-    /// Their indices, in drawing order.
+    /// The cases' indices, in drawing order.
     pub(super) numbers: Vec<usize>,
     /// The indices of round trips without a record of their own: not selected, or already recorded.
     pub(super) silent: BTreeSet<usize>,
@@ -121,8 +121,8 @@ impl AdapterQueue {
         }
     }
 
-    /// Takes the next cases; empty if all are taken. The share shrinks with the number of cases left, so
-    /// that all workers end at about the same time.
+    /// Takes the next cases; empty if all are taken. The number taken shrinks with the number of cases left,
+    /// so that all workers end at about the same time.
     pub(super) fn take(&self) -> VecDeque<usize> {
         let mut taken = lock(&self.taken);
         let left = self.numbers.len() - *taken;

@@ -1,4 +1,4 @@
-//! One adapter's part of a run, except its workers: judging drawings and writing records.
+//! One adapter's part of a run, except its workers: judging frames and writing records.
 
 use super::adapter_queue::AdapterQueue;
 use super::plan::KeptFrames;

@@ -18,7 +18,7 @@ use std::sync::{Mutex, RwLock};
 /// Runs every case on every adapter. Several threads report events.
 ///
 /// # Errors
-/// If the run folder cannot be written to, or holds another run than the one to resume.
+/// If the run folder cannot be written to, or holds a run that differs from the one to resume.
 pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary, RunError> {
     let mut summary = RunSummary::default();
     let mut done: HashSet<(String, String)> = HashSet::new();

@@ -87,7 +87,7 @@ pub(super) struct Blocked {
     pub(super) by: Vec<String>,
     /// The message for people.
     pub(super) message: String,
-    /// Why it is expected, if all these failures are.
+    /// The reason why the case is expected to be blocked, if all these failures are expected.
     pub(super) expected: Option<String>,
 }
 

@@ -42,7 +42,7 @@ impl Shared<'_> {
         self.stop.load(Ordering::Relaxed) || lock(&self.error).is_some()
     }
 
-    /// Ends the run with an error; the first one counts.
+    /// Ends the run with an error. Only the first error is kept.
     pub(super) fn fail(&self, error: RecordError) {
         lock(&self.error).get_or_insert(error);
     }

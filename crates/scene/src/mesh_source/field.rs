@@ -1,7 +1,7 @@
 //! Fields of separate primitives, enough of them to overflow a driver's batches.
 //!
 //! Every primitive has a cell of its own, so a primitive that is lost, doubled or drawn with another's
-//! vertices shows in a place that no other primitive reaches.
+//! vertices is visible in a cell that no other primitive reaches.
 
 use super::builder::Builder;
 use crate::mesh::Vertex;

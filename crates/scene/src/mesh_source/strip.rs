@@ -1,7 +1,7 @@
 //! A strip with enough primitives to overflow a driver's batches.
 //!
-//! It turns at the ends of rows and does not end before its last primitive, so that only a driver can split
-//! it. Every counted primitive has texels of its own.
+//! It turns at the ends of rows and has no restart, so that only a driver can split it. Every counted
+//! primitive has texels of its own.
 
 use super::builder::Builder;
 use crate::mesh::Vertex;

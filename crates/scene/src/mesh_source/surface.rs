@@ -61,7 +61,8 @@ impl Builder {
         let angle = |i: u32, of: u32| TAU * f64::from(i) / f64::from(of);
         let [large, small] = RADII;
         for j in 0..tube {
-            // Starts at the outside and goes over the far half: the rows first move away from the eye.
+            // Starts at the outside and goes over the far half first, so the first rows move away from the
+            // eye.
             let (height, out) = (-angle(j, tube)).sin_cos();
             for i in 0..around {
                 let (y, x) = angle(i, around).sin_cos();

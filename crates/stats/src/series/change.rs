@@ -18,7 +18,7 @@ pub struct ChangePoint {
     pub after: f64,
     /// The step as a ratio, after over before. On a line that drifts before and after, it is only the step.
     pub ratio: Ratio,
-    /// The same in units of the ruler.
+    /// The same ratio in units of the ruler.
     pub ruled: Option<Ratio>,
     /// The ruler's own step at that run.
     pub ruler: Option<Ratio>,

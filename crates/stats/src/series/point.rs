@@ -9,7 +9,7 @@ use thiserror::Error;
 pub struct Point {
     /// The median of the run's rounds, in seconds or any other unit.
     pub median: f64,
-    /// Its interval with a confidence of [`crate::CONFIDENCE`], if there were enough rounds.
+    /// The interval of the time with a confidence of [`crate::CONFIDENCE`], if there were enough rounds.
     pub interval: Option<[f64; 2]>,
     /// The median of the ruler's times in that run. The ruler is fixed work that is timed along with the
     /// frames.

@@ -55,7 +55,7 @@ struct Moments {
 pub(super) struct Test {
     /// The step of the logarithm.
     pub(super) shift: f64,
-    /// Its standard error.
+    /// The standard error of the shift.
     pub(super) error: f64,
     /// Degrees of freedom of the error.
     pub(super) freedom: f64,

@@ -41,8 +41,8 @@ pub(crate) fn instance(instance: &ash::Instance) -> ash::Instance {
     )
 }
 
-/// Returns the function that records the driver's function of this name. Keeps `address`, where the driver's
-/// is.
+/// Returns the function that records calls of the driver's function with this name. Stores `address`, the
+/// driver's function.
 fn before(name: &str, address: usize) -> Option<*const ()> {
     let (name, shim) = registry::shim(name)?;
     stands_before(name, address);

@@ -20,7 +20,7 @@ struct Recorder {
     driver: HashMap<&'static str, usize>,
     phase: Phase,
     calls: Vec<Call>,
-    /// The number of memories that calls have written.
+    /// The number of memory regions that calls have written to.
     outputs: u32,
     memory: vk::PhysicalDeviceMemoryProperties,
     images: Vec<RecordedImage>,

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// The release dates that are compiled in.
 const DATES: &str = include_str!("../../../../../ci/history/releases.json");
-/// The name of the built-in file of dates in messages.
+/// The name that messages use for the built-in file of dates.
 const DATES_NAME: &str = "ci/history/releases.json";
 
 #[derive(Debug, Args)]
@@ -159,7 +159,8 @@ fn lacks(path: &Path, run: &NewRun) -> String {
 }
 
 /// Gives releases without a date the date of a neighbour, so that they are in the order of their line, and
-/// returns their versions. Releases at the end get no date; their place is the time at which they were drawn.
+/// returns their versions. Releases at the end of the line get no date, and are ordered by the time at which
+/// they were drawn.
 fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
     let dates: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
     let mut undated = Vec::new();

@@ -51,7 +51,7 @@ pub(super) struct Series {
     time: Time,
     /// The runs, oldest first; at least one.
     runs: Vec<RunId>,
-    /// Their times.
+    /// The times of the runs.
     points: Vec<Point>,
     /// The change points.
     changes: Changes,

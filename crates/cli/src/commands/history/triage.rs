@@ -27,9 +27,9 @@ pub(crate) enum State {
     New,
     /// The driver changed.
     Real,
-    /// It does not matter.
+    /// The change does not matter.
     Ignored,
-    /// It has been fixed.
+    /// The change has been fixed.
     Fixed,
 }
 

@@ -15,7 +15,8 @@ use std::collections::BTreeSet;
 pub struct BenchDiff {
     /// The time that was compared.
     pub time: Time,
-    /// The highest rate, per comparison, at which two benches without a change are called different.
+    /// The false positive rate: the highest rate, per comparison, at which two benches without a change are
+    /// called different.
     pub level: f64,
     /// Changes up to this ratio are not reported.
     pub minimum: f64,
@@ -113,7 +114,7 @@ pub struct Untimed {
     /// True if this is worse than before: a right picture with a time is now wrong or broken, or its adapter
     /// vanished.
     pub worse: bool,
-    /// True if the first bench has the adapter and the second does not.
+    /// True if the adapter is in the first bench but not in the second.
     pub vanished: bool,
 }
 
@@ -211,7 +212,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let new = after.record(case, adapter);
         let sides = [after, before].map(|bench| bench.header.adapter(adapter));
         let kind = software(sides[0].or(sides[1]));
-        // The ruler times the processor and says nothing about what another device does on its own.
+        // The ruler measures the processor, not other devices.
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let samples_of = |record: &BenchRecord| samples(record, time, ruled);
         match (samples_of(old), new.and_then(samples_of)) {
@@ -271,7 +272,8 @@ fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Sampl
     }
 }
 
-/// Describes times that only one bench has: `there` has them; `other` is the other bench's record, if any.
+/// Describes times that only one bench has. `there` is the record with the times; `other` is the other
+/// bench's record, if any.
 fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Untimed {
     let (why, bad) = match other {
         None => ("it took no part".to_owned(), false),

@@ -10,11 +10,11 @@ use serde::Serialize;
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
 
-/// Right or wrong, if the record decides it.
+/// Whether a record is right or wrong, if it decides that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     Right,
-    /// With the verdict's severity.
+    /// Wrong, with the verdict's severity.
     Wrong(u8),
     NotSupported,
     Skipped,
@@ -43,8 +43,8 @@ fn direction(before: &Record, after: &Record) -> Direction {
     match (Standing::of(before), Standing::of(after)) {
         (Right, Wrong(_) | NotSupported) => Direction::Worse,
         (Wrong(_) | NotSupported, Right) => Direction::Better,
-        // Nothing is known of a case that was not drawn: losing it is worse, but a failure that appears can
-        // be old.
+        // Nothing is known about a case that was not drawn. If only the second run lacks it, that is worse;
+        // if the second run adds it as a failure, the failure can be old.
         (Wrong(_), Wrong(_)) if before.verdict == Verdict::Blocked => Direction::Other,
         (Wrong(_), Wrong(_)) if after.verdict == Verdict::Blocked => Direction::Worse,
         (Wrong(old), Wrong(new)) if new > old => Direction::Worse,

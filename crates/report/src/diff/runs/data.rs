@@ -21,11 +21,11 @@ pub struct RunDiff {
     pub unpaired: Vec<Unpaired>,
     /// The adapters that are compared.
     pub pairs: Vec<Pair>,
-    /// Cases that changed: worse, better, other; the most serious of each group first.
+    /// Cases that changed, in the order worse, better, other, and within each group the most serious first.
     pub changes: Vec<Change>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,
-    /// Seconds of drawing by adapter and area. They are an indication, not a measurement.
+    /// Seconds of drawing by adapter and area, as a rough indication only.
     pub times: Vec<AreaTime>,
     /// Frame times of methods that both runs have.
     pub methods: Vec<MethodTime>,
@@ -53,12 +53,12 @@ impl RunDiff {
         these.count() as u64
     }
 
-    /// Returns the number of cases that the second run should have drawn and has no record of.
+    /// Returns the number of cases that the second run should have drawn but that have no record there.
     pub fn lost(&self) -> u64 {
         self.only.iter().filter(|o| o.worse).count() as u64
     }
 
-    /// Returns the number of record pairs that were compared.
+    /// Returns the number of compared pairs of records.
     pub fn compared(&self) -> u64 {
         self.pairs.iter().map(|p| p.compared).sum()
     }
@@ -72,7 +72,7 @@ pub enum Direction {
     Worse,
     /// Better.
     Better,
-    /// Neither.
+    /// Neither worse nor better.
     Other,
 }
 
@@ -80,7 +80,7 @@ impl Direction {
     /// All directions, in the order of reports.
     pub const ALL: [Self; 3] = [Self::Worse, Self::Better, Self::Other];
 
-    /// Returns the word in reports.
+    /// Returns the direction's name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Worse => "worse",
@@ -112,7 +112,7 @@ pub struct Fact {
 }
 
 impl Fact {
-    /// Returns true if the runs differ in it.
+    /// Returns true if the runs differ in this fact.
     pub fn differs(&self) -> bool {
         self.before != self.after
     }
@@ -121,22 +121,22 @@ impl Fact {
 /// An adapter without a partner.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unpaired {
-    /// The run that has it.
+    /// The run that has the adapter.
     pub side: Side,
-    /// Its name.
+    /// The adapter's name.
     pub adapter: String,
-    /// The number of its records.
+    /// The number of the adapter's records.
     pub records: u64,
-    /// True if it has records in the first run and vanished from the second.
+    /// True if the adapter has records in the first run and is missing from the second.
     pub worse: bool,
 }
 
 /// Two adapters that are compared.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pair {
-    /// Their names.
+    /// The names of the two adapters.
     pub adapter: [String; 2],
-    /// Their facts side by side.
+    /// The facts of both adapters, side by side.
     pub facts: Vec<Fact>,
     /// Record pairs that were compared.
     pub compared: u64,
@@ -148,11 +148,11 @@ pub struct Pair {
     pub better: u64,
     /// The number of records that differ and are neither worse nor better.
     pub other: u64,
-    /// For each adapter, the number of cases that only it has a record of.
+    /// For each of the two adapters, the number of cases with a record on this adapter only.
     pub only: [u64; 2],
     /// Changes of verdicts, the most frequent first.
     pub transitions: Vec<Transition>,
-    /// The share of channels with an assertion, over the records of each run; 0 to 1.
+    /// The fraction of channels with an assertion, over the records of each run; 0 to 1.
     pub asserted: [f64; 2],
     #[serde(skip)]
     channels: [[u64; 2]; 2],
@@ -231,7 +231,7 @@ pub struct Transition {
 pub struct Change {
     /// The case.
     pub case: String,
-    /// Its id without axis values.
+    /// The case's id without axis values.
     pub case_file: String,
     /// The adapters.
     pub adapter: [String; 2],
@@ -308,19 +308,20 @@ pub struct ImageChange {
 pub struct Only {
     /// The case.
     pub case: String,
-    /// Its id without axis values.
+    /// The case's id without axis values.
     pub case_file: String,
     /// The adapter that has the record.
     pub adapter: String,
-    /// The run that has it.
+    /// The run that has the record.
     pub side: Side,
-    /// Its verdict.
+    /// The record's verdict.
     pub verdict: Verdict,
     /// True if the second run should have the record and lacks it.
     pub worse: bool,
 }
 
-/// Seconds of preparing, drawing and reading back, each case once and while doing other work.
+/// Seconds that an area's cases take to prepare, draw and read back. Each case is timed once, while other
+/// work is in progress.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AreaTime {
     /// The adapters.
@@ -329,9 +330,9 @@ pub struct AreaTime {
     pub area: String,
     /// The number of cases that were drawn in both runs.
     pub cases: u64,
-    /// The sum of their seconds.
+    /// The sum of the cases' seconds, per run.
     pub sum: [f64; 2],
-    /// The median of their seconds.
+    /// The median of the cases' seconds, per run.
     pub median: [f64; 2],
 }
 

@@ -167,7 +167,8 @@ fn section(
     if total == 0 {
         return html! {};
     }
-    // Chooses one change of each kind before the second of any kind, then groups the chosen by case file.
+    // Chooses the first change of every kind before any second change, then groups the chosen changes by case
+    // file.
     let chosen: HashSet<*const Change> = phrases::spread(&diff.changes, direction)
         .into_iter()
         .take(LISTED)

@@ -28,7 +28,7 @@ impl<'a> Folder<'a> {
         }
         for record in &run.records {
             let cases = records.entry(&record.adapter).or_default();
-            // A run has one record per case and adapter. If a damaged one has two, the worse counts.
+            // A run has one record per case and adapter. If a damaged run has two, the worse record counts.
             let rank = |r: &Record| (r.unexpected(), r.verdict.severity());
             let place = cases.entry(&record.case).or_insert(record);
             if rank(place) < rank(record) {

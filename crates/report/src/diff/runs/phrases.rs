@@ -18,7 +18,7 @@ pub(super) fn look(direction: Direction) -> [&'static str; 3] {
     }
 }
 
-/// Returns `pass → fail (expected)`, or the unchanged verdict with what differs under it.
+/// Returns `pass → fail (expected)`, or the unchanged verdict with the parts that differ.
 pub(super) fn verdicts(change: &Change) -> String {
     let [before, after] = change.verdict;
     if before != after {
@@ -147,7 +147,8 @@ pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
     images.chain(unlike).collect()
 }
 
-/// Returns the changes of one direction: one of each kind first, then the others in their order.
+/// Returns the changes of one direction. The first change of each kind comes first, then the others in their
+/// order.
 pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
     let these = changes.iter().filter(|c| c.direction == direction);
     let mut these: Vec<&Change> = these.collect();
@@ -181,8 +182,9 @@ pub(super) fn side(side: Side) -> &'static str {
     }
 }
 
-/// Returns what is worse besides the changes, and what could not be decided: lost records, vanished adapters,
-/// the rest. The text is empty or begins with a separator from the counts before it.
+/// Returns a text about everything that is worse apart from the changes (lost records, vanished adapters),
+/// and about everything that could not be decided. The text is empty or begins with a separator from the
+/// counts before it.
 pub(super) fn beside(diff: &RunDiff) -> String {
     let mut text = String::new();
     if diff.lost() > 0 {

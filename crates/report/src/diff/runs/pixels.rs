@@ -98,7 +98,7 @@ fn image(before: &FrameImage, after: &FrameImage) -> ImageChange {
     change
 }
 
-/// Returns the pictures of one image. The first run's picture takes the place of the allowed one, so the
+/// Returns the pictures of one image. The first run's picture is used as the allowed one, so that the
 /// difference picture compares the two runs.
 fn between(before: &FrameImage, after: &FrameImage) -> Option<Strip> {
     let mark = |(old, new): (&[u32], &[u32])| {

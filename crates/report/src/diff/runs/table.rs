@@ -23,8 +23,8 @@ const FIGURES: usize = 4;
 /// Returns the comparison as text: warnings, differences of the headers, a table of adapters, changes, cases
 /// in one run only, times, and the sum.
 ///
-/// Lists at most 20 worse changes, 10 better and 10 others, one of each kind before the second of any, the
-/// most serious first. The text always ends in a newline.
+/// Lists at most 20 worse changes, 10 better and 10 others, the most serious first, and the first of every
+/// kind before any second one. The text always ends in a newline.
 pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for warning in &diff.warnings {

@@ -58,7 +58,7 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
     checked
 }
 
-/// One claim on one family of cases and one adapter.
+/// A claim, checked on a family of cases and an adapter.
 struct On<'s, 'a> {
     claim: &'static Claim,
     scene: &'s SceneSeries<'a>,
@@ -142,7 +142,7 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    /// Returns a figure at each setting that counts and has one.
+    /// Returns the figure at each setting that counts, if it has one.
     fn at_settings(
         &self,
         figure: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
@@ -266,7 +266,7 @@ impl<'a> On<'_, 'a> {
         found.collect()
     }
 
-    /// Compares both methods at each value that both have.
+    /// Compares two methods at each value at which both were measured.
     fn unlike(&self, right: &str, wrong: &str) -> Vec<Found<'a>> {
         let settings = self.scene.settings().into_iter();
         let pairs: Vec<(f64, f64)> = settings
@@ -311,7 +311,7 @@ impl<'a> On<'_, 'a> {
         figures.collect()
     }
 
-    /// Returns the value from which on a curve stays within the limit, `Some(None)` if it never does, and
+    /// Returns the first value after which a curve stays within the limit, `Some(None)` if it never does, and
     /// `None` if it has too few points to decide.
     fn resolved(&self, series: &Series<'a>) -> Option<Option<f64>> {
         let curve = series.curve(self.adapter);

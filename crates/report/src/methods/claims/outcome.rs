@@ -11,7 +11,7 @@ pub(super) struct Figure {
     pub(super) setting: String,
     /// The adapter.
     pub(super) adapter: String,
-    /// The kind of its number.
+    /// The kind of the figure's number.
     pub(super) unit: Unit,
     /// The number and the ends of its interval, which equal the number if it is exact.
     pub(super) value: f64,
@@ -24,9 +24,9 @@ pub(super) struct Figure {
 pub(super) enum Unit {
     /// A ratio of two measurements: `×0.52`.
     Factor,
-    /// A share of full brightness.
+    /// A fraction of full brightness.
     Share,
-    /// A number of these things.
+    /// A count of these things.
     Count(&'static str),
     /// A text in place of a number.
     Text(String),
@@ -114,15 +114,15 @@ impl Figure {
 /// The degree to which a claim was reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reproduction {
-    /// In all cases.
+    /// Reproduced in all cases.
     Reproduced,
-    /// In some of all cases: the number of these, and of all.
+    /// Reproduced in some cases: their number, and the number of all cases.
     Partly(usize, usize),
-    /// In no case, and refuted in some.
+    /// Reproduced in no case, and refuted in some.
     NotReproduced,
-    /// No case decides it.
+    /// No case decides the claim.
     Undecided,
-    /// There is no case.
+    /// No case is about the claim.
     NotMeasured,
 }
 

@@ -115,7 +115,7 @@ fn condition(condition: Condition, share: bool) -> String {
     }
 }
 
-/// Returns `depth-prepass less that of unsorted`.
+/// Returns the difference of two methods' quantities, such as `depth-prepass less that of unsorted`.
 fn sum(terms: &[(&str, f64)]) -> String {
     let mut text = String::new();
     for (i, (method, sign)) in terms.iter().enumerate() {

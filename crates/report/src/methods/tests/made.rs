@@ -3,7 +3,7 @@
 use etalon_frame::{Api, Distance, Limits};
 use etalon_record::{AdapterRecord, Header, Measured, Parameter, Record, Run, Times, Verdict};
 
-/// A record with everything that claims use; the rest has defaults.
+/// A record with all values that claims use, and defaults for the others.
 #[derive(Clone, Debug)]
 pub(crate) struct Made {
     pub(crate) adapter: &'static str,

@@ -1,4 +1,4 @@
-//! The share that the legal sets and the yardstick asserted.
+//! The percentage of channels that the legal sets and the yardstick asserted.
 
 use crate::lists::grouped;
 use crate::numbers::{percent, percent_of, thousands};

@@ -67,7 +67,7 @@ pub(crate) fn section(grid: &Grid<'_>, scripts: &[(String, String)]) -> Markup {
     }
 }
 
-/// The place in which the script shows one case.
+/// The element in which the script shows a case.
 pub(crate) fn view() -> Markup {
     html! { article id="case" aria-labelledby="case-title" hidden {} }
 }

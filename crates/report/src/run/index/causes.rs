@@ -22,7 +22,7 @@ const LISTED: usize = 60;
 /// The maximum number of listed case files of a cause.
 const FILES: usize = 12;
 
-/// Records of one adapter and kind.
+/// The unexpected records with one symptom on one adapter.
 struct Cause<'a> {
     adapter: &'a str,
     kind: Symptom,
@@ -31,7 +31,7 @@ struct Cause<'a> {
     files: Vec<(&'a str, Condition, &'a Record)>,
 }
 
-/// The section; nothing where nothing is unexpected.
+/// Returns the section; empty if no record is unexpected.
 pub(crate) fn section(grid: &Grid<'_>, news: Option<&News>) -> Markup {
     let causes = causes(grid);
     let verdicts: usize = causes.iter().map(|c| c.records).sum();

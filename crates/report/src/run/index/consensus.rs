@@ -20,11 +20,11 @@ pub(crate) enum Votes {
     Nobody,
     /// There is one vote.
     Alone,
-    /// At least two, all of one side.
+    /// All votes agree; there are at least two.
     Agree,
-    /// One adapter against at least two others.
+    /// One adapter disagrees with at least two others.
     Odd,
-    /// At least two on the smaller side, or the same number on both.
+    /// At least two adapters are in the minority, or both sides have equally many votes.
     Split,
 }
 

@@ -1,8 +1,8 @@
 //! The data of the page's script: one JSON block with every case on every adapter.
 //!
-//! A block in the page rather than a file beside it, since a browser lets no page that was opened from
-//! the file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so
-//! none of them can end the block.
+//! The data is in the page and not in a separate file, since a browser lets no page that was opened from the
+//! file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so none of
+//! them can end the block.
 
 use super::consensus::Consensus;
 use super::facts::{self, Label};
@@ -72,7 +72,7 @@ pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) 
     let mut data = data(grid, plan);
     data.scripts = scripts;
     let json = serde_json::to_string(&data);
-    // All data has a JSON form; the script reports an empty block.
+    // All data can be written as JSON, so this cannot fail. The script would report an empty block.
     let json = json.unwrap_or_else(|_| "null".to_owned());
     let json = json.replace('<', "\\u003c");
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }

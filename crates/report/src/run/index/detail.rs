@@ -110,7 +110,7 @@ fn pictures(strips: &[Option<Strip>], budget: &mut Budget) -> Markup {
 fn texels(record: &Record) -> Markup {
     let shown = record.wrong.len().min(TEXELS);
     let outside = record.texels.wrong + record.texels.imprecise;
-    // The bounds of an imprecise texel are the yardstick's, which it left.
+    // An imprecise texel is outside the yardstick, so its row shows the yardstick's bounds.
     let imprecise = |t: &WrongTexel| t.band == Band::Imprecise;
     let bound = match record.wrong[..shown]
         .iter()
