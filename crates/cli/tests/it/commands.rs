@@ -550,10 +550,10 @@ fn adapters_tells_programs_who_is_there() {
     let text = String::from_utf8(text.get_output().stdout.clone()).unwrap();
     let mut heads = Vec::new();
     for (api, head) in [
-        ("vulkan", "Vulkan"),
-        ("open-gl", "OpenGL"),
-        ("open-gl-es", "OpenGL ES"),
-        ("web-gpu", "WebGPU"),
+        ("vulkan", "By the rules of Vulkan"),
+        ("open-gl", "By the rules of OpenGL"),
+        ("open-gl-es", "By the rules of OpenGL ES"),
+        ("web-gpu", "By the rules of WebGPU"),
     ] {
         let due = found
             .iter()
