@@ -1,8 +1,9 @@
 //! Contents of attachments that no draw wrote: initial contents and resolves.
 
 use crate::interval::Interval;
-use crate::judging::{Judging, Range};
+use crate::judging::Judging;
 use crate::notes::{Note, Notes};
+use crate::range::Range;
 use crate::rules::Resolve;
 use crate::sample::Sample;
 use crate::walk::Walk;

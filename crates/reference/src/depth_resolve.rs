@@ -5,8 +5,9 @@
 //! of worlds gives. The results contain every outcome, and so does the interval of an average.
 
 use crate::interval::Interval;
-use crate::judging::{Judging, Range};
+use crate::judging::Judging;
 use crate::notes::{Note, Notes};
+use crate::range::Range;
 use crate::rules::Resolve;
 use crate::sample::Sample;
 use crate::walk::Walk;
@@ -17,7 +18,7 @@ use etalon_scene::{DepthStencilResolve, ResolveMode};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-/// What a texel is resolved to; `None` leaves the aspect unchanged.
+/// The resolved texel; `None` leaves the aspect unchanged.
 type Resolved = (Option<CodeInterval>, Option<u8>);
 
 impl Walk<'_> {

@@ -2,10 +2,11 @@
 
 use crate::input_mask::InputBits;
 use crate::interval::Interval;
-use crate::judging::{Judging, Range};
+use crate::judging::Judging;
 use crate::notes::Notes;
 use crate::possible::Possible;
 use crate::primitive::Shape;
+use crate::range::Range;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
 use crate::stencil_face::Face;
 use crate::walk::{Place, Walk};

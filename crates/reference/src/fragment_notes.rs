@@ -1,8 +1,8 @@
 //! Notes on fragments, and the contents of attachments as stories show them.
 
 use crate::clause::clause;
-use crate::judging::Range;
 use crate::notes::{Note, Notes};
+use crate::range::Range;
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};
 use crate::world::Cell;

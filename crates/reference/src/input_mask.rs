@@ -1,9 +1,9 @@
 //! The sample masks that a fragment shader can read.
 
 use crate::interval::Interval;
-use crate::judging::Range;
 use crate::possible::Possible;
 use crate::primitive::{Shape, inside_of};
+use crate::range::Range;
 use crate::rules::InputMask;
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};

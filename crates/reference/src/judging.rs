@@ -1,81 +1,17 @@
 //! The number system of judging: intervals that contain every value the rules allow.
 
 use crate::interval::Interval;
+use crate::range::Range;
+use crate::rounding::{
+    INTEGER_SLACK, all_codes, nearest, order_above, order_below, to_codes, to_half, to_significand,
+    to_steps, towards_zero,
+};
 use crate::rules::{
     BlendPrecision, DepthTerms, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats,
 };
-use etalon_frame::{ChannelEncoding, CodeInterval, ValueRange, srgb_to_linear};
+use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
-
-/// The values that the permitted ways of computing can reach.
-///
-/// A blend may be computed in floating-point throughout, or with every result rounded to a neighbouring code
-/// of the destination, or to a neighbouring binary fraction with as many bits. The three are kept separate: if
-/// they were joined early, the error of one would be added to the rounding of another, and the set would be
-/// wider than any reading of the specification.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// Results in floating-point of at least the minimum precision.
-    pub float: Interval,
-    /// Results that are rounded to destination codes at every step.
-    pub codes: Interval,
-    /// Results that are rounded to binary fractions at every step.
-    pub fixed: Interval,
-}
-
-impl From<Range> for ValueRange {
-    fn from(range: Range) -> Self {
-        range.hull().into()
-    }
-}
-
-impl Range {
-    /// Returns exactly one value.
-    pub fn exact(value: f64) -> Self {
-        Self::same(Interval::exact(value))
-    }
-
-    /// Returns the same interval for all ways of computing.
-    pub fn same(interval: Interval) -> Self {
-        Self {
-            float: interval,
-            codes: interval,
-            fixed: interval,
-        }
-    }
-
-    /// Returns the values of all ways of computing.
-    pub fn hull(self) -> Interval {
-        if self.is_same() {
-            self.float
-        } else {
-            self.float.hull(self.codes).hull(self.fixed)
-        }
-    }
-
-    /// Returns true if all ways of computing have the same values.
-    fn is_same(self) -> bool {
-        self.codes == self.float && self.fixed == self.float
-    }
-
-    pub(crate) fn zip(self, other: Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
-        let float = f(self.float, other.float);
-        if self.is_same() && other.is_same() {
-            return Self::same(float);
-        }
-        Self {
-            float,
-            codes: f(self.codes, other.codes),
-            fixed: f(self.fixed, other.fixed),
-        }
-    }
-
-    /// Returns the values of a function of each way.
-    pub(crate) fn map(self, f: impl Fn(Interval) -> Interval) -> Self {
-        self.zip(self, |value, _| f(value))
-    }
-}
 
 /// The values to which a blend rounds its results if it does not compute in floating-point.
 #[derive(Clone, Copy)]
@@ -97,10 +33,6 @@ pub struct Judging<'r> {
     /// to 1. If `None`, the rules decide, or both are possible.
     pub(crate) signed_operands: Option<bool>,
 }
-
-/// A code position this near to an integer counts as the integer, because of the rounding of 64-bit floats.
-/// No 32-bit float times 255 comes this near to an integer unless it is one (the least distance is 2^-31).
-const INTEGER_SLACK: f64 = 1e-10;
 
 impl<'r> Judging<'r> {
     /// Returns arithmetic under these rules.
@@ -462,126 +394,11 @@ impl<'r> Judging<'r> {
     }
 }
 
-/// Widens to a normalized encoding's codes on either side.
-pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
-    to_steps(encoding.max_order() as f64, value)
-}
-
-/// Widens to multiples of one over `steps` on either side.
-fn to_steps(steps: f64, value: Interval) -> Interval {
-    Interval {
-        low: (value.low * steps + INTEGER_SLACK).floor() / steps,
-        high: (value.high * steps - INTEGER_SLACK).ceil() / steps,
-    }
-}
-
 /// The maximum error of a square root in units in the last place: it may be one over an inverse root.
 const ROOT_UNITS: f64 = 5.0;
 
 /// The number of bits in a 16-bit float's significand, including the hidden one.
 const HALF_SIGNIFICAND: u32 = 11;
-
-/// Widens to the nearest floats on either side with `bits` significand bits.
-fn to_significand(bits: u32, value: Interval) -> Interval {
-    let unit = 1_u64 << (f64::MANTISSA_DIGITS - bits);
-    let towards_zero = |v: f64| f64::from_bits(v.to_bits() & !(unit - 1));
-    let away = |v: f64| {
-        let truncated = towards_zero(v);
-        if truncated == v {
-            v
-        } else {
-            f64::from_bits(truncated.to_bits() + unit)
-        }
-    };
-    Interval {
-        low: if value.low < 0.0 {
-            away(value.low)
-        } else {
-            towards_zero(value.low)
-        },
-        high: if value.high < 0.0 {
-            towards_zero(value.high)
-        } else {
-            away(value.high)
-        },
-    }
-}
-
-/// Widens to the nearest 16-bit floats on either side; subnormal ones may be missing.
-fn to_half(value: Interval) -> Interval {
-    let half = ChannelEncoding::Float16;
-    let normal = 1 << 10;
-    let (low, high) = (half.order_below(value.low), half.order_above(value.high));
-    let low = if (0..normal).contains(&low) { 0 } else { low };
-    let high = if (1 - normal..=0).contains(&high) {
-        0
-    } else {
-        high
-    };
-    Interval {
-        low: half.value_of_order(low).min(value.low),
-        high: half.value_of_order(high).max(value.high),
-    }
-}
-
-/// Returns the order of the largest unsigned float that is not above a value: finite for a finite one.
-fn towards_zero(encoding: ChannelEncoding, value: f64) -> i64 {
-    let most = encoding.max_order();
-    if value == f64::INFINITY {
-        most + 1
-    } else if value <= 0.0 {
-        0
-    } else if value >= encoding.value_of_order(most) {
-        most
-    } else {
-        encoding.order_below(value)
-    }
-}
-
-/// Returns the order of the nearest unsigned float, the larger one of a tie: finite for a finite value.
-fn nearest(encoding: ChannelEncoding, value: f64) -> i64 {
-    let below = towards_zero(encoding, value);
-    if below >= encoding.max_order() || value <= 0.0 {
-        return below;
-    }
-    let [low, high] = [below, below + 1].map(|order| encoding.value_of_order(order));
-    if value - low < high - value {
-        below
-    } else {
-        below + 1
-    }
-}
-
-/// Returns all codes of a float encoding, including infinities and NaN.
-pub(crate) fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
-    match encoding {
-        ChannelEncoding::Ufloat(mantissa) => CodeInterval::new(0, (32 << mantissa) - 1),
-        ChannelEncoding::Float16 => CodeInterval::new(-0x7fff, 0x7fff),
-        _ => CodeInterval::new(-0x7fff_ffff, 0x7fff_ffff),
-    }
-}
-
-/// Returns the order of the largest 32-bit float not above a value.
-fn order_below(value: f64) -> i64 {
-    let encoding = ChannelEncoding::Float32;
-    let order = encoding.order_of_code((value as f32).to_bits());
-    if encoding.value_of_order(order) > value {
-        order - 1
-    } else {
-        order
-    }
-}
-
-/// Returns the order of the smallest 32-bit float not below a value.
-fn order_above(value: f64) -> i64 {
-    let encoding = ChannelEncoding::Float32;
-    let order = encoding.order_of_code((value as f32).to_bits());
-    if encoding.value_of_order(order) < value {
-        order + 1
-    } else {
-        order
-    }
-}
 
 impl Arithmetic for Judging<'_> {
     type Real = Range;
@@ -975,22 +792,6 @@ mod tests {
         assert_eq!(a.blend_complement(e, value).fixed, steps(27.0, 28.0));
         let one = a.constant(1.0);
         assert_eq!(a.blend_operand(e, one).fixed, Interval::exact(1.0));
-    }
-
-    #[test]
-    fn short_significands_round_away_on_both_sides() {
-        let widened = |low, high| to_significand(2, Interval { low, high });
-        for (low, high, outer) in [
-            (0.3, 0.3, (0.25, 0.375)),
-            (-0.3, 0.3, (-0.375, 0.375)),
-            (-0.3, -0.3, (-0.375, -0.25)),
-            (0.5, 0.75, (0.5, 0.75)),
-            (0.9, 0.9, (0.75, 1.0)),
-            (0.0, 0.0, (0.0, 0.0)),
-        ] {
-            let (low, high) = (widened(low, high).low, widened(low, high).high);
-            assert_eq!((low, high), outer);
-        }
     }
 
     #[test]

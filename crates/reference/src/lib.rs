@@ -31,9 +31,11 @@ mod pass_operations;
 mod picture;
 mod possible;
 mod primitive;
+mod range;
 mod read_back;
 mod readings;
 mod rejections;
+mod rounding;
 pub mod rules;
 mod ruling;
 mod sample;
@@ -55,13 +57,14 @@ mod world;
 
 pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judging::{Judging, Range};
+pub use judging::Judging;
 pub use known_sets::KnownSets;
 pub use legal_sets::{
     Judgement, Sets, explain, judgements, judgements_by, judgements_of, legal_set,
     legal_set_of_texels, set_by, shared_sets,
 };
 pub use lines::{LineGap, line_gap};
+pub use range::Range;
 pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;

@@ -3,8 +3,9 @@
 //! A clear stores the same as the initial clear of an attachment. Discarded contents stay in the worlds. The
 //! walk continues with them, and at the end everything that depends on them becomes open.
 
-use crate::judging::{Judging, all_codes};
+use crate::judging::Judging;
 use crate::notes::{Note, Notes};
+use crate::rounding::all_codes;
 use crate::sample::Sample;
 use crate::walk::Walk;
 use crate::world::{World, Worlds, merge};

@@ -3,8 +3,8 @@
 use crate::depth::Depth;
 use crate::distance::Distance;
 use crate::interval::Interval;
-use crate::judging::Range as Values;
 use crate::possible::Possible;
+use crate::range::Range as Values;
 use crate::snap::{SnapBox, area};
 use crate::varying::Varying;
 use etalon_pipeline::{DepthPlane, Point, edge_value};

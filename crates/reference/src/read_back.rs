@@ -2,7 +2,9 @@
 //! reads them instead, the set of the floats that it stores follows from the set of the codes, so adapters
 //! that differ only in how they read share the walk.
 
-use crate::judging::{Judging, Range, all_codes};
+use crate::judging::Judging;
+use crate::range::Range;
+use crate::rounding::all_codes;
 use crate::rules::Rules;
 use crate::undefined::Undefined;
 use etalon_frame::{

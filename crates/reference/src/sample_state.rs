@@ -2,9 +2,9 @@
 //! keeps.
 
 use crate::interval::Interval;
-use crate::judging::Range;
 use crate::notes::Notes;
 use crate::primitive::Shape;
+use crate::range::Range;
 use crate::rules::{AlphaToCoverage, FragCoord, Rules};
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};

@@ -1,7 +1,9 @@
 //! Textures as a shader reads them: single texels, or a sampler's weighted average.
 
 use crate::interval::Interval;
-use crate::judging::{Judging, Range, to_codes};
+use crate::judging::Judging;
+use crate::range::Range;
+use crate::rounding::to_codes;
 use crate::sample::Sample;
 use crate::walk::{Place, Walk};
 use crate::world::World;

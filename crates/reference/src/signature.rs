@@ -3,8 +3,8 @@
 //! them is judged.
 
 use crate::interval::Interval;
-use crate::judging::Range;
 use crate::primitive::{Shape, Side, SnappedPrimitive};
+use crate::range::Range;
 use crate::sample::Sample;
 use crate::varying::Varying;
 use crate::walk::{Hit, Place, Walk};
@@ -17,23 +17,23 @@ use smallvec::SmallVec;
 /// The inputs of a draw's fragments that its signatures must distinguish.
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
-    /// Whether the fragment's own depth is tested, stored or both.
+    /// True if the fragment's own depth is tested, stored or both.
     depth: bool,
-    /// Whether the shader reads the fragment's depth.
+    /// True if the shader reads the fragment's depth.
     depth_seen: bool,
     coordinates: bool,
-    /// Whether the shader reads the sample mask.
+    /// True if the shader reads the sample mask.
     mask_seen: bool,
-    /// Whether the number of the sample, or its position in the texel, matters.
+    /// True if the number of the sample, or its position in the texel, matters.
     sample: bool,
-    /// Whether the primitives themselves matter, because counters identify fragments by them.
+    /// True if the primitives themselves matter, because counters identify fragments by them.
     primitives: bool,
     textures: SmallVec<[Texture; 2]>,
     /// For each primitive, the number of the set of values that are constant over it.
     kinds: Vec<u32>,
 }
 
-/// How a texture that a draw reads affects its signatures.
+/// The effect of a texture that a draw reads on its signatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Texture {
     /// Only through the sample's contents and the coordinates.

@@ -3,8 +3,8 @@
 //!
 //! Tests before the shader use the draw's reference, whatever the shader writes.
 
-use crate::judging::Range;
 use crate::notes::Notes;
+use crate::range::Range;
 use crate::walk::{Place, Walk};
 use etalon_frame::{Api, Step};
 use etalon_pipeline::exported_reference;

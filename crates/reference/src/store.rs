@@ -2,8 +2,9 @@
 
 use crate::fragment::Incoming;
 use crate::interval::Interval;
-use crate::judging::{Judging, Range};
+use crate::judging::Judging;
 use crate::notes::Notes;
+use crate::range::Range;
 use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
 use crate::world::{Contested, Decision, World};

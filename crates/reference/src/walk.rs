@@ -3,12 +3,12 @@
 
 use crate::bins::PassSetup;
 use crate::context::PassContext;
-use crate::judging::all_codes;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::read_back::{converted, depth_encoding, read_path};
 use crate::readings::OpenTexts;
+use crate::rounding::all_codes;
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::snap::units_per_texel;
@@ -70,7 +70,7 @@ pub(crate) struct Forced {
     pub(crate) primitive: u32,
 }
 
-/// How a primitive covers a sample.
+/// The coverage of a sample by a primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Hit {
     /// The sides of a triangle's edges on which the sample is.
