@@ -19,7 +19,7 @@ const MOST_AHEAD: usize = 4;
 
 /// A worker that is started again after each case that ends it.
 pub struct Trials {
-    launch: Launch,
+    pub(crate) launch: Launch,
     worker: Worker,
     ahead: usize,
     slot: u32,

@@ -1,5 +1,6 @@
 //! The judge as oracle, with a driver's frames.
 
+use super::ReductionError;
 use crate::launch::{Launch, StartError};
 use crate::trial::Trials;
 use crate::worker::Worker;
@@ -15,7 +16,7 @@ use thiserror::Error;
 /// The time limit of a candidate if the original case hangs.
 const HUNG_TIME: Duration = Duration::from_secs(2);
 
-/// Why a failure was not confirmed.
+/// An error from confirming a failure.
 #[derive(Debug, Error)]
 pub enum Unconfirmed {
     /// No new process could be started.
@@ -62,13 +63,14 @@ impl Unconfirmed {
 /// An oracle that draws candidates on a driver. A candidate must fail like the smallest case so far. If the
 /// case ends its worker, the candidate must end it in the same way.
 pub(super) struct DriverOracle<'a> {
-    pub(super) trials: Trials,
+    trials: Trials,
     /// The symptom of the smallest case so far, and its record.
-    pub(super) symptom: Symptom,
-    pub(super) record: Record,
-    pub(super) error: Option<StartError>,
+    symptom: Symptom,
+    record: Record,
+    /// Why a worker that a candidate ended did not start again.
+    error: Option<StartError>,
     /// True once the search is being stopped.
-    stop: Option<&'a AtomicBool>,
+    stop: &'a AtomicBool,
     /// If set, each failing candidate is drawn again alone, in a process that this command starts, and must
     /// fail there too. This is needed if a failure leaves the driver in a state that makes the next case
     /// fail.
@@ -81,7 +83,7 @@ impl<'a> DriverOracle<'a> {
         mut trials: Trials,
         record: Record,
         timeout: Duration,
-        stop: Option<&'a AtomicBool>,
+        stop: &'a AtomicBool,
     ) -> Self {
         let hangs = record.verdict == Verdict::Timeout;
         trials.timeout = if hangs {
@@ -112,7 +114,21 @@ impl<'a> DriverOracle<'a> {
         } else {
             Budget::of_processes()
         };
-        reduce(failing, budget.with_stop(self.stop), &can_draw, self)
+        reduce(failing, budget.with_stop(Some(self.stop)), &can_draw, self)
+    }
+
+    /// Returns the worker, and the record and symptom of the smallest case.
+    ///
+    /// # Errors
+    /// If a worker that a candidate ended did not start again.
+    pub(super) fn finish(self) -> Result<(Trials, Record, Symptom), ReductionError> {
+        match self.error {
+            Some(error) => Err(ReductionError::Lost {
+                adapter: self.trials.launch.adapter,
+                error,
+            }),
+            None => Ok((self.trials, self.record, self.symptom)),
+        }
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Looked {
     pub scene: Candidate,
     /// The record of that scene.
     pub record: Record,
-    /// How the reduced scene fails.
+    /// The failure of the reduced scene.
     pub symptom: Symptom,
     /// The key of the scene's group.
     pub key: Key,
@@ -35,10 +35,10 @@ pub struct Looked {
 
 /// Reduces cases on one driver; starts its worker on demand.
 pub struct Reducer<'a> {
-    /// How the driver's worker is started.
+    /// The command and environment of the driver's worker.
     pub launch: Launch,
     /// The limits of the driver.
-    pub limits: Limits,
+    limits: Limits,
     /// The time limit of a case.
     pub timeout: Duration,
     /// True once the search is being stopped.
@@ -63,22 +63,17 @@ impl<'a> Reducer<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Returns an oracle for a case with this record. Return it with [`Self::give_back`].
+    /// Returns an oracle for a case with this record. Return it with [`Self::finish`].
     fn oracle(&mut self, record: Record) -> Result<DriverOracle<'a>, ReductionError> {
         let trials = self.trials()?;
-        let stop = Some(self.stop);
-        Ok(DriverOracle::new(trials, record, self.timeout, stop))
+        Ok(DriverOracle::new(trials, record, self.timeout, self.stop))
     }
 
-    /// Keeps an oracle's worker for the next oracle.
-    fn give_back(&mut self, oracle: DriverOracle<'_>) -> Result<(), ReductionError> {
-        if let Some(error) = oracle.error {
-            let adapter = &self.launch.adapter;
-            let adapter = adapter.clone();
-            return Err(ReductionError::Lost { adapter, error });
-        }
-        self.trials = Some(oracle.trials);
-        Ok(())
+    /// Keeps an oracle's worker for the next oracle. Returns the record and symptom of its smallest case.
+    fn finish(&mut self, oracle: DriverOracle<'_>) -> Result<(Record, Symptom), ReductionError> {
+        let (trials, record, symptom) = oracle.finish()?;
+        self.trials = Some(trials);
+        Ok((record, symptom))
     }
 
     /// Draws a failing scene again, and reduces it if it fails again.
@@ -101,20 +96,18 @@ impl<'a> Reducer<'a> {
             return Ok(whole(scene, record, symptom, Unreduced::Stopped));
         }
         let mut oracle = self.oracle(record)?;
-        let again = oracle.first(&mut std::iter::once(scene.clone()));
-        let looked = if again.is_none() {
-            whole(scene, oracle.record.clone(), symptom, Unreduced::Unsteady)
-        } else {
-            let reduction = oracle.reduce(scene, &self.limits, DRAWS);
-            Looked {
-                key: Key::reduced(&reduction.smallest.document, &oracle.symptom),
-                scene: reduction.smallest,
-                record: oracle.record.clone(),
-                symptom: oracle.symptom.clone(),
-            }
-        };
-        self.give_back(oracle)?;
-        Ok(looked)
+        if oracle.first(&mut std::iter::once(scene.clone())).is_none() {
+            let (record, _) = self.finish(oracle)?;
+            return Ok(whole(scene, record, symptom, Unreduced::Unsteady));
+        }
+        let scene = oracle.reduce(scene, &self.limits, DRAWS).smallest;
+        let (record, symptom) = self.finish(oracle)?;
+        Ok(Looked {
+            key: Key::reduced(&scene.document, &symptom),
+            scene,
+            record,
+            symptom,
+        })
     }
 
     fn trials(&mut self) -> Result<Trials, ReductionError> {
@@ -171,8 +164,7 @@ impl<'a> Driver for Reducer<'a> {
     ) -> Result<(Candidate, Symptom, Traits), ReductionError> {
         let mut oracle = self.oracle(record)?;
         let smallest = oracle.reduce(case, &self.limits, MOST_DRAWS).smallest;
-        let symptom = oracle.symptom.clone();
-        self.give_back(oracle)?;
+        let (_, symptom) = self.finish(oracle)?;
         let traits = Traits::of(&smallest.document, &symptom);
         Ok((smallest, symptom, traits))
     }

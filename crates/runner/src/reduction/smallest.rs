@@ -43,16 +43,11 @@ pub fn smallest(
     let begun = Instant::now();
     let reduced = |worker: Worker, alone: Option<Launch>| {
         let trials = Trials::new(launch.clone(), worker, timeout);
-        let mut judge = DriverOracle::new(trials, record.clone(), timeout, Some(stop));
-        judge.alone = alone;
-        let reduction = judge.reduce(failing.clone(), &limits, MOST_DRAWS);
-        match judge.error {
-            Some(error) => Err(ReductionError::Lost {
-                adapter: launch.adapter.clone(),
-                error,
-            }),
-            None => Ok((reduction, judge.record, judge.symptom)),
-        }
+        let mut oracle = DriverOracle::new(trials, record.clone(), timeout, stop);
+        oracle.alone = alone;
+        let reduction = oracle.reduce(failing.clone(), &limits, MOST_DRAWS);
+        let finished = oracle.finish();
+        finished.map(|(_, record, symptom)| (reduction, record, symptom))
     };
     let confirmed = |reduction: &Reduction, symptom: &Symptom| {
         confirm(launch, &reduction.smallest.case, symptom, timeout)
