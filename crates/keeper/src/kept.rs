@@ -6,7 +6,7 @@ use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -66,10 +66,15 @@ impl Kept {
 
     /// Waits a moment for the keeper's last messages about a program that seems to have ended.
     pub fn wait(&mut self) {
-        let begun = Instant::now();
-        while self.lives() && begun.elapsed() < GRACE {
-            thread::sleep(PAUSE);
-        }
+        within_grace(|| !self.lives());
+    }
+}
+
+/// Waits until something is so, at most for [`GRACE`].
+fn within_grace(mut is_so: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !is_so() && begun.elapsed() < GRACE {
+        thread::sleep(PAUSE);
     }
 }
 
@@ -156,18 +161,11 @@ fn start(program: &Program) -> io::Result<Child> {
 /// Ends a program and all its processes.
 fn end(child: &mut Child) {
     signal(child, false);
-    let begun = Instant::now();
-    while waited(child).is_none() && begun.elapsed() < GRACE {
-        thread::sleep(PAUSE);
-    }
+    within_grace(|| matches!(child.try_wait(), Ok(Some(_))));
     signal(child, true);
     // Killing fails only if the process has ended or cannot be ended.
     let _ = child.kill();
     let _ = child.wait();
-}
-
-fn waited(child: &mut Child) -> Option<ExitStatus> {
-    child.try_wait().ok().flatten()
 }
 
 /// Asks the processes of a program to end, or kills them.
@@ -186,8 +184,5 @@ fn signal(_: &Child, _: bool) {}
 
 /// Removes a folder. Ending processes might still write to it, so it tries again for a while.
 fn remove(folder: &Path) {
-    let begun = Instant::now();
-    while fs::remove_dir_all(folder).is_err() && folder.exists() && begun.elapsed() < GRACE {
-        thread::sleep(PAUSE);
-    }
+    within_grace(|| fs::remove_dir_all(folder).is_ok() || !folder.exists());
 }

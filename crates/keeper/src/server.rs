@@ -35,7 +35,7 @@ pub struct Server {
     pub socket: PathBuf,
 }
 
-/// Why there is no server.
+/// An error from starting a server.
 #[derive(Debug, Error)]
 pub enum NotServed {
     /// Another server has the path.

@@ -76,7 +76,7 @@ pub use measured::{Measured, Parameter, Times};
 pub use merge::{Merge, Merged};
 pub use record::{
     Assertion, Expected, LossKind, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record,
-    Seconds,
+    Seconds, before_axes, case_file,
 };
 pub use report_files::ReportFiles;
 pub use run::Run;

@@ -70,7 +70,7 @@ pub struct Record {
     /// The kind of the backend's error, if it failed. Formats before 4 lack it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorKind>,
-    /// How the process that drew the case ended, if it was lost.
+    /// The end of the process that drew the case, if it was lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub process: Option<ProcessEnd>,
     /// Messages of validation layers and debug output, at most [`MAX_VALIDATION`].
@@ -88,7 +88,7 @@ pub struct Record {
     pub blocked_by: Vec<String>,
 }
 
-/// How a process was lost.
+/// The way in which a process was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossKind {
@@ -104,11 +104,11 @@ pub enum LossKind {
     NotStarted,
 }
 
-/// How a process that was lost ended.
+/// The end of a process that was lost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessEnd {
-    /// How the process was lost.
+    /// The way in which the process was lost.
     pub kind: LossKind,
     /// The signal that ended the process.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -229,19 +229,25 @@ impl Record {
 
     /// Returns the id without its axis values, which is the same for all cases of one case file.
     pub fn case_file(&self) -> &str {
-        let mut end = 0;
-        for part in self.case.split('/') {
-            if part.contains('=') {
-                break;
-            }
-            end += part.len() + 1;
-        }
-        // An id that begins with an axis value has no such part, so the whole id is returned.
-        match end {
-            0 => &self.case,
-            _ => &self.case[..end - 1],
-        }
+        case_file(&self.case)
     }
+}
+
+/// Returns an id without its axis values. An id that begins with an axis value is returned whole.
+pub fn case_file(id: &str) -> &str {
+    before_axes(id).unwrap_or(id)
+}
+
+/// Returns the parts of an id before its first axis value; `None` if it begins with one.
+pub fn before_axes(id: &str) -> Option<&str> {
+    let mut end = 0;
+    for part in id.split('/') {
+        if part.contains('=') {
+            break;
+        }
+        end += part.len() + 1;
+    }
+    id.get(..end.checked_sub(1)?)
 }
 
 /// The expectation that a record agrees with.

@@ -1,5 +1,6 @@
 //! Families of cases, which share a case file as their ids suggest, and the areas of the families.
 
+use etalon_record::before_axes;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -41,17 +42,10 @@ fn area(id: &str) -> &str {
 
 /// Returns the parts of an id before the first axis; without axes, all parts except the last.
 fn family(id: &str) -> &str {
-    let mut end = 0;
-    for part in id.split('/') {
-        if part.contains('=') {
-            break;
-        }
-        end += part.len() + 1;
-    }
-    match end.saturating_sub(1) {
-        0 => area(id),
-        all if all == id.len() => id.rsplit_once('/').map_or(id, |(family, _)| family),
-        some => &id[..some],
+    match before_axes(id) {
+        None | Some("") => area(id),
+        Some(all) if all == id => id.rsplit_once('/').map_or(id, |(family, _)| family),
+        Some(some) => some,
     }
 }
 

@@ -13,7 +13,7 @@ use etalon_methods::claims;
 use maud::{Markup, html};
 use outcome::{Figure, Holds, Reproduction};
 
-/// Returns all checked claims, and the claims without a measurement in the run.
+/// Returns the checked claims that the run has measurements for, and the others.
 fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
     claims()
         .map(|c| check(c, methods))

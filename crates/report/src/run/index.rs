@@ -26,7 +26,7 @@ use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
-use crate::run::reasons::{Reason, undrawn};
+use crate::run::reasons::{total, undrawn};
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
@@ -136,7 +136,7 @@ fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: b
 fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
     let tally = Tally::of(&run.records);
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
-    let undrawn: u64 = undrawn(run).iter().map(Reason::records).sum();
+    let undrawn = total(&undrawn(run));
     let missing = run.missing();
     html! {
         @if run.truncated || missing > 0 {

@@ -12,7 +12,7 @@ const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::NotSupported, Verdict:
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Reason {
     pub(crate) verdict: Verdict,
-    /// What is missing, what failed, what skips them, or the expectation.
+    /// The missing requirement, the failed round trip, the skip rule, or the expectation.
     pub(crate) text: String,
     /// The number of records on each adapter that has any, in the order of the run's adapters.
     pub(crate) adapters: Vec<(String, u64)>,
@@ -37,6 +37,11 @@ impl Reason {
             verdict => format!("{}: {}", name(verdict), self.text),
         }
     }
+}
+
+/// The number of records of several reasons.
+pub(crate) fn total(reasons: &[Reason]) -> u64 {
+    reasons.iter().map(Reason::records).sum()
 }
 
 /// The reasons why cases of a run were not drawn, by verdict, the most frequent first.

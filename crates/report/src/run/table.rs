@@ -3,7 +3,7 @@
 use crate::methods;
 use crate::numbers::count;
 use crate::run::grid::{Grid, Tally, rate};
-use crate::run::reasons::{Reason, undrawn};
+use crate::run::reasons::{total, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
 use crate::terminal::{self, TableOptions};
@@ -135,7 +135,7 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     if reasons.is_empty() {
         return String::new();
     }
-    let undrawn_records: u64 = reasons.iter().map(Reason::records).sum();
+    let undrawn_records = total(&reasons);
     let mut text = format!(
         "\nNot drawn: {undrawn_records} of {}\n",
         count(run.records.len() as u64, "record")
@@ -152,7 +152,7 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     }
     if reasons.len() > REASONS {
         let others = &reasons[REASONS..];
-        let n: u64 = others.iter().map(Reason::records).sum();
+        let n = total(others);
         text += &format!(
             "  {n:>width$}  for {}\n",
             count(others.len() as u64, "other reason")

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 /// The maximum number of causes that are shown before a summary.
 const FIRST: usize = 12;
-/// The most causes behind it.
+/// The maximum number of causes behind that summary.
 const LISTED: usize = 60;
 /// The maximum number of listed case files of a cause.
 const FILES: usize = 12;

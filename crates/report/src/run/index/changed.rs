@@ -1,4 +1,4 @@
-//! What changed since the last run of each adapter.
+//! The changes since the last run of each adapter.
 
 use crate::lists::{self, grouped};
 use crate::mark::mark;
@@ -7,6 +7,7 @@ use crate::page::adapter::adapter;
 use crate::page::link;
 use crate::table::Table;
 use crate::words::{Tone, plain};
+use etalon_record::case_file;
 use maud::{Markup, html};
 
 /// The most rows of each kind.
@@ -41,11 +42,7 @@ fn kind(name: &str, entries: &[NewsEntry]) -> Markup {
     let mut shown: Vec<&NewsEntry> = entries.iter().collect();
     // The first of each case file and adapter comes before the second of any.
     lists::spread(&mut shown, |entry| {
-        let file = entry
-            .case
-            .split_once('=')
-            .map_or(&*entry.case, |(file, _)| file);
-        (file, &*entry.adapter, entry.verdict)
+        (case_file(&entry.case), &*entry.adapter, entry.verdict)
     });
     shown.truncate(ROWS);
     let table = Table::<&NewsEntry>::new("stacked")

@@ -1,9 +1,9 @@
-//! What a run says nothing new about: known failures, cases that were not drawn, dead expectations.
+//! The sections without news: known failures, cases that were not drawn, dead expectations.
 
 use crate::mark::mark;
 use crate::numbers::count;
 use crate::run::dead::meaning;
-use crate::run::reasons::{Reason, known as known_reasons, undrawn};
+use crate::run::reasons::{Reason, known as known_reasons, total, undrawn};
 use crate::table::Table;
 use crate::words::{Tone, plain};
 use etalon_record::{Dead, Run};
@@ -20,7 +20,7 @@ pub(super) fn known(run: &Run) -> Markup {
             section id="known" {
                 h2 { "Known" }
                 p {
-                    (count(records(&reasons), "bad verdict")) " of " (count(reasons.len() as u64, "reason"))
+                    (count(total(&reasons), "bad verdict")) " of " (count(reasons.len() as u64, "reason"))
                     " in the expectations or the triage."
                 }
                 (table("Known failures by reason", &reasons))
@@ -37,17 +37,13 @@ pub(super) fn not_drawn(run: &Run) -> Markup {
             section id="undrawn" {
                 h2 { "Not drawn" }
                 p {
-                    b { (records(&reasons)) } " of " (count(run.records.len() as u64, "record"))
+                    b { (total(&reasons)) } " of " (count(run.records.len() as u64, "record"))
                     " are of cases that were not drawn. Nothing is known about them."
                 }
                 (table("Reasons why cases were not drawn", &reasons))
             }
         }
     }
-}
-
-fn records(reasons: &[Reason]) -> u64 {
-    reasons.iter().map(Reason::records).sum()
 }
 
 fn table(caption: &str, reasons: &[Reason]) -> Markup {
